@@ -1,0 +1,42 @@
+# Compiler settings and the two functions that every folder uses. A folder is one library (or one
+# program) and its sources are the folder's .cpp files; what it may link is the layer table of
+# docs/architecture.md, held by scripts/check_layers.
+
+find_package(Threads REQUIRED)
+
+# x86-64-v3 for our own code everywhere; Embree picks AVX-512 at run time. No fast-math, and no
+# contraction: the same source expression must give the same bits in every function it is inlined to.
+add_library(ninefold_options INTERFACE)
+target_compile_options(ninefold_options INTERFACE
+  -march=x86-64-v3 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion -Werror
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>) # GCC 12 warns falsely inside std::string (bug 105329)
+target_include_directories(ninefold_options INTERFACE ${CMAKE_SOURCE_DIR})
+target_link_libraries(ninefold_options INTERFACE Threads::Threads)
+if(NINEFOLD_SANITIZE)
+  target_compile_options(ninefold_options INTERFACE
+    -fsanitize=${NINEFOLD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(ninefold_options INTERFACE -fsanitize=${NINEFOLD_SANITIZE})
+endif()
+
+# ninefold_library(NAME [PUBLIC targets...] [PRIVATE targets...]): the .cpp files of this folder.
+# A folder with headers only becomes an interface library.
+function(ninefold_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(sources)
+    add_library(${name} STATIC ${sources})
+    target_link_libraries(${name} PUBLIC ninefold_options ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(${name} INTERFACE)
+    target_link_libraries(${name} INTERFACE ninefold_options ${ARG_PUBLIC} ${ARG_PRIVATE})
+  endif()
+endfunction()
+
+# ninefold_program(NAME SOURCE LINK...): one executable in build/.../bin.
+function(ninefold_program name source)
+  if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${source})
+    add_executable(${name} ${source})
+    target_link_libraries(${name} PRIVATE ${ARGN})
+  endif()
+endfunction()

@@ -1,0 +1,32 @@
+// distribution.h: choice among n things in proportion to given weights.
+// Threads: const after construction. Errors: NINEFOLD_CHECK on negative or non-finite weights.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace ninefold {
+
+class Distribution {
+ public:
+  struct Choice {
+    uint32_t index;
+    float probability;
+    float remapped;  // u's place inside the chosen interval, again uniform in [0, 1)
+  };
+
+  Distribution() = default;
+  // Weights >= 0. If all are zero the distribution is empty.
+  explicit Distribution(const std::vector<float>& weights);
+
+  bool empty() const { return cumulative_.empty(); }
+  double total() const { return total_; }                    // sum of the weights
+  Choice choose(float u) const;                              // never an index of weight 0; not when empty
+  float probability(uint32_t index) const;
+
+ private:
+  std::vector<double> cumulative_;  // normalized, last element 1
+  double total_ = 0;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,113 @@
+// scene.h: a scene as plain data, as the readers make it, the wire carries it and the tracer eats it.
+//
+// Coordinates: right-handed, y up, metres. Readers move the scene so that the middle of its bounds is the
+// origin (`origin` keeps what was subtracted): float precision is then best where it matters.
+// Everything in a Scene that left a reader or the wire is valid: finite numbers, indices in range, unit
+// directions, at least one triangle. Owner: value type. Threads: plain data, shared read-only.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/math/bounds.h"
+#include "common/math/camera.h"
+#include "common/math/units.h"
+
+namespace ninefold {
+
+// 8-bit texels, rows top to bottom. srgb: R, G, B decode by the sRGB curve, A stays linear.
+struct TextureImage {
+  std::string name;
+  int width = 0, height = 0, channels = 4;  // channels 1..4
+  bool srgb = false;
+  std::vector<uint8_t> texels;  // width * height * channels
+};
+
+enum class Wrap : uint8_t { repeat, clamp, mirror };
+
+// Use of an image by a material: image index, texture coordinates and how to look up.
+struct TextureUse {
+  int image = -1;               // index into Scene::images; -1 = none
+  int uvSet = 0;                // 0 or 1
+  Vec2 offset{0, 0}, scale{1, 1};
+  float rotation = 0;           // [rad], as in KHR_texture_transform
+  Wrap wrapS = Wrap::repeat, wrapT = Wrap::repeat;
+  bool nearest = false;         // else bilinear
+  explicit operator bool() const { return image >= 0; }
+};
+
+enum class AlphaMode : uint8_t { opaque, mask, blend };
+
+// glTF's metallic-roughness model with the extensions that matter for light transport.
+// A factor multiplies its map. OBJ materials are translated to it.
+struct Material {
+  std::string name;
+  Vec3 baseColor{1};
+  TextureUse baseColorMap;             // sRGB, alpha = opacity
+  float opacity = 1;
+  AlphaMode alphaMode = AlphaMode::opaque;
+  float alphaCutoff = 0.5f;
+  float metallic = 1, roughness = 1;   // perceptual roughness; GGX alpha = roughness^2
+  TextureUse metallicRoughnessMap;     // G = roughness, B = metallic
+  TextureUse normalMap;
+  float normalScale = 1;
+  Vec3 emission{0};                    // radiance [W/(m^2 sr)], strength included
+  TextureUse emissionMap;              // sRGB
+  bool doubleSided = false;            // of emission only: surfaces scatter on both sides
+  float transmission = 0;
+  TextureUse transmissionMap;          // R
+  float ior = 1.5f;                    // index of refraction, > 0
+  float specular = 1;                  // KHR_materials_specular
+  TextureUse specularMap;              // A
+  Vec3 specularColor{1};
+  TextureUse specularColorMap;         // sRGB
+  bool solid = false;                  // transmits as a solid (refracts, attenuates); else thin-walled
+  Vec3 attenuationColor{1};
+  float attenuationDistance = std::numeric_limits<float>::infinity();  // [m]
+};
+
+struct Mesh {
+  std::string name;
+  std::vector<Vec3> positions;
+  std::vector<Vec3> normals;      // empty (flat shading) or one per vertex, unit
+  std::vector<Vec2> uv0, uv1;     // empty or one per vertex
+  std::vector<Vec4> tangents;     // empty or one per vertex, w = sign of the bitangent
+  std::vector<Triangle> triangles;
+  int material = 0;
+};
+
+struct Instance {
+  std::string name;
+  int mesh = 0;
+  int node = 0;       // instances that came from one node of the file share it: one thing to a user
+  DMat4 toWorld{1};   // affine, invertible, may mirror
+};
+
+enum class LightKind : uint8_t { point, spot, directional };
+
+// Punctual lights: no surface, so nothing ever hits them.
+struct PunctualLight {
+  std::string name;
+  LightKind kind = LightKind::point;
+  Vec3 position{0};             // [m]
+  Vec3 direction{0, 0, -1};     // unit, where the light goes
+  Vec3 intensity{1};            // point, spot: I [W/sr]; directional: E0 [W/m^2]
+  float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner < outer <= pi/2
+};
+
+struct Scene {
+  std::string name;
+  std::vector<TextureImage> images;
+  std::vector<Material> materials;
+  std::vector<Mesh> meshes;
+  std::vector<Instance> instances;
+  std::vector<PunctualLight> lights;
+  std::vector<Camera> cameras;     // at least one after reading
+  Radiance environment{0};         // constant radiance from outside
+  DVec3 origin{0};                 // file coordinates = scene coordinates + origin
+  Bounds bounds;                   // of all instances, in scene coordinates
+};
+
+}  // namespace ninefold

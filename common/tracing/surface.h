@@ -1,0 +1,43 @@
+// surface.h: a hit, the surface point at it, and where rays from it may safely start.
+//
+// Robust origins: the point's float error is bounded from the arithmetic that made it (sums of rounding
+// errors over the corners' magnitudes), and a new ray starts outside that bound along the geometric
+// normal. There is no scene-dependent epsilon.
+// Source: Pharr, Jakob, Humphreys, "Physically Based Rendering" 3.9 (error bounds of intersection points).
+// Threads: plain values.
+#pragma once
+
+#include <cstdint>
+
+#include "common/math/vec.h"
+
+namespace ninefold {
+
+struct Hit {
+  uint32_t instance = ~0u;  // index into Scene::instances
+  uint32_t triangle = 0;    // index into the mesh's triangles
+  float u = 0, v = 0;       // barycentrics of the second and third corner
+  float t = 0;              // along the ray
+
+  static Hit none() { return Hit{}; }
+  explicit operator bool() const { return instance != ~0u; }
+};
+
+struct SurfacePoint {
+  Vec3 position{0};
+  Vec3 geometricNormal{0};  // unit; front side by winding (mirrored instances are turned right)
+  Vec3 shadingNormal{0};    // unit, interpolated; on the geometric normal's side; no normal map yet
+  Vec3 tangent{1, 0, 0};    // unit, along increasing u of uv0; any tangent if the mesh has no uv
+  float tangentSign = 1;    // bitangent = tangentSign * cross(normal, tangent)
+  Vec2 uv0{0}, uv1{0};
+  uint32_t instance = 0, triangle = 0;
+  int material = 0;
+  float error = 0;          // bound of the distance of `position` from the exact surface [m]
+};
+
+// Start of a ray from `p` into `direction`: moved to the side of the surface into which it goes.
+Vec3 offsetOrigin(const SurfacePoint& p, Vec3 direction);
+// The same for raw values: n = unit geometric normal, error as above.
+Vec3 offsetOrigin(Vec3 position, Vec3 n, float error, Vec3 direction);
+
+}  // namespace ninefold

@@ -1,0 +1,76 @@
+// tracer.h: closest hit and occlusion on a whole scene. The only door to Embree (versions 3 and 4).
+//
+// All instances are flattened to world-space triangles, one geometry per instance (geomID = instance
+// index). The hierarchy is built by one thread with fixed quality, so that all clients of a class have
+// the same one. Alpha-masked texels are passed through by filter functions; back faces are hit like front
+// faces. The robust traversal is used: no cracks between triangles that share an edge.
+//
+// Threads: const functions are reentrant. Owner: holds flattened geometry, refers to the Scene, which must
+// outlive it. Errors: constructor throws Error when memory or the instruction set is missing.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "common/scene/scene.h"
+#include "common/tracing/surface.h"
+
+namespace ninefold {
+
+inline constexpr int kPacket = 16;
+
+// Sixteen rays, planar, in Embree's own layout: nothing is copied at the call.
+// A ray covers origin + t * direction for t in [nearT, farT]; directions need not be unit.
+struct alignas(64) RayPacket {
+  float originX[kPacket], originY[kPacket], originZ[kPacket];
+  float nearT[kPacket];
+  float directionX[kPacket], directionY[kPacket], directionZ[kPacket];
+  float time[kPacket];
+  float farT[kPacket];  // closest: the hit's t on return; occluded: negative infinity if blocked
+  uint32_t mask[kPacket], id[kPacket], flags[kPacket];
+
+  void set(int lane, Vec3 origin, Vec3 direction, float tNear, float tFar) {
+    originX[lane] = origin.x, originY[lane] = origin.y, originZ[lane] = origin.z;
+    directionX[lane] = direction.x, directionY[lane] = direction.y, directionZ[lane] = direction.z;
+    nearT[lane] = tNear, farT[lane] = tFar;
+    time[lane] = 0, mask[lane] = ~0u, id[lane] = 0, flags[lane] = 0;
+  }
+};
+
+enum class Isa : uint8_t { automatic, avx2, avx512 };
+
+class Tracer {
+ public:
+  Tracer(const Scene& scene, Isa isa);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  // Closest hit of one ray; Hit::none() if there is none.
+  Hit closest(Vec3 origin, Vec3 direction, float tFar) const;
+  // Closest hits of the lanes in `active` (bit i = lane i). hits[lane] of inactive lanes is untouched.
+  void closest16(RayPacket& rays, uint32_t active, Hit* hits) const;
+
+  bool occluded(Vec3 origin, Vec3 direction, float tFar) const;
+  // Bits of the active lanes whose segment is blocked. `coherent`: the rays share an end or are parallel.
+  uint32_t occluded16(RayPacket& rays, uint32_t active, bool coherent = true) const;
+
+  // The surface at a hit, in world space, with its error bound.
+  SurfacePoint surface(const Hit& hit) const;
+
+  // World-space corners of a triangle of an instance, in winding order as seen from its front.
+  struct Corners {
+    Vec3 a, b, c;
+  };
+  Corners corners(uint32_t instance, uint32_t triangle) const;
+
+  const Scene& scene() const;
+  const std::string& isaName() const;  // "avx2" or "avx512": what runs, part of the pixel class
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ninefold
