@@ -1,0 +1,52 @@
+// renderer.h: what a client does with a scene: light sets and tasks. The door of common/gi.
+//
+// A Renderer is made once per scene and settings; after that everything is a pure function of its
+// arguments: any client makes the same light set and the same tile, bit for bit.
+// Threads: const functions are reentrant; each thread has its own Scratch. Owner: refers to the Tracer.
+// Errors: constructor throws Error for settings that the scene cannot serve.
+#pragma once
+
+#include <memory>
+
+#include "common/image/layers.h"
+#include "common/scene/settings.h"
+#include "common/tracing/tracer.h"
+
+namespace ninefold {
+
+struct LightSet;  // light_set.h: VPLs and caustic photons of one interleaved set
+struct Scratch;   // scratch.h: one thread's planar working memory, kept between tasks
+
+// The pixels of one phase in one tile of one frame, and the extra planes wanted.
+struct Task {
+  FrameKey frame;
+  int tile = 0;
+  int phase = 0;
+  uint8_t extraMask = 0;
+};
+
+class Renderer {
+ public:
+  Renderer(const Tracer& tracer, const Settings& settings);
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Light set k of a frame. Costs 0.1 to some ms; share it among the tasks that use it (lightSetOfPhase).
+  std::shared_ptr<const LightSet> lightSet(const FrameKey& frame, int k) const;
+
+  // Renders one task into `out`; lights = lightSet(task.frame, lightSetOfPhase(task.phase, ...)).
+  void render(const Task& task, const LightSet& lights, Scratch& scratch, TileResult& out) const;
+
+  std::unique_ptr<Scratch, void (*)(Scratch*)> makeScratch() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// The pixel class of this process: a hash of a small probe scene rendered with `isa`, as 16 hex digits.
+// Clients with equal probes give equal bytes.
+std::string probeClass(Isa isa);
+
+}  // namespace ninefold
