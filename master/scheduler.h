@@ -1,0 +1,118 @@
+// scheduler.h: which client gets which task, and when. A pure value: it eats events and the time
+// and gives back actions; it knows no socket, thread or clock, so the master, the unit tests and a
+// simulated cluster of a thousand clients all run the same code.
+//
+// Policies, each in one small function of the .cpp:
+//   order        oldest open frame first; the next frame's tasks go out before this one's last are
+//   back light sets   a client goes on with light sets that it has; a new one is the set with most
+//   tasks left
+//                per client at work on it (paper: about two sets for each client and frame)
+//   credit       a client is refilled when it holds less than `low` tasks and up to `high`; both
+//   cover
+//                its round trip at its learned speed (scheduler_client.h). No queue ever grows.
+//   stragglers   nothing left to hand out: a copy of a late task, or of one that another client
+//   would
+//                finish sooner, goes to a client with credit. At most one copy; the first result
+//                wins.
+//   lost         tasks go back to the front of their queue at once
+//   suspect      a client that holds tasks and gives no result for too long: as lost, but its
+//   results
+//                stay welcome and it gets one task as a trial when it is heard of again
+//
+// Use: after every event, and at least every 100 ms, call poll() and carry its actions out.
+// A result is reported after its tile was decoded; a tile that cannot be decoded ends the
+// connection (clientLost), so its task is done again. Cost: O(log clients + log tasks) an event,
+// O(K) when a client changes its light set. Deterministic: equal events give equal actions.
+// Threads: none; one owner calls everything. Errors: only broken assumptions of the caller
+// (NINEFOLD_CHECK); whatever a peer sends is a Verdict.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/sampling/interleave.h"
+#include "common/scene/settings.h"
+#include "master/scheduler_client.h"
+#include "master/scheduler_frame.h"
+#include "master/scheduler_types.h"
+
+namespace ninefold {
+
+class Scheduler {
+ public:
+  // A client is ready to render. Ids are never used twice.
+  void clientJoined(ClientId client, int threads, Time now);
+  // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
+  void clientLost(ClientId client, Time now);
+  // Any message came from it: a suspect may be tried again.
+  void clientHeard(ClientId client, Time now);
+  // A ping was answered.
+  void roundTripMeasured(ClientId client, Duration roundTrip);
+
+  // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
+  // Tasks without pixels do not exist.
+  void openFrame(const FrameKey& key, const TileGrid& grid, Time now);
+  // All open frames before `firstWanted` are superseded.
+  void viewChanged(uint32_t firstWanted, Time now);
+
+  // `cost`: how long one thread of the client worked on it, making its light set included.
+  Verdict resultArrived(ClientId client, const TaskId& task, Duration cost, Time now);
+  // What resultArrived would say now: lets the caller skip decoding what will be dropped.
+  Verdict verdictOn(ClientId client, const TaskId& task) const;
+
+  Actions poll(Time now);
+
+  // True while clients have credit that the open frames cannot use: time to open the next frame.
+  bool wantsFrame() const;
+  bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
+  int openFrames() const { return static_cast<int>(frames_.size()); }
+  int clients() const { return static_cast<int>(clients_.size()); }
+  // Tasks of an open frame that are not done; 0 for any other frame.
+  int tasksLeft(uint32_t frame) const;
+
+  const SchedulerCounts& counts() const { return counts_; }
+  std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
+  // Why a task is where it is, in words.
+  std::string explain(const TaskId& task, Time now) const;
+  // Aborts if the books do not balance. For tests: O(clients + tasks).
+  void checkInvariants() const;
+
+ private:
+  using Ready = std::set<std::pair<Duration, ClientId>>;  // expected time to finish one more task
+
+  SchedulerFrame* findFrame(uint32_t frame);
+  const SchedulerFrame* findFrame(uint32_t frame) const;
+
+  void updateReady(SchedulerClient& client);
+  void updateSilence(SchedulerClient& client, Time now);
+  void forget(SchedulerClient& client);
+
+  void suspectSilentClients(Time now);
+  void takeBackTasks(SchedulerClient& client);
+  void handOutPending(Actions& actions, Time now);
+  void duplicateStragglers(Actions& actions, Time now);
+  bool duplicateOne(SchedulerFrame& frame, Actions& actions, Time now);
+  bool copyTo(SchedulerFrame& frame, int task, bool late, Actions& actions, Time now);
+  void assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions, Time now);
+  void withdrawFromOthers(const TaskId& task, SchedulerFrame& frame, int index);
+  void closeFrame(uint32_t frame, bool completed);
+
+  std::map<ClientId, SchedulerClient> clients_;   // present ones
+  std::map<ClientId, ClientReport> past_;         // lost ones
+  std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
+  std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?
+  uint32_t nextFrame_ = 0;                        // every frame id so far is smaller
+  int pending_ = 0;                               // tasks to hand out, over all open frames
+  int freeCredit_ = 0;                            // over all clients in ready_
+  Ready ready_;                                   // clients to be refilled
+  std::set<std::pair<Time, ClientId>> silence_;   // when clients that hold tasks become suspect
+  std::vector<Cancellation> cancellations_;       // for the next poll
+  SchedulerCounts counts_;
+};
+
+}  // namespace ninefold

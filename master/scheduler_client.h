@@ -1,0 +1,91 @@
+// scheduler_client.h: what the scheduler knows of one client: the tasks that it holds, its learned
+// speed and its credit.
+//
+// Credit. With T threads, task time t (moving average of what it reports) and round trip r, a
+// client works without a pause if it holds T tasks to work on and T r/t more that are on their way.
+// It is refilled
+//     below   low  = kRefillBelow T + T r/t      up to   high = kFillUpTo T + T r/t,
+// two numbers apart so that tasks travel in small groups, and at most kMaxPerThread T.
+//
+// Trust. trusted --no result for silenceLimit()--> suspect --any result--> trusted;
+//        suspect --heard of, and holds nothing--> trial (one task) --result--> trusted,
+//        --silence--> suspect.
+// Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "master/scheduler_types.h"
+
+namespace ninefold {
+
+enum class Trust : uint8_t { trusted, trial, suspect };
+
+class SchedulerClient {
+ public:
+  static constexpr int kRefillBelow = 2;                      // tasks a thread
+  static constexpr int kFillUpTo = 3;                         // tasks a thread
+  static constexpr int kMaxPerThread = 64;                    // bounds what a slow line can ask for
+  static constexpr Duration kFirstGuess = milliseconds(100);  // task time before any result
+  static constexpr Duration kSilenceAtLeast = milliseconds(1000);  // see silenceLimit()
+  static constexpr Duration kSilenceBeforeFirst = milliseconds(5000);
+  static constexpr int kSilenceFactor = 4;  // times the expected time for all that it holds
+
+  SchedulerClient(ClientId id, int threads, Time now);
+
+  ClientId id() const { return report_.client; }
+  int threads() const { return report_.threads; }
+  int inFlight() const { return static_cast<int>(held_.size()); }
+  const std::vector<TaskId>& held() const { return held_; }
+  bool holds(const TaskId& task) const { return std::ranges::find(held_, task) != held_.end(); }
+
+  int low() const;
+  int high() const;
+  // Tasks that may be sent now; 0 once refilled, until it falls below low().
+  int credit() const { return refilling_ ? std::max(0, high() - inFlight()) : 0; }
+
+  Duration taskTime() const { return taskTime_.value_or(kFirstGuess); }
+  // From now until the result of one more task would be here.
+  Duration timeForOneMore() const { return roundTrip_ + workTime(inFlight() + 1); }
+  // How long it may hold tasks without giving any result.
+  Duration silenceLimit() const;
+  Time silentSince() const { return silentSince_; }
+  Trust trust() const { return trust_; }
+
+  void take(const TaskId& task, Time now);
+  // The task was finished, withdrawn or superseded. False if it was not held.
+  bool drop(const TaskId& task);
+  void gaveResult(Duration cost, Time now);  // counts, learns, and is trusted from now on
+  void measureRoundTrip(Duration roundTrip);
+  void setTrust(Trust trust, Time now);
+
+  // Light sets that it made of late, for frames that share a randomization (while the picture
+  // moves).
+  void rememberSet(uint32_t randomization, int set);
+  bool remembersSet(uint32_t randomization, int set) const;
+  const std::vector<int>& rememberedSets(uint32_t randomization) const;
+
+  ClientReport& counts() { return report_; }
+  ClientReport report(Time now) const;
+
+ private:
+  static constexpr size_t kRemembered = 4;
+  Duration workTime(int tasks) const { return taskTime() * ((tasks + threads() - 1) / threads()); }
+  int onTheWay() const;
+  void updateRefilling();
+
+  ClientReport report_;
+  Time joined_;
+  std::vector<TaskId> held_;  // sent and not answered, oldest first
+  bool refilling_ = true;
+  Trust trust_ = Trust::trusted;
+  std::optional<Duration> taskTime_;
+  Duration roundTrip_{0};
+  Time silentSince_;
+  uint32_t randomization_ = 0;
+  std::vector<int> sets_;  // made under randomization_, latest last
+};
+
+}  // namespace ninefold

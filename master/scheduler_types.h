@@ -1,0 +1,88 @@
+// scheduler_types.h: what goes into the scheduler and what comes out. Plain values, no behaviour.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/base/clock.h"
+
+namespace ninefold {
+
+// Given by the caller, one for each accepted connection, never used again in a run.
+using ClientId = uint32_t;
+
+// Names one task on master, client and wire: the pixels of one phase in one tile of one frame.
+struct TaskId {
+  uint32_t frame = 0;  // FrameKey::frame
+  int tile = 0;
+  int phase = 0;
+  bool operator==(const TaskId&) const = default;
+};
+
+// Send this task to this client.
+struct Assignment {
+  ClientId client = 0;
+  TaskId task;
+  bool operator==(const Assignment&) const = default;
+};
+
+// Tell this client that nobody waits for this work any more: one task, or all tasks of a frame.
+// Credit is given back at once, so the client need not answer; what it sends all the same is
+// dropped.
+struct Cancellation {
+  ClientId client = 0;
+  TaskId task;
+  bool wholeFrame = false;  // then only task.frame counts
+  bool operator==(const Cancellation&) const = default;
+};
+
+struct Actions {
+  std::vector<Cancellation> cancel;  // to be sent before `assign`
+  std::vector<Assignment> assign;
+};
+
+// What became of a result. Only `accepted` may be placed in a frame.
+enum class Verdict : uint8_t {
+  accepted,
+  completedFrame,  // accepted, and it was the frame's last
+  duplicate,       // another client was faster
+  stale,           // its frame was superseded
+  unknown,         // never asked of this client, or no such task
+};
+inline bool isAccepted(Verdict v) { return v == Verdict::accepted || v == Verdict::completedFrame; }
+
+// Counts over the whole run.
+struct SchedulerCounts {
+  uint64_t assigned = 0;  // all that were sent, copies included
+  uint64_t accepted = 0;
+  uint64_t duplicated = 0;      // copies given to idle clients because the first holder seemed slow
+  uint64_t reissued = 0;        // taken back from lost or suspect clients
+  uint64_t cancelledTasks = 0;  // neither done nor wanted any more, by viewChanged
+  uint64_t cancelledFrames = 0;
+  uint64_t completedFrames = 0;
+  uint64_t droppedDuplicate = 0;
+  uint64_t droppedStale = 0;
+  uint64_t droppedUnknown = 0;
+};
+
+// One client's share of the run; kept after it is lost.
+struct ClientReport {
+  ClientId client = 0;
+  int threads = 1;
+  bool lost = false;
+  bool suspect = false;    // silent for too long at the moment
+  uint64_t tasks = 0;      // accepted results
+  uint64_t frames = 0;     // frames it was given tasks of
+  uint64_t lightSets = 0;  // summed over those frames: distinct light sets
+  Duration busy{0};        // time spent on tasks as the client reports it, summed over threads
+  Duration present{0};     // joined until lost or now
+  int inFlight = 0, window = 0;
+  double busyFraction() const {
+    return present.count() > 0 ? seconds(busy) / (seconds(present) * threads) : 0;
+  }
+  double setsPerFrame() const {
+    return frames > 0 ? static_cast<double>(lightSets) / static_cast<double>(frames) : 0;
+  }
+};
+
+}  // namespace ninefold
