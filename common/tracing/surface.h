@@ -1,8 +1,10 @@
 // surface.h: a hit, the surface point at it, and where rays from it may safely start.
 //
-// Robust origins: the point's float error is bounded from the arithmetic that made it (sums of rounding
-// errors over the corners' magnitudes), and a new ray starts outside that bound along the geometric
-// normal. There is no scene-dependent epsilon.
+// Robust origins: how far rounding may put the point, or the ray test's idea of it, off its surface is
+// bounded from the triangle's corners (math/rounding.h), and a new ray starts outside that bound along the
+// geometric normal. There is no scene-dependent epsilon.
+// A segment needs the same care at its far end, where the ray test errs in proportion to the length too:
+// end it at offsetOrigin(y, n, error + kRayRounding * length, x - y), farT = 1.
 // Source: Pharr, Jakob, Humphreys, "Physically Based Rendering" 3.9 (error bounds of intersection points).
 // Threads: plain values.
 #pragma once

@@ -59,7 +59,8 @@ class Tracer {
   // The surface at a hit, in world space, with its error bound.
   SurfacePoint surface(const Hit& hit) const;
 
-  // World-space corners of a triangle of an instance, in winding order as seen from its front.
+  // World-space corners of a triangle of an instance in the mesh's order, as barycentrics count them. The
+  // front sees them counterclockwise, or clockwise if the instance is mirrored: see surface().
   struct Corners {
     Vec3 a, b, c;
   };

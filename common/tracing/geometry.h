@@ -1,0 +1,44 @@
+// geometry.h: an instance flattened to world space, and the surface at a point of one of its
+// triangles. Knows nothing of Embree. Corners keep the mesh's order, so that barycentrics mean the
+// same everywhere.
+//
+// Owner: world-space vertices; refers to the Scene. Threads: const after construction. Errors: none
+// for valid scenes.
+#pragma once
+
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/tracing/tracer.h"
+
+namespace ninefold {
+
+class InstanceGeometry {
+ public:
+  InstanceGeometry(const Scene& scene, const Instance& instance);
+
+  const Mesh& mesh() const { return *mesh_; }
+  // World-space positions of the mesh's vertices; one more follows as the padding that Embree
+  // reads.
+  const Vec3* vertices() const { return vertices_.data(); }
+  Tracer::Corners corners(uint32_t triangle) const;
+
+  // The surface at barycentrics (u, v); they are clamped into the triangle. Leaves p.instance
+  // alone.
+  void surface(uint32_t triangle, float u, float v, SurfacePoint& p) const;
+
+ private:
+  void setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
+  void setNormals(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
+                  SurfacePoint& p) const;
+  void setTangent(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
+                  SurfacePoint& p) const;
+
+  const Mesh* mesh_;
+  std::vector<Vec3> vertices_;
+  Mat3 directionToWorld_{1};  // both only up to a positive factor
+  Mat3 normalToWorld_{1};
+  float handedness_ = 1;  // -1: the instance mirrors, and the front is where corners run clockwise
+};
+
+}  // namespace ninefold

@@ -1,0 +1,152 @@
+#include "common/tracing/tracer.h"
+
+#include <cstddef>
+#include <cstring>
+#include <new>
+
+#include "common/base/error.h"
+#include "common/tracing/alpha_mask.h"
+#include "common/tracing/device.h"
+#include "common/tracing/geometry.h"
+
+namespace ninefold {
+namespace {
+
+// A RayPacket is handed to Embree as it is.
+static_assert(sizeof(RayPacket) == sizeof(RTCRay16) && alignof(RayPacket) == alignof(RTCRay16));
+static_assert(offsetof(RayPacket, originX) == offsetof(RTCRay16, org_x));
+static_assert(offsetof(RayPacket, nearT) == offsetof(RTCRay16, tnear));
+static_assert(offsetof(RayPacket, directionX) == offsetof(RTCRay16, dir_x));
+static_assert(offsetof(RayPacket, directionZ) == offsetof(RTCRay16, dir_z));
+static_assert(offsetof(RayPacket, time) == offsetof(RTCRay16, time));
+static_assert(offsetof(RayPacket, farT) == offsetof(RTCRay16, tfar));
+static_assert(offsetof(RayPacket, mask) == offsetof(RTCRay16, mask));
+static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
+
+RTCRay singleRay(Vec3 origin, Vec3 direction, float tFar) {
+  RTCRay ray{};
+  ray.org_x = origin.x, ray.org_y = origin.y, ray.org_z = origin.z;
+  ray.dir_x = direction.x, ray.dir_y = direction.y, ray.dir_z = direction.z;
+  ray.tfar = tFar;
+  ray.mask = ~0u;
+  return ray;
+}
+
+// Embree's lane masks: -1 = trace, 0 = leave alone.
+struct alignas(64) LaneMask {
+  int lane[kPacket];
+  explicit LaneMask(uint32_t active) {
+    for (int i = 0; i < kPacket; ++i) lane[i] = (active >> i & 1) != 0 ? -1 : 0;
+  }
+};
+
+}  // namespace
+
+struct Tracer::Impl {
+  const Scene& scene;
+  std::vector<InstanceGeometry> geometries;
+  std::vector<AlphaMask> masks;
+  Device device;
+  Hierarchy hierarchy;
+  std::string isaName;
+
+  Impl(const Scene& s, Isa isa) : scene(s), device(makeDevice(isa)), isaName(isaOf(device.get())) {
+    flatten();
+    build();
+  }
+
+  void flatten() {
+    geometries.reserve(scene.instances.size());
+    masks.reserve(scene.instances.size());
+    for (const Instance& instance : scene.instances) {
+      const Mesh& mesh = geometries.emplace_back(scene, instance).mesh();
+      masks.push_back({&scene, &mesh, &scene.materials[static_cast<size_t>(mesh.material)]});
+    }
+  }
+
+  void build() {
+    hierarchy.reset(rtcNewScene(device.get()));
+    rtcSetSceneFlags(hierarchy.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(hierarchy.get(), RTC_BUILD_QUALITY_MEDIUM);
+    for (size_t i = 0; i < geometries.size(); ++i) attach(i);
+    rtcCommitScene(hierarchy.get());
+    throwOnError(device.get(), "building the ray hierarchy");
+  }
+
+  void attach(size_t i) {
+    const Mesh& mesh = geometries[i].mesh();
+    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                               geometries[i].vertices(), 0, sizeof(Vec3), mesh.positions.size());
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                               mesh.triangles.data(), 0, sizeof(Triangle), mesh.triangles.size());
+    if (masks[i].material->alphaMode == AlphaMode::mask) attachAlphaMask(geometry, masks[i]);
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometryByID(hierarchy.get(), geometry, static_cast<unsigned>(i));
+    rtcReleaseGeometry(geometry);
+  }
+};
+
+Tracer::Tracer(const Scene& scene, Isa isa) try : impl_(std::make_unique<Impl>(scene, isa)) {
+} catch (const std::bad_alloc&) {
+  fail("out of memory while flattening scene {}; use a smaller scene or a machine with more memory",
+       scene.name);
+}
+
+Tracer::~Tracer() = default;
+
+Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
+  RTCRayHit query{};
+  query.ray = singleRay(origin, direction, tFar);
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  embree::intersect1(impl_->hierarchy.get(), &query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit::none();
+  return {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+}
+
+void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits) const {
+  RTCRayHit16 query;
+  std::memcpy(&query.ray, &rays, sizeof rays);
+  std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+  const LaneMask valid(active);
+  embree::intersect16(impl_->hierarchy.get(), valid.lane, &query);
+  std::memcpy(rays.farT, query.ray.tfar, sizeof rays.farT);
+  for (int i = 0; i < kPacket; ++i) {
+    if (valid.lane[i] == 0) continue;
+    const RTCHit16& hit = query.hit;
+    hits[i] = hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                  ? Hit::none()
+                  : Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]};
+  }
+}
+
+bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
+  RTCRay ray = singleRay(origin, direction, tFar);
+  embree::occluded1(impl_->hierarchy.get(), &ray);
+  return ray.tfar < 0;
+}
+
+uint32_t Tracer::occluded16(RayPacket& rays, uint32_t active, bool coherent) const {
+  const LaneMask valid(active);
+  embree::occluded16(impl_->hierarchy.get(), valid.lane, reinterpret_cast<RTCRay16*>(&rays),
+                     coherent);
+  uint32_t blocked = 0;
+  for (int i = 0; i < kPacket; ++i) blocked |= uint32_t(rays.farT[i] < 0) << i;
+  return blocked & active;
+}
+
+SurfacePoint Tracer::surface(const Hit& hit) const {
+  SurfacePoint p;
+  p.instance = hit.instance;
+  impl_->geometries[hit.instance].surface(hit.triangle, hit.u, hit.v, p);
+  return p;
+}
+
+Tracer::Corners Tracer::corners(uint32_t instance, uint32_t triangle) const {
+  return impl_->geometries[instance].corners(triangle);
+}
+
+const Scene& Tracer::scene() const { return impl_->scene; }
+const std::string& Tracer::isaName() const { return impl_->isaName; }
+
+}  // namespace ninefold
