@@ -1,0 +1,41 @@
+// image_file.h: pictures to and from files, by OpenImageIO. The kind is told by the name's
+// extension.
+//
+//   .exr  32-bit float R, G, B, then the extra channels; metadata as attributes "ninefold:key"
+//   .hdr  R, G, B with a shared 8-bit exponent (1 % steps; no negative values); no extra channels
+//   .png  8-bit sRGB through the tone map; no extra channels
+//
+// A file is written under a temporary name in the same folder and renamed: it is whole or not
+// there. Errors: Error with one line that names the file. Threads: reentrant.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/image/image.h"
+#include "common/image/tone_map.h"
+
+namespace ninefold {
+
+// What shall be told about a picture: version, scene, seed, frames, settings...
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+struct Picture {
+  const RgbImage& beauty;
+  std::vector<Channel> extras;  // each of the beauty's size
+  Metadata metadata;
+};
+
+// Throws if `path` has another extension than above, or cannot be created in its folder. Call it
+// before the work that leads to the picture.
+void checkOutputPath(const std::string& path);
+
+void writeImage(const std::string& path, const Picture& picture,
+                const ToneMap& toneMap = ToneMap());
+
+// The channels R, G, B (the first three if none are named so; one channel is spread to all) as
+// linear floats; integer files are decoded from sRGB.
+RgbImage readImage(const std::string& path);
+
+}  // namespace ninefold
