@@ -1,12 +1,13 @@
 // emitters.h: all lights of a scene in one table, chosen in proportion to their power.
 //
-//   triangle     Phi = pi L A (twice that if double-sided), L by its material, textures averaged for the choice
-//   point        Phi = 4 pi I;   spot: Phi = I integrated over its cone with glTF's falloff
-//   directional  Phi = E0 pi R^2
-//   environment  Phi = L 4 pi pi R^2  (constant radiance from outside)
+//   triangle     Phi = pi L A (twice that if double-sided), L by its material, textures averaged
+//   for the choice point        Phi = 4 pi I;   spot: Phi = I integrated over its cone with glTF's
+//   falloff directional  Phi = E0 pi R^2 environment  Phi = L 4 pi pi R^2  (constant radiance from
+//   outside)
 //
 // Power means the largest component of Phi [W]: no channel of a light is ever starved.
-// Each emissive triangle is an entry of its own. Threads: const after construction. Refers to the Scene.
+// Each emissive triangle is an entry of its own. Threads: const after construction. Refers to the
+// Scene.
 #pragma once
 
 #include <vector>
@@ -20,20 +21,20 @@ enum class EmitterKind : uint8_t { triangle, point, spot, directional, environme
 
 struct Emitter {
   EmitterKind kind = EmitterKind::triangle;
-  uint32_t instance = 0, triangle = 0;   // triangle: where
-  Vec3 a{0}, b{0}, c{0};                 // triangle: world-space corners, winding as seen from the front
-  Vec3 normal{0};                        // triangle: unit geometric normal of the front
-  float area = 0;                        // triangle [m^2]
-  bool doubleSided = false;              // triangle
-  uint32_t light = 0;                    // punctual: index into Scene::lights
-  Flux flux{0};                          // total emitted flux [W], double sides included
+  uint32_t instance = 0, triangle = 0;  // triangle: where
+  Vec3 a{0}, b{0}, c{0};     // triangle: world-space corners, winding as seen from the front
+  Vec3 normal{0};            // triangle: unit geometric normal of the front
+  float area = 0;            // triangle [m^2]
+  bool doubleSided = false;  // triangle
+  uint32_t light = 0;        // punctual: index into Scene::lights
+  Flux flux{0};              // total emitted flux [W], double sides included
 };
 
 // A point on a triangle emitter.
 struct EmitterPoint {
   Vec3 position{0};
-  Radiance radiance{0};                  // of each emitting side, textured
-  float error = 0;                       // float error bound of position, as SurfacePoint::error [m]
+  Radiance radiance{0};  // of each emitting side, textured
+  float error = 0;       // float error bound of position, as SurfacePoint::error [m]
 };
 
 class Emitters {
@@ -41,7 +42,7 @@ class Emitters {
   // `environment` replaces the scene's own. R = scene.bounds.radius().
   Emitters(const Scene& scene, Radiance environment);
 
-  bool empty() const { return emitters_.empty(); }       // no emitter with flux
+  bool empty() const { return emitters_.empty(); }  // no emitter with flux
   size_t size() const { return emitters_.size(); }
   const Emitter& operator[](size_t i) const { return emitters_[i]; }
   const Distribution& byPower() const { return byPower_; }

@@ -1,8 +1,8 @@
-// needs.h: what a scene asks of the renderer. What is not needed is not set up, not sent and not timed.
+// needs.h: what a scene asks of the renderer. What is not needed is not set up, not sent and not
+// timed.
 //
-// The folding rule, written down once: a reflection lobe so rough that it cannot be told from diffuse is
-// folded into D for the whole material, see foldsIntoDiffuse.
-// Threads: pure functions.
+// The folding rule, written down once: a reflection lobe so rough that it cannot be told from
+// diffuse is folded into D for the whole material, see foldsIntoDiffuse. Threads: pure functions.
 #pragma once
 
 #include <string>
@@ -13,19 +13,20 @@
 namespace ninefold {
 
 struct Needs {
-  bool reflection = false;        // some material keeps a reflection lobe
-  bool transmission = false;      // some material transmits or blends
-  bool roughSpecular = false;     // some S lobe is not smooth: lights are sampled at S vertices
+  bool reflection = false;     // some material keeps a reflection lobe
+  bool transmission = false;   // some material transmits or blends
+  bool roughSpecular = false;  // some S lobe is not smooth: lights are sampled at S vertices
   bool textures = false;
   bool alphaMask = false;
   bool areaLights = false, punctualLights = false, environment = false;
 
   bool specular() const { return reflection || transmission; }
-  uint8_t layerMask() const;      // bits of image/layers.h
+  uint8_t layerMask() const;  // bits of image/layers.h
 };
 
-// True if the opaque reflection lobe of a material is folded into D: its smallest perceptual roughness
-// over the texture is at least 0.6 for dielectrics (metallic < 0.5), 0.85 for metals; or its specular factor is 0.
+// True if the opaque reflection lobe of a material is folded into D: its smallest perceptual
+// roughness over the texture is at least 0.6 for dielectrics (metallic < 0.5), 0.85 for metals; or
+// its specular factor is 0.
 bool foldsIntoDiffuse(const Scene& scene, const Material& material);
 
 Needs needsOf(const Scene& scene, Radiance environment);

@@ -1,9 +1,9 @@
 // reader.h: scene files to plain data. glTF 2.0 (.gltf, .glb) and Wavefront OBJ (.obj + .mtl).
 //
-// Errors: throws Error with one line (file, place, remedy) on anything bad: truncated, indices out of range,
-// NaN, no geometry, counts over the limits below, a URI that leads outside the scene's folder, an unknown
-// required extension. Warnings (unknown optional extension, missing camera, ...) go to the log, one line each.
-// Threads: reentrant.
+// Errors: throws Error with one line (file, place, remedy) on anything bad: truncated, indices out
+// of range, NaN, no geometry, counts over the limits below, a URI that leads outside the scene's
+// folder, an unknown required extension. Warnings (unknown optional extension, missing camera, ...)
+// go to the log, one line each. Threads: reentrant.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@
 namespace ninefold {
 
 // Limits on what one scene may claim, checked before memory is taken.
-inline constexpr uint64_t kMaxTriangles = 50'000'000;     // after instancing
-inline constexpr uint64_t kMaxTexels = 1ull << 28;        // of all images together
+inline constexpr uint64_t kMaxTriangles = 50'000'000;  // after instancing
+inline constexpr uint64_t kMaxTexels = 1ull << 28;     // of all images together
 inline constexpr uint64_t kMaxImageSide = 16384;
 inline constexpr uint64_t kMaxFileBytes = 4ull << 30;
 inline constexpr uint64_t kMaxInstances = 1'000'000;

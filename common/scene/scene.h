@@ -1,9 +1,11 @@
-// scene.h: a scene as plain data, as the readers make it, the wire carries it and the tracer eats it.
+// scene.h: a scene as plain data, as the readers make it, the wire carries it and the tracer eats
+// it.
 //
-// Coordinates: right-handed, y up, metres. Readers move the scene so that the middle of its bounds is the
-// origin (`origin` keeps what was subtracted): float precision is then best where it matters.
-// Everything in a Scene that left a reader or the wire is valid: finite numbers, indices in range, unit
-// directions, at least one triangle. Owner: value type. Threads: plain data, shared read-only.
+// Coordinates: right-handed, y up, metres. Readers move the scene so that the middle of its bounds
+// is the origin (`origin` keeps what was subtracted): float precision is then best where it
+// matters. Everything in a Scene that left a reader or the wire is valid: finite numbers, indices
+// in range, unit directions, at least one triangle. Owner: value type. Threads: plain data, shared
+// read-only.
 #pragma once
 
 #include <cstdint>
@@ -29,12 +31,12 @@ enum class Wrap : uint8_t { repeat, clamp, mirror };
 
 // Use of an image by a material: image index, texture coordinates and how to look up.
 struct TextureUse {
-  int image = -1;               // index into Scene::images; -1 = none
-  int uvSet = 0;                // 0 or 1
+  int image = -1;  // index into Scene::images; -1 = none
+  int uvSet = 0;   // 0 or 1
   Vec2 offset{0, 0}, scale{1, 1};
-  float rotation = 0;           // [rad], as in KHR_texture_transform
+  float rotation = 0;  // [rad], as in KHR_texture_transform
   Wrap wrapS = Wrap::repeat, wrapT = Wrap::repeat;
-  bool nearest = false;         // else bilinear
+  bool nearest = false;  // else bilinear
   explicit operator bool() const { return image >= 0; }
 };
 
@@ -45,25 +47,25 @@ enum class AlphaMode : uint8_t { opaque, mask, blend };
 struct Material {
   std::string name;
   Vec3 baseColor{1};
-  TextureUse baseColorMap;             // sRGB, alpha = opacity
+  TextureUse baseColorMap;  // sRGB, alpha = opacity
   float opacity = 1;
   AlphaMode alphaMode = AlphaMode::opaque;
   float alphaCutoff = 0.5f;
-  float metallic = 1, roughness = 1;   // perceptual roughness; GGX alpha = roughness^2
-  TextureUse metallicRoughnessMap;     // G = roughness, B = metallic
+  float metallic = 1, roughness = 1;  // perceptual roughness; GGX alpha = roughness^2
+  TextureUse metallicRoughnessMap;    // G = roughness, B = metallic
   TextureUse normalMap;
   float normalScale = 1;
-  Vec3 emission{0};                    // radiance [W/(m^2 sr)], strength included
-  TextureUse emissionMap;              // sRGB
-  bool doubleSided = false;            // of emission only: surfaces scatter on both sides
+  Vec3 emission{0};          // radiance [W/(m^2 sr)], strength included
+  TextureUse emissionMap;    // sRGB
+  bool doubleSided = false;  // of emission only: surfaces scatter on both sides
   float transmission = 0;
-  TextureUse transmissionMap;          // R
-  float ior = 1.5f;                    // index of refraction, > 0
-  float specular = 1;                  // KHR_materials_specular
-  TextureUse specularMap;              // A
+  TextureUse transmissionMap;  // R
+  float ior = 1.5f;            // index of refraction, > 0
+  float specular = 1;          // KHR_materials_specular
+  TextureUse specularMap;      // A
   Vec3 specularColor{1};
-  TextureUse specularColorMap;         // sRGB
-  bool solid = false;                  // transmits as a solid (refracts, attenuates); else thin-walled
+  TextureUse specularColorMap;  // sRGB
+  bool solid = false;           // transmits as a solid (refracts, attenuates); else thin-walled
   Vec3 attenuationColor{1};
   float attenuationDistance = std::numeric_limits<float>::infinity();  // [m]
 };
@@ -71,9 +73,9 @@ struct Material {
 struct Mesh {
   std::string name;
   std::vector<Vec3> positions;
-  std::vector<Vec3> normals;      // empty (flat shading) or one per vertex, unit
-  std::vector<Vec2> uv0, uv1;     // empty or one per vertex
-  std::vector<Vec4> tangents;     // empty or one per vertex, w = sign of the bitangent
+  std::vector<Vec3> normals;   // empty (flat shading) or one per vertex, unit
+  std::vector<Vec2> uv0, uv1;  // empty or one per vertex
+  std::vector<Vec4> tangents;  // empty or one per vertex, w = sign of the bitangent
   std::vector<Triangle> triangles;
   int material = 0;
 };
@@ -81,8 +83,8 @@ struct Mesh {
 struct Instance {
   std::string name;
   int mesh = 0;
-  int node = 0;       // instances that came from one node of the file share it: one thing to a user
-  DMat4 toWorld{1};   // affine, invertible, may mirror
+  int node = 0;      // instances that came from one node of the file share it: one thing to a user
+  DMat4 toWorld{1};  // affine, invertible, may mirror
 };
 
 enum class LightKind : uint8_t { point, spot, directional };
@@ -91,9 +93,9 @@ enum class LightKind : uint8_t { point, spot, directional };
 struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::point;
-  Vec3 position{0};             // [m]
-  Vec3 direction{0, 0, -1};     // unit, where the light goes
-  Vec3 intensity{1};            // point, spot: I [W/sr]; directional: E0 [W/m^2]
+  Vec3 position{0};                             // [m]
+  Vec3 direction{0, 0, -1};                     // unit, where the light goes
+  Vec3 intensity{1};                            // point, spot: I [W/sr]; directional: E0 [W/m^2]
   float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner < outer <= pi/2
 };
 
@@ -104,10 +106,10 @@ struct Scene {
   std::vector<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
-  std::vector<Camera> cameras;     // at least one after reading
-  Radiance environment{0};         // constant radiance from outside
-  DVec3 origin{0};                 // file coordinates = scene coordinates + origin
-  Bounds bounds;                   // of all instances, in scene coordinates
+  std::vector<Camera> cameras;  // at least one after reading
+  Radiance environment{0};      // constant radiance from outside
+  DVec3 origin{0};              // file coordinates = scene coordinates + origin
+  Bounds bounds;                // of all instances, in scene coordinates
 };
 
 }  // namespace ninefold

@@ -1,5 +1,6 @@
-// settings.h: everything besides the scene that decides the bytes of a picture. Part of every task's key.
-// Value types; the same on master and clients. Ranges are enforced where they enter (command line, wire).
+// settings.h: everything besides the scene that decides the bytes of a picture. Part of every
+// task's key. Value types; the same on master and clients. Ranges are enforced where they enter
+// (command line, wire).
 #pragma once
 
 #include <cstdint>
@@ -16,30 +17,30 @@ enum class Caustics : uint8_t { off, direct, all };
 
 struct Settings {
   Method method = Method::instantRadiosity;
-  int width = 640, height = 480;        // 1..16384 each
+  int width = 640, height = 480;  // 1..16384 each
   Camera camera;
   Interleave interleave;
-  int directVpls = 4;                   // per set, 0..65536
-  int indirectVpls = 18;                // per set, mean, 0..65536
-  int photons = 1000;                   // caustic photons per set, 0..16777216
-  int pathLength = 0;                   // D vertices of a whole path, x included; 0 = no limit (roulette)
-  int specularDepth = 32;               // S vertices in a row, 1..1024
-  float bound = 300;                    // c of b = c/R^2, > 0
-  float photonRadius = 0.01f;           // first photon radius as a fraction of R, > 0
+  int directVpls = 4;          // per set, 0..65536
+  int indirectVpls = 18;       // per set, mean, 0..65536
+  int photons = 1000;          // caustic photons per set, 0..16777216
+  int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
+  int specularDepth = 32;      // S vertices in a row, 1..1024
+  float bound = 300;           // c of b = c/R^2, > 0
+  float photonRadius = 0.01f;  // first photon radius as a fraction of R, > 0
   Caustics caustics = Caustics::all;
   Radiance environment{0};
   uint64_t seed = 1;
   Randomization randomization = Randomization::owen;
-  bool jitter = true;                   // anti-aliasing: film positions spread over the pixel
+  bool jitter = true;  // anti-aliasing: film positions spread over the pixel
 };
 
-// What changes from frame to frame. At rest, frame i has randomization i and rotation i; while anything
-// moves both stay put, so that nothing flickers.
+// What changes from frame to frame. At rest, frame i has randomization i and rotation i; while
+// anything moves both stay put, so that nothing flickers.
 struct FrameKey {
-  uint32_t frame = 0;                   // counts frames of a run; names a task on the wire
-  uint32_t randomization = 0;           // randomization index
-  uint32_t rotation = 0;                // of the interleave pattern, see interleave.h
-  Metres photonRadius = 0;              // r of this frame [m]
+  uint32_t frame = 0;          // counts frames of a run; names a task on the wire
+  uint32_t randomization = 0;  // randomization index
+  uint32_t rotation = 0;       // of the interleave pattern, see interleave.h
+  Metres photonRadius = 0;     // r of this frame [m]
 };
 
 }  // namespace ninefold

@@ -1,0 +1,110 @@
+#include "common/scene/needs.h"
+
+#include "common/image/layers.h"
+
+namespace ninefold {
+namespace {
+
+// Smallest and largest value of one channel of a map, in [0, 1]; {1, 1} without a map.
+struct Range {
+  float low = 1, high = 1;
+};
+
+Range channelRange(const Scene& scene, const TextureUse& use, int channel) {
+  if (!use) return {};
+  const TextureImage& image = scene.images[static_cast<size_t>(use.image)];
+  const int stored = image.channels >= 3 ? channel : (channel == 3 ? 1 : 0);
+  if (stored >= image.channels) return {};  // alpha of an image that has none
+  uint8_t low = 255, high = 0;
+  const auto step = static_cast<size_t>(image.channels);
+  for (size_t i = static_cast<size_t>(stored); i < image.texels.size(); i += step) {
+    low = std::min(low, image.texels[i]);
+    high = std::max(high, image.texels[i]);
+  }
+  return {static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f};
+}
+
+float largestMetallic(const Scene& scene, const Material& m) {
+  return m.metallic == 0 ? 0 : m.metallic * channelRange(scene, m.metallicRoughnessMap, 2).high;
+}
+
+bool transmits(const Scene& scene, const Material& m) {
+  return m.transmission > 0 && channelRange(scene, m.transmissionMap, 0).high > 0 &&
+         (m.metallic < 1 || channelRange(scene, m.metallicRoughnessMap, 2).low < 1);
+}
+
+bool blends(const Scene& scene, const Material& m) {
+  return m.alphaMode == AlphaMode::blend &&
+         m.opacity * channelRange(scene, m.baseColorMap, 3).low < 1;
+}
+
+bool isTextured(const Material& m) {
+  return m.baseColorMap || m.metallicRoughnessMap || m.normalMap || m.emissionMap ||
+         m.transmissionMap || m.specularMap || m.specularColorMap;
+}
+
+void addMaterial(const Scene& scene, const Material& m, Needs& needs) {
+  // GGX alpha = roughness^2; below this it counts as smooth, as in bsdf/bsdf.h.
+  constexpr float kSmallestAlpha = 1e-3f;
+  const bool glass = transmits(scene, m);
+  const bool lobe = glass || !foldsIntoDiffuse(scene, m);
+  const float roughest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).high;
+  needs.reflection |= lobe;
+  needs.transmission |= glass || blends(scene, m);
+  needs.roughSpecular |= lobe && roughest * roughest >= kSmallestAlpha;
+  needs.textures |= isTextured(m);
+  needs.alphaMask |= m.alphaMode == AlphaMode::mask;
+  needs.areaLights |= !isBlack(m.emission);
+}
+
+}  // namespace
+
+uint8_t Needs::layerMask() const {
+  return static_cast<uint8_t>(kDiffuseBit | (reflection ? kReflectionBit : 0) |
+                              (transmission ? kTransmissionBit : 0));
+}
+
+bool foldsIntoDiffuse(const Scene& scene, const Material& m) {
+  const float metallic = largestMetallic(scene, m);
+  const bool noFresnel = m.specular == 0 || isBlack(m.specularColor) || m.ior == 1;
+  if (metallic == 0 && noFresnel) return true;
+  const float smoothest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).low;
+  return smoothest >= (metallic < 0.5f ? 0.6f : 0.85f);
+}
+
+Needs needsOf(const Scene& scene, Radiance environment) {
+  Needs needs;
+  std::vector<char> used(scene.materials.size(), 0);
+  for (const Instance& instance : scene.instances)
+    used[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)] = 1;
+  for (size_t i = 0; i < used.size(); ++i)
+    if (used[i] != 0) addMaterial(scene, scene.materials[i], needs);
+  needs.punctualLights =
+      std::any_of(scene.lights.begin(), scene.lights.end(),
+                  [](const PunctualLight& light) { return !isBlack(light.intensity); });
+  needs.environment = !isBlack(environment);
+  return needs;
+}
+
+std::vector<std::string> describe(const Needs& needs) {
+  const auto line = [](const char* what, bool on, const char* why, const char* whyNot) {
+    return std::string(what) + (on ? ": on, " : ": off, ") + (on ? why : whyNot);
+  };
+  return {
+      line("reflection layer", needs.reflection, "some surfaces reflect",
+           "no surface reflects other than diffusely"),
+      line("transmission layer", needs.transmission, "light passes through some surfaces",
+           "no surface lets light through"),
+      line("caustic photons", needs.specular(), "some surfaces can focus light",
+           "no surface can focus light"),
+      line("lights sampled at glossy surfaces", needs.roughSpecular, "some are not smooth",
+           "none is there"),
+      line("textures", needs.textures, "some materials have them", "no material has one"),
+      line("alpha masks", needs.alphaMask, "some textures cut holes", "no texture cuts a hole"),
+      line("area lights", needs.areaLights, "some surfaces emit", "no surface emits"),
+      line("punctual lights", needs.punctualLights, "the file has some", "the file has none"),
+      line("environment", needs.environment, "light comes from outside", "outside is black"),
+  };
+}
+
+}  // namespace ninefold
