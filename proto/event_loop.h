@@ -1,0 +1,46 @@
+// event_loop.h: the one thread that talks to the network: a program's main makes it and runs it.
+//
+// Everything that connections, timers and signals call back runs inside run(), one at a time, so
+// that what these callbacks touch needs no lock. Asio stays behind this header and connection.h.
+// Threads: run() in one thread; post() and stop() from any thread (not from a signal handler); the
+// rest in the loop's thread or before run(). Owner: outlives every Connection, Listener and
+// connect() made on it. Errors: an Error that a callback lets out ends run() and comes out of it.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <memory>
+
+#include "common/base/clock.h"
+
+namespace ninefold {
+
+class EventLoop {
+ public:
+  EventLoop();
+  ~EventLoop();
+  EventLoop(const EventLoop&) = delete;
+  EventLoop& operator=(const EventLoop&) = delete;
+
+  void run();   // until stop()
+  void stop();  // run() returns after the callback that is running now
+  void post(std::function<void()> work);
+
+  // Calls back once after `delay`. Dropping the handle cancels it.
+  class Timer {
+   public:
+    virtual ~Timer() = default;
+  };
+  [[nodiscard]] std::unique_ptr<Timer> after(Duration delay, std::function<void()> work);
+
+  // Calls back for each of these signals (Ctrl-C, SIGTERM, SIGCHLD), as ordinary work of the loop.
+  void onSignal(std::initializer_list<int> signals, std::function<void(int)> work);
+
+  struct Impl;
+  Impl& impl() { return *impl_; }
+
+ private:
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,180 @@
+// messages.h: what master and clients say to each other, as plain values. PROTOCOL.md tells the
+// story.
+//
+//   M = master, C = client. One line per message: direction, when, and what answers it.
+//
+// A message's fields travel as Protocol Buffers (messages.proto), its bulk bytes raw behind them
+// (framing.h). Nothing outside proto/ sees either: state machines eat and give Message values.
+// Errors: decodeMessage throws Error naming the message and field for anything malformed or out of
+// range, so every Message that came from a peer is in range. Threads: plain values, pure functions.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "common/base/counters.h"
+#include "common/scene/settings.h"
+#include "proto/bytes.h"
+#include "proto/framing.h"
+#include "proto/sha256.h"
+
+namespace ninefold {
+
+// Raised whenever the meaning of any message changes. One cluster runs one release: there is no
+// range.
+inline constexpr uint32_t kProtocol = 1;
+// The release of this build, e.g. "0.1.0".
+std::string releaseName();
+
+// Limits on what a message may carry; senders keep to them, receivers enforce them.
+inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text
+inline constexpr size_t kMaxBlobs = 65536;  // in one scene
+inline constexpr size_t kMaxTasksPerMessage = 4096;
+inline constexpr size_t kBlobChunkBytes = 256 << 10;  // so that heartbeats slip in between
+inline constexpr size_t kMaxTileBytes = 2 << 20;      // an encoded tile
+
+enum class MessageType : uint16_t {
+  hello = 1,    // C -> M  first on every connection                            -> Welcome | Refuse
+  welcome = 2,  // M -> C  the client is in; SceneOffer and Configure follow
+  refuse = 3,   // M -> C  why not; the master closes, the client does not retry
+  sceneOffer = 4,   // M -> C  the scene's blobs; what is not cached is asked for   -> BlobRequest*
+  blobRequest = 5,  // C -> M  one piece of one blob; a few may be in flight        -> BlobChunk
+  blobChunk = 6,    // M -> C  the piece, zstd bytes as payload
+  configure = 7,    // M -> C  settings of a job on a scene version                 -> Ready
+  ready = 8,        // C -> M  tasks of this job can be done now
+  progress = 9,     // C -> M  how far the client is with fetching or building the scene
+  tasks = 10,    // M -> C  work of one frame, done in this order                -> Result for each
+  cancel = 11,   // M -> C  forget queued tasks of older jobs or frames (no answer)
+  result = 12,   // C -> M  one finished task, the encoded tile as payload
+  ping = 13,     // both    sign of life with a clock                            -> Pong
+  pong = 14,     // both    the ping's clock and one's own
+  goodbye = 15,  // both    the sender leaves on purpose; the connection closes
+};
+
+// Who sent it. Messages that run the wrong way are malformed.
+enum class Peer : uint8_t { master, client };
+
+enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2 };
+
+struct BlobInfo {
+  Sha256 hash{};          // of the raw bytes
+  uint64_t rawBytes = 0;  // declared size after decompression, 1..kMaxBlobBytes (scene_blobs.h)
+  BlobKind kind = BlobKind::rest;
+  bool operator==(const BlobInfo&) const = default;
+};
+
+enum class Phase : uint8_t { fetching = 0, building = 1 };
+
+namespace msg {
+
+struct Hello {
+  uint32_t protocol = kProtocol;
+  std::string release = releaseName();
+  std::string name;        // for people: host name and process, unique names are not required
+  uint32_t threads = 1;    // 1..1024
+  std::string isa;         // what runs: "avx2", "avx512"
+  std::string probeClass;  // probeClass() of gi/renderer.h
+};
+struct Welcome {
+  uint32_t clientId = 0;  // unique in this run of the master
+  std::string release = releaseName();
+};
+struct Refuse {
+  std::string reason;
+};
+struct SceneOffer {
+  uint32_t sceneVersion = 0;
+  std::vector<BlobInfo> blobs;  // in scene order, see scene_blobs.h
+};
+struct BlobRequest {
+  Sha256 hash{};
+  uint64_t offset = 0;  // into the compressed bytes
+};
+struct BlobChunk {
+  Sha256 hash{};
+  uint64_t offset = 0;
+  uint64_t total = 0;  // compressed bytes of the whole blob
+  Bytes bytes;         // at most kBlobChunkBytes; offset + size <= total
+};
+struct Configure {
+  uint32_t sceneVersion = 0;
+  uint32_t jobVersion = 0;
+  Settings settings;
+};
+struct Ready {
+  uint32_t sceneVersion = 0;
+  uint32_t jobVersion = 0;
+};
+struct Progress {
+  Phase phase = Phase::fetching;
+  uint64_t done = 0, total = 0;  // bytes when fetching, steps when building; done <= total
+};
+struct TaskItem {
+  uint32_t tile = 0;
+  uint32_t phase = 0;
+  uint8_t extraMask = 0;
+  bool operator==(const TaskItem&) const = default;
+};
+struct Tasks {
+  uint32_t jobVersion = 0;
+  FrameKey frame;
+  std::vector<TaskItem> items;  // 1..kMaxTasksPerMessage
+};
+struct Cancel {
+  uint32_t jobVersion =
+      0;  // tasks of older jobs, and of this job's frames before `frame`, are void
+  uint32_t frame = 0;
+};
+struct Result {
+  uint32_t jobVersion = 0;
+  uint32_t frame = 0;
+  uint32_t tile = 0;
+  uint32_t phase = 0;
+  uint64_t busyNs = 0;    // one thread's time for this task, its light set included if made for it
+  uint32_t setsMade = 0;  // light sets made on the way: 0 or 1
+  uint64_t replaced = 0;  // values that were not finite and were sent as 0
+  RayCounts rays;
+  Bytes encoded;  // as tile_codec.h made them
+};
+struct Ping {
+  uint64_t clockNs = 0;  // sender's clock, any epoch
+};
+struct Pong {
+  uint64_t echoNs = 0;   // the ping's clock
+  uint64_t clockNs = 0;  // the answerer's clock
+};
+struct Goodbye {
+  std::string reason;
+};
+
+}  // namespace msg
+
+// In the order of MessageType: alternative i has type i + 1.
+using Message =
+    std::variant<msg::Hello, msg::Welcome, msg::Refuse, msg::SceneOffer, msg::BlobRequest,
+                 msg::BlobChunk, msg::Configure, msg::Ready, msg::Progress, msg::Tasks, msg::Cancel,
+                 msg::Result, msg::Ping, msg::Pong, msg::Goodbye>;
+
+inline MessageType typeOf(const Message& message) {
+  return static_cast<MessageType>(message.index() + 1);
+}
+const char* nameOf(MessageType type);  // "Hello", ...; "unknown" for other numbers
+
+// True if `sender` may send messages of this type; false for unknown types.
+bool maySend(Peer sender, MessageType type);
+
+// Message to frame. Bulk bytes are moved, not copied. The message is our own: CHECKs the limits.
+Frame encodeMessage(Message&& message);
+
+// Frame to message; throws Error as said above. `sender` is who the frame came from.
+Message decodeMessage(Frame&& frame, Peer sender);
+
+// Ranges of DESIGN's options; throw Error naming the field. Used for the wire and for the command
+// line.
+void checkRanges(const Settings& settings);
+void checkRanges(const FrameKey& frame);
+
+}  // namespace ninefold
