@@ -1,10 +1,10 @@
-// interleave.h: which pixels make up a task. The image is cut into tiles; the n x m interleaving pattern
-// gives each pixel a *phase*, its place in the pattern; a task is (frame, tile, phase).
+// interleave.h: which pixels make up a task. The image is cut into tiles; the n x m interleaving
+// pattern gives each pixel a *phase*, its place in the pattern; a task is (frame, tile, phase).
 //
-// All pixels of one phase form a *sub-plane*, a small image of its own: sub-pixel (i, j) of phase p is
-// pixel (p mod n + n i, p / n + m j). A task is a rectangle of one sub-plane, rows top to bottom.
-// Light set k serves phase p of a frame by k = (p + rotation) mod K: over K rotations every pixel meets
-// every set, and while the picture moves the rotation stays put.
+// All pixels of one phase form a *sub-plane*, a small image of its own: sub-pixel (i, j) of phase p
+// is pixel (p mod n + n i, p / n + m j). A task is a rectangle of one sub-plane, rows top to
+// bottom. Light set k serves phase p of a frame by k = (p + rotation) mod K: over K rotations every
+// pixel meets every set, and while the picture moves the rotation stays put.
 //
 // Source: Keller and Heidrich, "Interleaved Sampling", 2001.   Threads: plain values.
 #pragma once
@@ -21,12 +21,13 @@ struct Interleave {
   bool operator==(const Interleave&) const = default;
 };
 
-inline constexpr int kTaskSide = 32;  // a full task is 32 x 32 pixels of one phase; part of the pixel class
+inline constexpr int kTaskSide =
+    32;  // a full task is 32 x 32 pixels of one phase; part of the pixel class
 
 // A rectangle of a phase's sub-plane.
 struct TaskRect {
-  int i0 = 0, j0 = 0;          // first sub-pixel in the sub-plane
-  int width = 0, height = 0;   // 0..kTaskSide each; 0 when the phase has no pixel in the tile
+  int i0 = 0, j0 = 0;         // first sub-pixel in the sub-plane
+  int width = 0, height = 0;  // 0..kTaskSide each; 0 when the phase has no pixel in the tile
   int count() const { return width * height; }
 };
 

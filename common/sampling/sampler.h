@@ -1,60 +1,119 @@
-// sampler.h: addressed random numbers. A sample is a pure function of (key, index, dimension); nothing is
-// ever drawn from a shared stream, so any client computes any part of a frame bit for bit.
+// sampler.h: addressed random numbers. A sample is a pure function of (key, index, dimension);
+// nothing is ever drawn from a shared stream, so any client computes any part of a frame bit for
+// bit.
 //
-// LightSampler   light set k of a frame takes the k-th aligned block of 2^m points of one randomized Sobol'
-//                sequence, so that the K sets together are again well distributed. Dimensions beyond the first
-//                kSobolDimensions are padded replications: the same points, with their indices permuted inside
-//                the block and a randomization of their own.
-// PixelSampler   one sequence per pixel: index = randomization index, so that a pixel's samples over frames
-//                complement each other; same padding (permuted inside aligned blocks of 2^m indices).
-// Randomization  exclusiveOr: one random word per dimension, as the paper; owen: nested uniform scrambling.
+// LightSampler   light set k of a frame takes the k-th aligned block of 2^m points of one
+// randomized Sobol'
+//                sequence, so that the K sets together are again well distributed. Dimensions
+//                beyond the first kSobolDimensions are padded replications: the same points, with
+//                their indices permuted inside the block and a randomization of their own.
+// PixelSampler   one sequence per pixel: index = randomization index, so that a pixel's samples
+// over frames
+//                complement each other; same padding (permuted inside aligned blocks of 2^j
+//                indices).
+// Randomization  exclusiveOr: one random word per dimension, as the paper; owen: nested uniform
+// scrambling.
+//                The padding permutes indices by nested scrambling in both: Sobol' points are
+//                linear in the bits of the index, so an exclusive-or of indices would only be one
+//                more exclusive-or of the points, and padded dimensions would repeat the first ones
+//                up to a constant.
 //
-// Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002; Owen 1995; Burley 2020 (hashed Owen);
+// get2D takes dimensions that share a replication: use even ones. Nothing is checked here, it is a
+// hot path.
+//
+// Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002; Owen 1995; Burley 2020
+// (hashed Owen);
 //          Keller, "Myths of Computer Graphics" (padding).
-// Proved:  tests/sampling (elementary intervals of each block and of unions of 2^j blocks; order independence).
-// Threads: const, reentrant. Errors: none. All values are in [0, 1).
+// Proved:  tests/sampling (elementary intervals of each block and of unions of 2^j blocks; order
+// independence). Threads: const, reentrant. Errors: none. All values are in [0, 1), multiples of
+// 2^-24.
 #pragma once
 
 #include <cstdint>
 
 #include "common/math/vec.h"
+#include "common/sampling/hash.h"
+#include "common/sampling/owen.h"
 #include "common/sampling/randomization.h"
+#include "common/sampling/sobol.h"
 
 namespace ninefold {
-
-inline constexpr uint32_t kSobolDimensions = 4;  // joint dimensions of one padded replication
-
-// Mixes any number of words into one well distributed word; the base of all addressing.
-uint64_t hashWords(uint64_t a, uint64_t b, uint64_t c = 0, uint64_t d = 0);
 
 // What a stream of samples is for; part of its address so that no two uses share numbers.
 enum class SampleUse : uint32_t { lightPath, directVpl, photon, eyePath, gather, rounding, probe };
 
+// The 24 highest bits as a number in [0, 1); more would round up to 1.
+inline float unitFloat(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }
+
+// One randomized, padded Sobol' sequence. The samplers below only say which key and which index.
+struct PaddedSobol {
+  uint64_t key;
+  Randomization kind;
+
+  // Index in the replication that holds `dimension`: permuted, but only among the indices that
+  // agree with it outside `mask` = 2^m - 1.
+  uint32_t permute(uint32_t index, uint32_t dimension, uint32_t mask) const {
+    const uint32_t replication = dimension / kSobolDimensions;
+    if (replication == 0) return index;
+    const uint64_t seed = mixWord(key ^ (0xd1b54a32d192ed03ull * replication));
+    return (index & ~mask) | (owenScramble(index, static_cast<uint32_t>(seed)) & mask);
+  }
+  float value(uint32_t permuted, uint32_t dimension) const {
+    const auto seed = static_cast<uint32_t>(mixWord(key + 0x9e3779b97f4a7c15ull * (dimension + 1)));
+    const uint32_t x = sobolPoint(permuted, dimension % kSobolDimensions);
+    return unitFloat(kind == Randomization::owen ? owenScramble(x, seed) : x ^ seed);
+  }
+  float get1D(uint32_t index, uint32_t dimension, uint32_t mask) const {
+    return value(permute(index, dimension, mask), dimension);
+  }
+  Vec2 get2D(uint32_t index, uint32_t dimension, uint32_t mask) const {
+    const uint32_t permuted = permute(index, dimension, mask);
+    return Vec2(value(permuted, dimension), value(permuted, dimension + 1));
+  }
+};
+
 class LightSampler {
  public:
-  // Block `set` of 2^log2Count points; randomization names the frame's randomization index.
+  // Block `set` of 2^log2Count points, log2Count in 0..32, (set + 1) 2^log2Count <= 2^32.
+  // `randomization` is the frame's randomization index; all sets of a frame share it.
   LightSampler(uint64_t seed, SampleUse use, uint32_t randomization, uint32_t set, int log2Count,
-               Randomization kind);
-  float get1D(uint32_t i, uint32_t dimension) const;  // i in [0, 2^log2Count)
-  Vec2 get2D(uint32_t i, uint32_t dimension) const;   // dimensions `dimension` and `dimension + 1`
+               Randomization kind)
+      : sobol_{hashWords(seed, static_cast<uint64_t>(use), randomization), kind},
+        firstIndex_(static_cast<uint32_t>(uint64_t{set} << log2Count)),
+        mask_(static_cast<uint32_t>((uint64_t{1} << log2Count) - 1)) {}
+
+  // i in [0, 2^log2Count)
+  float get1D(uint32_t i, uint32_t dimension) const {
+    return sobol_.get1D(firstIndex_ + i, dimension, mask_);
+  }
+  // Dimensions `dimension` (even) and `dimension + 1`.
+  Vec2 get2D(uint32_t i, uint32_t dimension) const {
+    return sobol_.get2D(firstIndex_ + i, dimension, mask_);
+  }
 
  private:
-  uint64_t key_;
+  PaddedSobol sobol_;
   uint32_t firstIndex_;
-  int log2Count_;
-  Randomization kind_;
+  uint32_t mask_;
 };
 
 class PixelSampler {
  public:
-  PixelSampler(uint64_t seed, SampleUse use, uint32_t x, uint32_t y, uint32_t index, Randomization kind);
-  float get1D(uint32_t dimension) const;
-  Vec2 get2D(uint32_t dimension) const;
+  // `index` is the frame's randomization index; each pixel has a randomization of its own.
+  PixelSampler(uint64_t seed, SampleUse use, uint32_t x, uint32_t y, uint32_t index,
+               Randomization kind)
+      : sobol_{hashWords(seed, static_cast<uint64_t>(use), (uint64_t{y} << 32) | x, kPixelDomain),
+               kind},
+        index_(index) {}
+
+  float get1D(uint32_t dimension) const { return sobol_.get1D(index_, dimension, ~0u); }
+  // Dimensions `dimension` (even) and `dimension + 1`.
+  Vec2 get2D(uint32_t dimension) const { return sobol_.get2D(index_, dimension, ~0u); }
 
  private:
-  uint64_t key_;
+  static constexpr uint64_t kPixelDomain = 1;  // keeps pixel keys apart from the keys of light sets
+  PaddedSobol sobol_;
   uint32_t index_;
-  Randomization kind_;
 };
 
 }  // namespace ninefold
