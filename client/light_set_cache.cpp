@@ -1,0 +1,42 @@
+#include "client/light_set_cache.h"
+
+#include <algorithm>
+
+namespace ninefold {
+
+LightSetCache::Shared LightSetCache::get(const FrameKey& frame, int set) {
+  std::promise<Shared> promise;
+  std::shared_future<Shared> future;
+  bool ours = false;
+  {
+    const std::lock_guard lock(mutex_);
+    std::shared_future<Shared>& entry = group(frame).sets[set];
+    ours = !entry.valid();
+    if (ours) entry = promise.get_future().share();
+    future = entry;
+  }
+  if (ours) {
+    try {
+      promise.set_value(make_(frame, set));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }
+  return future.get();
+}
+
+LightSetCache::Group& LightSetCache::group(const FrameKey& frame) {
+  const auto same = [&](const Group& g) {
+    return g.randomization == frame.randomization && g.photonRadius == frame.photonRadius;
+  };
+  const auto found = std::find_if(groups_.begin(), groups_.end(), same);
+  if (found != groups_.end()) {
+    groups_.splice(groups_.begin(), groups_, found);
+  } else {
+    groups_.push_front({frame.randomization, frame.photonRadius, {}});
+    if (groups_.size() > frames_) groups_.pop_back();
+  }
+  return groups_.front();
+}
+
+}  // namespace ninefold

@@ -1,0 +1,48 @@
+// light_set_cache.h: light sets that the worker threads of one client share.
+//
+// The first thread that needs a set makes it; others that need it meanwhile wait for it. The sets
+// of the `frames` frame keys used last are kept, older ones dropped (a task that still uses one
+// keeps it alive). A set does not depend on the frame's number or rotation, so frames that differ
+// in nothing else share. Threads: get from any thread.   Errors: what `make` throws reaches
+// everyone who waits for that set.
+#pragma once
+
+#include <functional>
+#include <future>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+struct LightSet;
+
+class LightSetCache {
+ public:
+  using Shared = std::shared_ptr<const LightSet>;
+  using Make = std::function<Shared(const FrameKey&, int set)>;
+
+  LightSetCache(Make make, size_t frames) : make_(std::move(make)), frames_(frames) {}
+
+  Shared get(const FrameKey& frame, int set);
+
+ private:
+  // All sets of one frame key.
+  struct Group {
+    uint32_t randomization = 0;
+    Metres photonRadius = 0;
+    std::map<int, std::shared_future<Shared>> sets;
+  };
+
+  Group& group(const FrameKey& frame);
+
+  const Make make_;      // constant after construction
+  const size_t frames_;  // constant after construction
+  std::mutex mutex_;
+  std::list<Group> groups_;  // guarded by mutex_; most recently used first
+};
+
+}  // namespace ninefold

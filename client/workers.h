@@ -1,0 +1,44 @@
+// workers.h: the threads of a client that render. They know tasks by frame only, so that the tasks
+// of a superseded frame can be dropped; what a task does is the caller's.
+//
+// Threads: start and cancel from one thread (the network thread); jobs run on the workers.
+// Owner: joins its threads when destroyed; what waits is dropped, what runs is finished.
+// Errors: a job must not throw.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "common/base/concurrency.h"
+
+namespace ninefold {
+
+class Workers {
+ public:
+  // What a worker does for one task; `thread` is 0..threads-1, for state of its own.
+  using Job = std::function<void(int thread)>;
+
+  Workers(int threads, size_t capacity);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  // False when `capacity` tasks wait already.
+  bool start(uint32_t frame, Job job);
+  // Drops the waiting tasks of frames for which `drop` is true; how many those were.
+  size_t cancel(const std::function<bool(uint32_t frame)>& drop);
+
+ private:
+  struct Entry {
+    uint32_t frame = 0;
+    Job job;
+  };
+  void run(int thread);
+
+  BoundedQueue<Entry> queue_;
+  std::vector<std::thread> threads_;
+};
+
+}  // namespace ninefold

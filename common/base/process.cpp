@@ -1,0 +1,92 @@
+#include "common/base/process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+class SpawnFiles {
+ public:
+  explicit SpawnFiles(int inherited) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, inherited, kInheritedDescriptor);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, kInheritedDescriptor + 1);
+  }
+  ~SpawnFiles() { posix_spawn_file_actions_destroy(&actions_); }
+  SpawnFiles(const SpawnFiles&) = delete;
+  SpawnFiles& operator=(const SpawnFiles&) = delete;
+  const posix_spawn_file_actions_t* get() const { return &actions_; }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+};
+
+std::string describeStatus(int status) {
+  if (WIFEXITED(status)) return fmt::format("exit status {}", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  return fmt::format("signal {} ({})", signal, strsignal(signal));
+}
+
+}  // namespace
+
+void UniqueFd::reset(int fd) {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = fd;
+}
+
+Pipe makePipe() {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe: {}", ::strerror(errno));
+  return {UniqueFd(ends[0]), UniqueFd(ends[1])};
+}
+
+ChildProcess ChildProcess::start(const std::filesystem::path& program,
+                                 const std::vector<std::string>& arguments,
+                                 const UniqueFd& inherited) {
+  std::string name = program.string();
+  std::vector<std::string> texts = arguments;
+  std::vector<char*> argv{name.data()};
+  for (std::string& text : texts) argv.push_back(text.data());
+  argv.push_back(nullptr);
+
+  const SpawnFiles files(inherited.get());
+  pid_t pid = 0;
+  const int error = ::posix_spawn(&pid, name.c_str(), files.get(), nullptr, argv.data(), environ);
+  if (error != 0) fail("cannot start {}: {}", name, ::strerror(error));
+  return ChildProcess(pid);
+}
+
+ChildProcess::~ChildProcess() {
+  if (pid_ == 0) return;
+  ::kill(pid_, SIGKILL);
+  while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
+}
+
+std::optional<std::string> ChildProcess::ended() {
+  int status = 0;
+  if (pid_ == 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
+  pid_ = 0;
+  return describeStatus(status);
+}
+
+void ChildProcess::terminate() const {
+  if (pid_ != 0) ::kill(pid_, SIGTERM);
+}
+
+std::filesystem::path programBesideUs(const std::string& name) {
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) fail("cannot find our own program: {}", error.message());
+  return self.parent_path() / name;
+}
+
+}  // namespace ninefold

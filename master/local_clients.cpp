@@ -1,0 +1,100 @@
+#include "master/local_clients.h"
+
+#include <unistd.h>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kLongLife = std::chrono::seconds(30);
+constexpr Duration kFirstPause = milliseconds(100);
+constexpr int kCrashesInARow = 5;
+constexpr Duration kTimeToGo = milliseconds(600);
+
+}  // namespace
+
+std::optional<Time> RestartPolicy::crashed(Time started, Time now) {
+  if (now - started >= kLongLife) crashes_ = 0;
+  if (++crashes_ >= kCrashesInARow) return std::nullopt;
+  return now + kFirstPause * (1 << (crashes_ - 1));
+}
+
+void LocalClients::start(Time now) {
+  for (int i = 0; i < plan_.count; ++i) {
+    slots_.emplace_back().number = i + 1;
+    startOne(slots_.back(), now);
+  }
+}
+
+void LocalClients::startOne(Slot& slot, Time now) {
+  Pipe pipe = makePipe();
+  // 32 bytes into an empty pipe: never blocks, never partial.
+  if (::write(pipe.writeEnd.get(), plan_.key.data(), plan_.key.size()) !=
+      static_cast<ssize_t>(plan_.key.size()))
+    fail("cannot hand the key to a local client");
+  std::vector<std::string> arguments = plan_.arguments;
+  arguments.push_back(fmt::format("--name=local{}", slot.number));
+  arguments.push_back(fmt::format("--key-descriptor={}", kInheritedDescriptor));
+  slot.process = ChildProcess::start(plan_.program, arguments, pipe.readEnd);
+  slot.leash = std::move(pipe.writeEnd);
+  slot.started = now;
+  slot.startAt.reset();
+}
+
+void LocalClients::poll(Time now) {
+  for (Slot& slot : slots_) {
+    if (slot.process) {
+      if (const auto how = slot.process->ended())
+        ended(slot, *how, now);
+      else if (killAt_ && now >= *killAt_)
+        slot.process.reset();
+    } else if (slot.startAt && now >= *slot.startAt) {
+      restart(slot, now);
+    }
+  }
+}
+
+void LocalClients::restart(Slot& slot, Time now) {
+  try {
+    startOne(slot, now);
+  } catch (const Error& error) {
+    ended(slot, error.what(), now);
+  }
+}
+
+void LocalClients::ended(Slot& slot, const std::string& how, Time now) {
+  slot.process.reset();
+  slot.leash.reset();
+  if (killAt_) return;
+  ++crashes_;
+  slot.startAt = slot.policy.crashed(slot.started, now);
+  if (slot.startAt)
+    warn("local client {} ended with {}; starting it again in {:.1f} s", slot.number, how,
+         seconds(*slot.startAt - now));
+  else
+    warn("local client {} ended with {} once more and is given up", slot.number, how);
+}
+
+void LocalClients::stop(Time now) {
+  killAt_ = now + kTimeToGo;
+  for (Slot& slot : slots_) {
+    slot.startAt.reset();
+    if (slot.process) slot.process->terminate();
+  }
+}
+
+int LocalClients::running() const {
+  int count = 0;
+  for (const Slot& slot : slots_) count += slot.process ? 1 : 0;
+  return count;
+}
+
+bool LocalClients::exhausted() const {
+  for (const Slot& slot : slots_)
+    if (slot.process || slot.startAt) return false;
+  return plan_.count > 0;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,79 @@
+#include "client/light_set_cache.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace ninefold {
+namespace {
+
+// A set that nobody looks into: only its identity counts here.
+LightSetCache::Shared someSet() {
+  const auto holder = std::make_shared<int>(0);
+  return {holder, reinterpret_cast<const LightSet*>(holder.get())};
+}
+
+FrameKey frameOf(uint32_t randomization) {
+  FrameKey key;
+  key.frame = key.randomization = randomization;
+  return key;
+}
+
+TEST(LightSetCache, ManyThreadsShareOneSetMadeOnce) {
+  std::atomic<int> made = 0;
+  LightSetCache cache(
+      [&](const FrameKey&, int) {
+        ++made;
+        std::this_thread::yield();
+        return someSet();
+      },
+      2);
+  std::vector<LightSetCache::Shared> got(8);
+  std::vector<std::thread> threads;
+  for (auto& set : got) threads.emplace_back([&] { set = cache.get(frameOf(5), 3); });
+  for (auto& thread : threads) thread.join();
+  EXPECT_EQ(made, 1);
+  for (const auto& set : got) EXPECT_EQ(set, got[0]);
+}
+
+TEST(LightSetCache, FramesThatDifferOnlyInNumberAndRotationShare) {
+  LightSetCache cache([](const FrameKey&, int) { return someSet(); }, 2);
+  FrameKey moving = frameOf(1);
+  const auto first = cache.get(moving, 0);
+  moving.frame = 17, moving.rotation = 4;
+  EXPECT_EQ(cache.get(moving, 0), first);
+  moving.photonRadius = 0.5f;
+  EXPECT_NE(cache.get(moving, 0), first);
+}
+
+TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {
+  int made = 0;
+  LightSetCache cache(
+      [&](const FrameKey&, int) {
+        ++made;
+        return someSet();
+      },
+      2);
+  const std::weak_ptr<const LightSet> first = cache.get(frameOf(1), 0);
+  cache.get(frameOf(2), 0);
+  cache.get(frameOf(1), 0);  // used again: 2 is now the oldest
+  cache.get(frameOf(3), 0);
+  EXPECT_EQ(made, 3);
+  EXPECT_FALSE(first.expired());
+  cache.get(frameOf(4), 0);
+  EXPECT_TRUE(first.expired());
+}
+
+TEST(LightSetCache, AFailureReachesTheCallerThroughTheFuture) {
+  LightSetCache cache(
+      [](const FrameKey&, int) -> LightSetCache::Shared { throw std::runtime_error("no memory"); },
+      2);
+  EXPECT_THROW(cache.get(frameOf(1), 0), std::runtime_error);
+  EXPECT_THROW(cache.get(frameOf(1), 0), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace ninefold
