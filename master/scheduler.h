@@ -2,7 +2,7 @@
 // and gives back actions; it knows no socket, thread or clock, so the master, the unit tests and a
 // simulated cluster of a thousand clients all run the same code.
 //
-// Policies, each in one small function of the .cpp:
+// Policies, each in one small function:
 //   order        oldest open frame first; the next frame's tasks go out before this one's last are
 //   back light sets   a client goes on with light sets that it has; a new one is the set with most
 //   tasks left
@@ -30,15 +30,14 @@
 #include <cstdint>
 #include <deque>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/sampling/interleave.h"
 #include "common/scene/settings.h"
-#include "master/scheduler_client.h"
 #include "master/scheduler_frame.h"
+#include "master/scheduler_pool.h"
 #include "master/scheduler_types.h"
 
 namespace ninefold {
@@ -56,9 +55,9 @@ class Scheduler {
 
   // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
   // Tasks without pixels do not exist.
-  void openFrame(const FrameKey& key, const TileGrid& grid, Time now);
+  void openFrame(const FrameKey& key, const TileGrid& grid);
   // All open frames before `firstWanted` are superseded.
-  void viewChanged(uint32_t firstWanted, Time now);
+  void viewChanged(uint32_t firstWanted);
 
   // `cost`: how long one thread of the client worked on it, making its light set included.
   Verdict resultArrived(ClientId client, const TaskId& task, Duration cost, Time now);
@@ -71,7 +70,7 @@ class Scheduler {
   bool wantsFrame() const;
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
   int openFrames() const { return static_cast<int>(frames_.size()); }
-  int clients() const { return static_cast<int>(clients_.size()); }
+  int clients() const { return pool_.size(); }
   // Tasks of an open frame that are not done; 0 for any other frame.
   int tasksLeft(uint32_t frame) const;
 
@@ -83,34 +82,27 @@ class Scheduler {
   void checkInvariants() const;
 
  private:
-  using Ready = std::set<std::pair<Duration, ClientId>>;  // expected time to finish one more task
-
   SchedulerFrame* findFrame(uint32_t frame);
   const SchedulerFrame* findFrame(uint32_t frame) const;
-
-  void updateReady(SchedulerClient& client);
-  void updateSilence(SchedulerClient& client, Time now);
-  void forget(SchedulerClient& client);
+  Verdict verdictOnClosed(uint32_t frame) const;
+  int waiting() const;  // tasks to hand out, over all open frames
 
   void suspectSilentClients(Time now);
-  void takeBackTasks(SchedulerClient& client);
-  void handOutPending(Actions& actions, Time now);
+  void trustAgain(SchedulerClient& client);
+  void handOutWaiting(Actions& actions, Time now);
   void duplicateStragglers(Actions& actions, Time now);
   bool duplicateOne(SchedulerFrame& frame, Actions& actions, Time now);
-  bool copyTo(SchedulerFrame& frame, int task, bool late, Actions& actions, Time now);
   void assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions, Time now);
-  void withdrawFromOthers(const TaskId& task, SchedulerFrame& frame, int index);
+  void withdrawFromOthers(SchedulerFrame& frame, int task, ClientId winner);
+  void withdrawFrame(const SchedulerFrame& frame);
   void closeFrame(uint32_t frame, bool completed);
+  std::string explainOpen(const SchedulerFrame& frame, int task, Time now) const;
 
-  std::map<ClientId, SchedulerClient> clients_;   // present ones
-  std::map<ClientId, ClientReport> past_;         // lost ones
+  SchedulerPool pool_;
+  std::map<ClientId, ClientReport> past_;         // clients that were lost
   std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
   std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?
   uint32_t nextFrame_ = 0;                        // every frame id so far is smaller
-  int pending_ = 0;                               // tasks to hand out, over all open frames
-  int freeCredit_ = 0;                            // over all clients in ready_
-  Ready ready_;                                   // clients to be refilled
-  std::set<std::pair<Time, ClientId>> silence_;   // when clients that hold tasks become suspect
   std::vector<Cancellation> cancellations_;       // for the next poll
   SchedulerCounts counts_;
 };

@@ -57,7 +57,8 @@ class SchedulerClient {
   void take(const TaskId& task, Time now);
   // The task was finished, withdrawn or superseded. False if it was not held.
   bool drop(const TaskId& task);
-  void gaveResult(Duration cost, Time now);  // counts, learns, and is trusted from now on
+  // Learns its speed; trusts it from now on.
+  void gaveResult(Duration cost, bool accepted, Time now);
   void measureRoundTrip(Duration roundTrip);
   void setTrust(Trust trust, Time now);
 
@@ -65,7 +66,6 @@ class SchedulerClient {
   // moves).
   void rememberSet(uint32_t randomization, int set);
   bool remembersSet(uint32_t randomization, int set) const;
-  const std::vector<int>& rememberedSets(uint32_t randomization) const;
 
   ClientReport& counts() { return report_; }
   ClientReport report(Time now) const;

@@ -47,6 +47,8 @@ class SchedulerFrame {
   const std::vector<TaskHolder>& holders(int task) const {
     return tasks_[static_cast<size_t>(task)].holders;
   }
+  // When the first active holder's result should be here. Needs an active task.
+  Time expected(int task) const;
   const Stragglers& stragglers() const { return stragglers_; }
   int left() const { return left_; }        // not done
   int waiting() const { return waiting_; }  // to hand out

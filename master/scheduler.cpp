@@ -1,0 +1,254 @@
+#include "master/scheduler.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+constexpr size_t kRememberedFrames = 64;  // closed ones, to tell duplicate from stale
+constexpr Duration kShortestEstimate = milliseconds(5);  // below that it is jitter, not lateness
+constexpr int kLateFactor = 2;                           // late: took this many times the estimate
+
+}  // namespace
+
+void Scheduler::clientJoined(ClientId id, int threads, Time now) {
+  NINEFOLD_CHECK(!past_.contains(id));
+  pool_.add(id, threads, now);
+}
+
+void Scheduler::clientLost(ClientId id, Time now) {
+  const SchedulerClient* client = pool_.find(id);
+  if (client == nullptr) return;
+  for (const TaskId& task : client->held()) {
+    SchedulerFrame& frame = *findFrame(task.frame);
+    counts_.reissued += frame.removeHolder(frame.indexOf(task), id);
+  }
+  for (auto& [number, frame] : frames_) frame.forgetClient(id);
+  ClientReport report = client->report(now);
+  report.lost = true;
+  report.inFlight = report.window = 0;
+  past_.emplace(id, report);
+  pool_.remove(id);
+}
+
+void Scheduler::clientHeard(ClientId id, Time now) {
+  SchedulerClient* client = pool_.find(id);
+  if (client == nullptr || client->trust() != Trust::suspect || client->inFlight() > 0) return;
+  client->setTrust(Trust::trial, now);
+  pool_.update(*client);
+}
+
+void Scheduler::roundTripMeasured(ClientId id, Duration roundTrip) {
+  SchedulerClient* client = pool_.find(id);
+  if (client == nullptr) return;
+  client->measureRoundTrip(roundTrip);
+  pool_.update(*client);
+}
+
+SchedulerFrame* Scheduler::findFrame(uint32_t frame) {
+  const auto found = frames_.find(frame);
+  return found == frames_.end() ? nullptr : &found->second;
+}
+
+const SchedulerFrame* Scheduler::findFrame(uint32_t frame) const {
+  const auto found = frames_.find(frame);
+  return found == frames_.end() ? nullptr : &found->second;
+}
+
+int Scheduler::tasksLeft(uint32_t frame) const {
+  const SchedulerFrame* found = findFrame(frame);
+  return found == nullptr ? 0 : found->left();
+}
+
+int Scheduler::waiting() const {
+  int sum = 0;
+  for (const auto& [number, frame] : frames_) sum += frame.waiting();
+  return sum;
+}
+
+bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit(); }
+
+void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid) {
+  NINEFOLD_CHECK(key.frame >= nextFrame_);
+  frames_.emplace(key.frame, SchedulerFrame(key, grid));
+  nextFrame_ = key.frame + 1;
+}
+
+void Scheduler::viewChanged(uint32_t firstWanted) {
+  while (!frames_.empty() && frames_.begin()->first < firstWanted) {
+    const SchedulerFrame& frame = frames_.begin()->second;
+    counts_.cancelledTasks += static_cast<uint64_t>(frame.left());
+    ++counts_.cancelledFrames;
+    withdrawFrame(frame);
+    closeFrame(frame.key().frame, false);
+  }
+}
+
+void Scheduler::withdrawFrame(const SchedulerFrame& frame) {
+  std::map<ClientId, bool> told;
+  for (int task = 0; task < frame.tasks(); ++task) {
+    const TaskId id = frame.idOf(task);
+    for (const TaskHolder& holder : frame.holders(task)) {
+      SchedulerClient& client = *pool_.find(holder.client);
+      client.drop(id);
+      pool_.update(client);
+      if (told.emplace(holder.client, true).second)
+        cancellations_.push_back({.client = holder.client, .task = id, .wholeFrame = true});
+    }
+  }
+}
+
+void Scheduler::closeFrame(uint32_t frame, bool completed) {
+  counts_.completedFrames += completed;
+  frames_.erase(frame);
+  closed_.emplace_back(frame, completed);
+  if (closed_.size() > kRememberedFrames) closed_.pop_front();
+}
+
+Verdict Scheduler::verdictOnClosed(uint32_t frame) const {
+  if (frame >= nextFrame_) return Verdict::unknown;
+  for (const auto& [number, completed] : closed_)
+    if (number == frame) return completed ? Verdict::duplicate : Verdict::stale;
+  return Verdict::stale;
+}
+
+Verdict Scheduler::verdictOn(ClientId id, const TaskId& task) const {
+  const SchedulerClient* client = pool_.find(id);
+  if (client == nullptr) return Verdict::unknown;
+  const SchedulerFrame* frame = findFrame(task.frame);
+  if (frame == nullptr) return verdictOnClosed(task.frame);
+  const int index = frame->indexOf(task);
+  if (index < 0) return Verdict::unknown;
+  if (frame->state(index) == TaskState::done) return Verdict::duplicate;
+  if (!client->holds(task)) return Verdict::unknown;
+  return frame->left() == 1 ? Verdict::completedFrame : Verdict::accepted;
+}
+
+Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, Duration cost, Time now) {
+  const Verdict verdict = verdictOn(id, task);
+  counts_.droppedUnknown += verdict == Verdict::unknown;
+  counts_.droppedDuplicate += verdict == Verdict::duplicate;
+  counts_.droppedStale += verdict == Verdict::stale;
+  if (verdict == Verdict::unknown) return verdict;
+
+  SchedulerClient& client = *pool_.find(id);
+  client.drop(task);
+  trustAgain(client);
+  client.gaveResult(cost, isAccepted(verdict), now);
+  pool_.update(client);
+  if (!isAccepted(verdict)) return verdict;
+
+  ++counts_.accepted;
+  SchedulerFrame& frame = *findFrame(task.frame);
+  const int index = frame.indexOf(task);
+  withdrawFromOthers(frame, index, id);
+  frame.finish(index);
+  if (verdict == Verdict::completedFrame) closeFrame(task.frame, true);
+  return verdict;
+}
+
+// A suspect that gives a result may finish what it still holds: its other tasks wait for it again.
+void Scheduler::trustAgain(SchedulerClient& client) {
+  if (client.trust() != Trust::suspect) return;
+  for (const TaskId& task : client.held()) {
+    SchedulerFrame& frame = *findFrame(task.frame);
+    frame.setHolderActive(frame.indexOf(task), client.id(), true);
+  }
+}
+
+void Scheduler::withdrawFromOthers(SchedulerFrame& frame, int task, ClientId winner) {
+  const TaskId id = frame.idOf(task);
+  for (const TaskHolder& holder : frame.holders(task)) {
+    if (holder.client == winner) continue;
+    SchedulerClient& client = *pool_.find(holder.client);
+    client.drop(id);
+    pool_.update(client);
+    cancellations_.push_back({.client = holder.client, .task = id});
+  }
+}
+
+Actions Scheduler::poll(Time now) {
+  Actions actions;
+  suspectSilentClients(now);
+  handOutWaiting(actions, now);
+  duplicateStragglers(actions, now);
+  actions.cancel.swap(cancellations_);
+  return actions;
+}
+
+void Scheduler::suspectSilentClients(Time now) {
+  while (const auto id = pool_.silent(now)) {
+    SchedulerClient& client = *pool_.find(*id);
+    client.setTrust(Trust::suspect, now);
+    for (const TaskId& task : client.held()) {
+      SchedulerFrame& frame = *findFrame(task.frame);
+      counts_.reissued += frame.setHolderActive(frame.indexOf(task), *id, false);
+    }
+    pool_.update(client);
+  }
+}
+
+// Task by task to whoever would finish it first, so that a short supply is spread over all.
+void Scheduler::handOutWaiting(Actions& actions, Time now) {
+  for (auto& [number, frame] : frames_) {
+    while (frame.waiting() > 0 && !pool_.ready().empty()) {
+      SchedulerClient& client = *pool_.find(pool_.ready().begin()->second);
+      const int task = frame.nextWaiting(frame.chooseSet(client));
+      assign(client, frame, task, actions, now);
+    }
+  }
+}
+
+void Scheduler::duplicateStragglers(Actions& actions, Time now) {
+  if (waiting() > 0) return;
+  for (auto& [number, frame] : frames_)
+    while (duplicateOne(frame, actions, now)) {
+    }
+}
+
+// A task with one holder is worth a copy if it is late, or if the other client would be quicker.
+// Its holder may be the quickest client itself, so the two quickest are asked; each holds few
+// tasks.
+bool Scheduler::duplicateOne(SchedulerFrame& frame, Actions& actions, Time now) {
+  const auto& stragglers = frame.stragglers();
+  int asked = 0;
+  for (auto ready = pool_.ready().begin(); ready != pool_.ready().end() && asked < 2;
+       ++ready, ++asked) {
+    SchedulerClient& client = *pool_.find(ready->second);
+    const auto isOthers = [&](const auto& straggler) {
+      return std::ranges::count(frame.holders(straggler.second), client.id(),
+                                &TaskHolder::client) == 0;
+    };
+    const auto latest = std::ranges::find_if(stragglers, isOthers);
+    if (latest == stragglers.end()) continue;
+    const auto farthest = std::find_if(stragglers.rbegin(), stragglers.rend(), isOthers);
+    const bool quicker = now + ready->first < frame.expected(farthest->second);
+    if (latest->first > now && !quicker) continue;
+    ++counts_.duplicated;
+    assign(client, frame, latest->first <= now ? latest->second : farthest->second, actions, now);
+    return true;
+  }
+  return false;
+}
+
+void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions,
+                       Time now) {
+  const Duration estimate = std::max(client.timeForOneMore(), kShortestEstimate);
+  frame.addHolder(task, {.client = client.id(),
+                         .sent = now,
+                         .expected = now + estimate,
+                         .late = now + kLateFactor * estimate});
+  const int set = frame.setOf(task);
+  const auto use = frame.useSet(client.id(), set);
+  client.counts().frames += use.firstInFrame;
+  client.counts().lightSets += use.newSet;
+  client.rememberSet(frame.key().randomization, set);
+  client.take(frame.idOf(task), now);
+  pool_.update(client);
+  ++counts_.assigned;
+  actions.assign.push_back({.client = client.id(), .task = frame.idOf(task)});
+}
+
+}  // namespace ninefold

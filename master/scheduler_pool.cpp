@@ -1,0 +1,74 @@
+#include "master/scheduler_pool.h"
+
+#include "common/base/error.h"
+
+namespace ninefold {
+
+void SchedulerPool::add(ClientId client, int threads, Time now) {
+  const auto [member, added] =
+      members_.emplace(client, Member{.client = SchedulerClient(client, threads, now)});
+  NINEFOLD_CHECK(added);
+  update(member->second.client);
+}
+
+void SchedulerPool::remove(ClientId client) {
+  const auto found = members_.find(client);
+  NINEFOLD_CHECK(found != members_.end());
+  leaveOrders(found->second);
+  members_.erase(found);
+}
+
+SchedulerClient* SchedulerPool::find(ClientId client) {
+  const auto found = members_.find(client);
+  return found == members_.end() ? nullptr : &found->second.client;
+}
+
+const SchedulerClient* SchedulerPool::find(ClientId client) const {
+  const auto found = members_.find(client);
+  return found == members_.end() ? nullptr : &found->second.client;
+}
+
+void SchedulerPool::leaveOrders(Member& member) {
+  if (member.credit > 0) ready_.erase({member.readyOrder, member.client.id()});
+  freeCredit_ -= member.credit;
+  if (member.silenceEnd) silence_.erase({*member.silenceEnd, member.client.id()});
+}
+
+void SchedulerPool::update(SchedulerClient& client) {
+  Member& member = members_.at(client.id());
+  leaveOrders(member);
+  member.credit = client.credit();
+  member.readyOrder = client.timeForOneMore();
+  member.silenceEnd.reset();
+  if (client.inFlight() > 0 && client.trust() != Trust::suspect)
+    member.silenceEnd = client.silentSince() + client.silenceLimit();
+  if (member.credit > 0) ready_.insert({member.readyOrder, client.id()});
+  freeCredit_ += member.credit;
+  if (member.silenceEnd) silence_.insert({*member.silenceEnd, client.id()});
+}
+
+std::optional<ClientId> SchedulerPool::silent(Time now) const {
+  if (silence_.empty() || silence_.begin()->first > now) return std::nullopt;
+  return silence_.begin()->second;
+}
+
+void SchedulerPool::checkInvariants() const {
+  int credit = 0;
+  size_t ready = 0, watched = 0;
+  for (const auto& [id, member] : members_) {
+    const SchedulerClient& client = member.client;
+    const int bound = SchedulerClient::kMaxPerThread * client.threads();
+    NINEFOLD_CHECK(member.credit == client.credit());
+    NINEFOLD_CHECK(client.inFlight() <= bound && client.low() <= client.high());
+    NINEFOLD_CHECK(client.high() <= bound);
+    credit += member.credit;
+    ready += member.credit > 0;
+    watched += member.silenceEnd.has_value();
+    NINEFOLD_CHECK((client.inFlight() > 0 && client.trust() != Trust::suspect) ==
+                   member.silenceEnd.has_value());
+  }
+  NINEFOLD_CHECK(credit == freeCredit_);
+  NINEFOLD_CHECK(ready == ready_.size() && watched == silence_.size());
+}
+
+}  // namespace ninefold

@@ -1,0 +1,55 @@
+// scheduler_pool.h: the clients that are present, in the three orders in which the scheduler asks
+// for them: by id, by who would finish one more task first, by whose silence ends first.
+//
+// Whoever changes a client calls update() for it before the next question.
+// Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "master/scheduler_client.h"
+
+namespace ninefold {
+
+class SchedulerPool {
+ public:
+  using Ready = std::set<std::pair<Duration, ClientId>>;
+
+  void add(ClientId client, int threads, Time now);
+  void remove(ClientId client);
+  SchedulerClient* find(ClientId client);
+  const SchedulerClient* find(ClientId client) const;
+  void update(SchedulerClient& client);
+
+  int size() const { return static_cast<int>(members_.size()); }
+  // Clients with credit, by the time in which they would finish one more task.
+  const Ready& ready() const { return ready_; }
+  int freeCredit() const { return freeCredit_; }  // summed over ready()
+  // A client that holds tasks and has been silent for too long.
+  std::optional<ClientId> silent(Time now) const;
+
+  template <typename Visit>
+  void forEach(Visit visit) const {
+    for (const auto& [id, member] : members_) visit(member.client);
+  }
+  void checkInvariants() const;
+
+ private:
+  struct Member {
+    SchedulerClient client;
+    int credit = 0;  // as counted in freeCredit_; in ready_ if > 0
+    Duration readyOrder{0};
+    std::optional<Time> silenceEnd = std::nullopt;
+  };
+  void leaveOrders(Member& member);
+
+  std::map<ClientId, Member> members_;
+  Ready ready_;
+  int freeCredit_ = 0;
+  std::set<std::pair<Time, ClientId>> silence_;
+};
+
+}  // namespace ninefold
