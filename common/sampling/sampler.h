@@ -40,7 +40,16 @@
 namespace ninefold {
 
 // What a stream of samples is for; part of its address so that no two uses share numbers.
-enum class SampleUse : uint32_t { lightPath, directVpl, photon, eyePath, gather, rounding, probe };
+enum class SampleUse : uint32_t {
+  lightPath,
+  directVpl,
+  photon,
+  indirectPhoton,
+  eyePath,
+  gather,
+  rounding,
+  probe
+};
 
 // The 24 highest bits as a number in [0, 1); more would round up to 1.
 inline float unitFloat(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }

@@ -17,7 +17,7 @@ struct Polar {
 Polar squareToPolar(Vec2 u) {
   const float a = signedUnit(u.x), b = signedUnit(u.y);
   const bool wide = std::abs(a) > std::abs(b);
-  const float angle = 0.25f * kPi * (wide ? b / a : a / b);
+  const float angle = 0.25f * kPi * (wide ? b / a : b == 0 ? 0.0f : a / b);
   const float c = std::cos(angle), s = std::sin(angle);
   return wide ? Polar{Vec2(c, s), a} : Polar{Vec2(s, c), b};
 }
