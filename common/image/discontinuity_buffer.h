@@ -25,6 +25,16 @@
 
 namespace ninefold {
 
+// SurfaceGuide of each pixel of a sub-plane.
+struct GuidePlanes {
+  std::vector<float> u, gradX, gradY, slack;
+
+  void resize(size_t n) { u.resize(n), gradX.resize(n), gradY.resize(n), slack.resize(n); }
+  void set(size_t i, const SurfaceGuide& guide) {
+    u[i] = guide.u, gradX[i] = guide.gradX, gradY[i] = guide.gradY, slack[i] = guide.slack;
+  }
+};
+
 class DiscontinuityBuffer {
  public:
   void reset(const TileGrid& grid, SurfaceTest test);
@@ -38,15 +48,12 @@ class DiscontinuityBuffer {
                   float neighbourWeight, RgbPlane& out) const;
 
  private:
-  struct Guides {
-    std::vector<float> u, gradX, gradY, slack;  // see SurfaceGuide
-  };
-  struct Row;
-  struct Window;
-  Row rowOf(const FrameBuffer& frame, int layer, int phase, int j) const;
+  // `count` pixels of row j from pixel `first` on.
+  void filterChunk(const FrameBuffer& frame, int layer, int phase, int j, int first, int count,
+                   float weight, RgbPlane& out) const;
 
   SurfaceTest test_ = SurfaceTest::surface;
-  std::vector<Guides> guides_;  // per phase; empty for the paper's test
+  std::vector<GuidePlanes> guides_;  // per phase; none for the paper's test
 };
 
 }  // namespace ninefold

@@ -55,6 +55,7 @@ class Film {
 
  private:
   void addBlocks(const RgbImage& frame);
+  double relative(double m2) const;  // sqrt(m2/(N-1)/N) / Y
 
   int width_, height_, blockColumns_, blockRows_;
   int64_t frames_ = 0;

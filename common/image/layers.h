@@ -11,6 +11,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -31,6 +31,7 @@ class ToneMap {
   void apply(const RgbImage& image, std::vector<uint8_t>& rgb) const;
 
  private:
+  float scale_;
   std::vector<uint8_t> codes_;
 };
 
