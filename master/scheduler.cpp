@@ -21,10 +21,9 @@ void Scheduler::clientJoined(ClientId id, int threads, Time now) {
 void Scheduler::clientLost(ClientId id, Time now) {
   const SchedulerClient* client = pool_.find(id);
   if (client == nullptr) return;
-  for (const TaskId& task : client->held()) {
-    SchedulerFrame& frame = *findFrame(task.frame);
-    counts_.reissued += frame.removeHolder(frame.indexOf(task), id);
-  }
+  for (const TaskId& task : client->held())
+    if (SchedulerFrame* frame = findFrame(task.frame))
+      counts_.reissued += frame->removeHolder(frame->indexOf(task), id);
   for (auto& [number, frame] : frames_) frame.forgetClient(id);
   ClientReport report = client->report(now);
   report.lost = true;
@@ -35,7 +34,9 @@ void Scheduler::clientLost(ClientId id, Time now) {
 
 void Scheduler::clientHeard(ClientId id, Time now) {
   SchedulerClient* client = pool_.find(id);
-  if (client == nullptr || client->trust() != Trust::suspect || client->inFlight() > 0) return;
+  if (client == nullptr) return;
+  client->heard(now);
+  if (client->trust() != Trust::suspect || client->inFlight() > 0) return;
   client->setTrust(Trust::trial, now);
   pool_.update(*client);
 }
@@ -78,26 +79,15 @@ void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid) {
 
 void Scheduler::viewChanged(uint32_t firstWanted) {
   while (!frames_.empty() && frames_.begin()->first < firstWanted) {
-    const SchedulerFrame& frame = frames_.begin()->second;
-    counts_.cancelledTasks += static_cast<uint64_t>(frame.left());
+    counts_.cancelledTasks += static_cast<uint64_t>(frames_.begin()->second.left());
     ++counts_.cancelledFrames;
-    withdrawFrame(frame);
-    closeFrame(frame.key().frame, false);
+    closeFrame(frames_.begin()->first, false);
   }
-}
-
-void Scheduler::withdrawFrame(const SchedulerFrame& frame) {
-  std::map<ClientId, bool> told;
-  for (int task = 0; task < frame.tasks(); ++task) {
-    const TaskId id = frame.idOf(task);
-    for (const TaskHolder& holder : frame.holders(task)) {
-      SchedulerClient& client = *pool_.find(holder.client);
-      client.drop(id);
-      pool_.update(client);
-      if (told.emplace(holder.client, true).second)
-        cancellations_.push_back({.client = holder.client, .task = id, .wholeFrame = true});
-    }
-  }
+  pool_.change([&](SchedulerClient& client) {
+    const bool held = client.withdraw(firstWanted);
+    if (held) cancellations_.push_back({.client = client.id(), .firstWanted = firstWanted});
+    return held;
+  });
 }
 
 void Scheduler::closeFrame(uint32_t frame, bool completed) {
@@ -134,7 +124,7 @@ Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, Duration cost,
   if (verdict == Verdict::unknown) return verdict;
 
   SchedulerClient& client = *pool_.find(id);
-  client.drop(task);
+  client.answered(task);
   trustAgain(client);
   client.gaveResult(cost, isAccepted(verdict), now);
   pool_.update(client);
@@ -142,31 +132,17 @@ Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, Duration cost,
 
   ++counts_.accepted;
   SchedulerFrame& frame = *findFrame(task.frame);
-  const int index = frame.indexOf(task);
-  withdrawFromOthers(frame, index, id);
-  frame.finish(index);
+  frame.finish(frame.indexOf(task));
   if (verdict == Verdict::completedFrame) closeFrame(task.frame, true);
   return verdict;
 }
 
-// A suspect that gives a result may finish what it still holds: its other tasks wait for it again.
+// A suspect that gives a result will finish what it still holds: its claims count again.
 void Scheduler::trustAgain(SchedulerClient& client) {
   if (client.trust() != Trust::suspect) return;
-  for (const TaskId& task : client.held()) {
-    SchedulerFrame& frame = *findFrame(task.frame);
-    frame.setHolderActive(frame.indexOf(task), client.id(), true);
-  }
-}
-
-void Scheduler::withdrawFromOthers(SchedulerFrame& frame, int task, ClientId winner) {
-  const TaskId id = frame.idOf(task);
-  for (const TaskHolder& holder : frame.holders(task)) {
-    if (holder.client == winner) continue;
-    SchedulerClient& client = *pool_.find(holder.client);
-    client.drop(id);
-    pool_.update(client);
-    cancellations_.push_back({.client = holder.client, .task = id});
-  }
+  for (const TaskId& task : client.held())
+    if (SchedulerFrame* frame = findFrame(task.frame))
+      frame->setHolderActive(frame->indexOf(task), client.id(), true);
 }
 
 Actions Scheduler::poll(Time now) {
@@ -182,10 +158,9 @@ void Scheduler::suspectSilentClients(Time now) {
   while (const auto id = pool_.silent(now)) {
     SchedulerClient& client = *pool_.find(*id);
     client.setTrust(Trust::suspect, now);
-    for (const TaskId& task : client.held()) {
-      SchedulerFrame& frame = *findFrame(task.frame);
-      counts_.reissued += frame.setHolderActive(frame.indexOf(task), *id, false);
-    }
+    for (const TaskId& task : client.held())
+      if (SchedulerFrame* frame = findFrame(task.frame))
+        counts_.reissued += frame->setHolderActive(frame->indexOf(task), *id, false);
     pool_.update(client);
   }
 }

@@ -18,7 +18,7 @@ Duration average(std::optional<Duration> old, Duration sample) {
 }  // namespace
 
 SchedulerClient::SchedulerClient(ClientId id, int threads, Time now)
-    : joined_(now), silentSince_(now) {
+    : joined_(now), silentSince_(now), lastHeard_(now) {
   report_.client = id;
   report_.threads = std::max(1, threads);
 }
@@ -50,23 +50,29 @@ void SchedulerClient::updateRefilling() {
 
 void SchedulerClient::take(const TaskId& task, Time now) {
   NINEFOLD_CHECK(!holds(task));
-  if (held_.empty()) silentSince_ = now;
+  // While views change quickly, a frozen client must not look busy just because it gets new tasks.
+  if (held_.empty()) silentSince_ = owesAnswer_ ? std::max(silentSince_, lastHeard_) : now;
   held_.push_back(task);
   updateRefilling();
 }
 
-bool SchedulerClient::drop(const TaskId& task) {
-  const auto found = std::ranges::find(held_, task);
-  if (found == held_.end()) return false;
-  held_.erase(found);
+void SchedulerClient::answered(const TaskId& task) {
+  std::erase(held_, task);
   updateRefilling();
-  return true;
+}
+
+bool SchedulerClient::withdraw(uint32_t firstWanted) {
+  const auto count = std::erase_if(held_, [&](const TaskId& t) { return t.frame < firstWanted; });
+  owesAnswer_ = owesAnswer_ || count > 0;
+  updateRefilling();
+  return count > 0;
 }
 
 void SchedulerClient::gaveResult(Duration cost, bool accepted, Time now) {
   cost = std::clamp(cost, kShortestTask, kLongestTask);
   report_.busy += cost;
   report_.tasks += accepted;
+  owesAnswer_ = false;
   // One task that met a pause of its machine must not make the client look slow for long.
   taskTime_ = average(taskTime_, taskTime_ ? std::min(cost, kOutlier * *taskTime_) : cost);
   setTrust(Trust::trusted, now);

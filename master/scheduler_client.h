@@ -55,8 +55,10 @@ class SchedulerClient {
   Trust trust() const { return trust_; }
 
   void take(const TaskId& task, Time now);
-  // The task was finished, withdrawn or superseded. False if it was not held.
-  bool drop(const TaskId& task);
+  void answered(const TaskId& task);  // its result came, wanted or not
+  // Forgets what it holds of frames before firstWanted. False if that was nothing.
+  bool withdraw(uint32_t firstWanted);
+  void heard(Time now) { lastHeard_ = now; }
   // Learns its speed; trusts it from now on.
   void gaveResult(Duration cost, bool accepted, Time now);
   void measureRoundTrip(Duration roundTrip);
@@ -83,7 +85,8 @@ class SchedulerClient {
   Trust trust_ = Trust::trusted;
   std::optional<Duration> taskTime_;
   Duration roundTrip_{0};
-  Time silentSince_;
+  Time silentSince_, lastHeard_;
+  bool owesAnswer_ = false;  // tasks were withdrawn from it since its last result
   uint32_t randomization_ = 0;
   std::vector<int> sets_;  // made under randomization_, latest last
 };

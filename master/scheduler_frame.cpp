@@ -112,12 +112,14 @@ void SchedulerFrame::addHolder(int task, const TaskHolder& holder) {
 }
 
 bool SchedulerFrame::setHolderActive(int task, ClientId client, bool active) {
+  if (state(task) == TaskState::done) return false;
   leaveStraggler(task);
   holder(task, client).active = active;
   return settle(task);
 }
 
 bool SchedulerFrame::removeHolder(int task, ClientId client) {
+  if (state(task) == TaskState::done) return false;
   leaveStraggler(task);
   std::erase_if(at(task).holders, [&](const TaskHolder& h) { return h.client == client; });
   return settle(task);

@@ -60,10 +60,9 @@ class SchedulerFrame {
   int nextWaiting(int set);
 
   void addHolder(int task, const TaskHolder& holder);
-  // Switches a suspect's claim off or on again. True if the task became waiting (front of its
-  // queue).
+  // Switches a suspect's claim off or on again. True if the task now waits, first in its queue.
+  // Nothing happens once the task is done; the same for removeHolder.
   bool setHolderActive(int task, ClientId client, bool active);
-  // Takes the holder out. True if the task became waiting (front of its queue).
   bool removeHolder(int task, ClientId client);
   void finish(int task);
 

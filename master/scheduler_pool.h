@@ -23,6 +23,12 @@ class SchedulerPool {
   SchedulerClient* find(ClientId client);
   const SchedulerClient* find(ClientId client) const;
   void update(SchedulerClient& client);
+  // Visits all clients in the order of their ids; `visit` says whether it changed the client.
+  template <typename Visit>
+  void change(Visit visit) {
+    for (auto& [id, member] : members_)
+      if (visit(member.client)) update(member.client);
+  }
 
   int size() const { return static_cast<int>(members_.size()); }
   // Clients with credit, by the time in which they would finish one more task.

@@ -26,13 +26,11 @@ struct Assignment {
   bool operator==(const Assignment&) const = default;
 };
 
-// Tell this client that nobody waits for this work any more: one task, or all tasks of a frame.
-// Credit is given back at once, so the client need not answer; what it sends all the same is
-// dropped.
+// Tell this client to forget its tasks of all frames before firstWanted. Its credit is given back
+// at once, so it need not answer; what it sends all the same is dropped as stale.
 struct Cancellation {
   ClientId client = 0;
-  TaskId task;
-  bool wholeFrame = false;  // then only task.frame counts
+  uint32_t firstWanted = 0;
   bool operator==(const Cancellation&) const = default;
 };
 
