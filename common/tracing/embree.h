@@ -23,11 +23,28 @@ inline void intersect16(RTCScene scene, const int* valid, RTCRayHit16* rays) {
   rtcIntersect16(valid, scene, rays, &arguments);
 }
 
+inline void intersect8(RTCScene scene, const int* valid, RTCRayHit8* rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, rays, &arguments);
+}
+
+inline RTCOccludedArguments occlusion(bool coherent) {
+  RTCOccludedArguments made;
+  rtcInitOccludedArguments(&made);
+  made.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  return made;
+}
+
 inline void occluded16(RTCScene scene, const int* valid, RTCRay16* rays, bool coherent) {
-  RTCOccludedArguments arguments;
-  rtcInitOccludedArguments(&arguments);
-  arguments.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  RTCOccludedArguments arguments = occlusion(coherent);
   rtcOccluded16(valid, scene, rays, &arguments);
+}
+
+inline void occluded8(RTCScene scene, const int* valid, RTCRay8* rays, bool coherent) {
+  RTCOccludedArguments arguments = occlusion(coherent);
+  rtcOccluded8(valid, scene, rays, &arguments);
 }
 
 #else
@@ -55,9 +72,19 @@ inline void intersect16(RTCScene scene, const int* valid, RTCRayHit16* rays) {
   rtcIntersect16(valid, scene, &made, rays);
 }
 
+inline void intersect8(RTCScene scene, const int* valid, RTCRayHit8* rays) {
+  RTCIntersectContext made = context(true);
+  rtcIntersect8(valid, scene, &made, rays);
+}
+
 inline void occluded16(RTCScene scene, const int* valid, RTCRay16* rays, bool coherent) {
   RTCIntersectContext made = context(coherent);
   rtcOccluded16(valid, scene, &made, rays);
+}
+
+inline void occluded8(RTCScene scene, const int* valid, RTCRay8* rays, bool coherent) {
+  RTCIntersectContext made = context(coherent);
+  rtcOccluded8(valid, scene, &made, rays);
 }
 
 #endif

@@ -1,27 +1,15 @@
 #include "common/tracing/tracer.h"
 
-#include <cstddef>
-#include <cstring>
 #include <new>
 
 #include "common/base/error.h"
 #include "common/tracing/alpha_mask.h"
 #include "common/tracing/device.h"
 #include "common/tracing/geometry.h"
+#include "common/tracing/packet.h"
 
 namespace ninefold {
 namespace {
-
-// A RayPacket is handed to Embree as it is.
-static_assert(sizeof(RayPacket) == sizeof(RTCRay16) && alignof(RayPacket) == alignof(RTCRay16));
-static_assert(offsetof(RayPacket, originX) == offsetof(RTCRay16, org_x));
-static_assert(offsetof(RayPacket, nearT) == offsetof(RTCRay16, tnear));
-static_assert(offsetof(RayPacket, directionX) == offsetof(RTCRay16, dir_x));
-static_assert(offsetof(RayPacket, directionZ) == offsetof(RTCRay16, dir_z));
-static_assert(offsetof(RayPacket, time) == offsetof(RTCRay16, time));
-static_assert(offsetof(RayPacket, farT) == offsetof(RTCRay16, tfar));
-static_assert(offsetof(RayPacket, mask) == offsetof(RTCRay16, mask));
-static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
 
 RTCRay singleRay(Vec3 origin, Vec3 direction, float tFar) {
   RTCRay ray{};
@@ -32,14 +20,6 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tFar) {
   return ray;
 }
 
-// Embree's lane masks: -1 = trace, 0 = leave alone.
-struct alignas(64) LaneMask {
-  int lane[kPacket];
-  explicit LaneMask(uint32_t active) {
-    for (int i = 0; i < kPacket; ++i) lane[i] = (active >> i & 1) != 0 ? -1 : 0;
-  }
-};
-
 }  // namespace
 
 struct Tracer::Impl {
@@ -49,8 +29,10 @@ struct Tracer::Impl {
   Device device;
   Hierarchy hierarchy;
   std::string isaName;
+  bool wide;  // Embree has 16-wide kernels here
 
-  Impl(const Scene& s, Isa isa) : scene(s), device(makeDevice(isa)), isaName(isaOf(device.get())) {
+  Impl(const Scene& s, Isa isa)
+      : scene(s), device(makeDevice(isa)), isaName(isaOf(device.get())), wide(isaName == "avx512") {
     flatten();
     build();
   }
@@ -96,6 +78,7 @@ Tracer::Tracer(const Scene& scene, Isa isa) try : impl_(std::make_unique<Impl>(s
 Tracer::~Tracer() = default;
 
 Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
+  if (!traceable(origin, direction, tFar)) return Hit::none();
   RTCRayHit query{};
   query.ray = singleRay(origin, direction, tFar);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -106,33 +89,31 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
 
 void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits) const {
   RTCRayHit16 query;
-  std::memcpy(&query.ray, &rays, sizeof rays);
-  std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-  const LaneMask valid(active);
-  embree::intersect16(impl_->hierarchy.get(), valid.lane, &query);
-  std::memcpy(rays.farT, query.ray.tfar, sizeof rays.farT);
+  const uint32_t lanes = traceable(rays, active);
+  intersectPacket(impl_->hierarchy.get(), impl_->wide, rays, lanes, query);
+  const RTCHit16& hit = query.hit;
   for (int i = 0; i < kPacket; ++i) {
-    if (valid.lane[i] == 0) continue;
-    const RTCHit16& hit = query.hit;
-    hits[i] = hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
-                  ? Hit::none()
-                  : Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]};
+    if ((active >> i & 1) == 0) continue;
+    hits[i] = Hit::none();
+    if ((lanes >> i & 1) == 0 || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    rays.farT[i] = query.ray.tfar[i];
+    hits[i] = Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]};
   }
 }
 
 bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
+  if (!traceable(origin, direction, tFar)) return false;
   RTCRay ray = singleRay(origin, direction, tFar);
   embree::occluded1(impl_->hierarchy.get(), &ray);
   return ray.tfar < 0;
 }
 
 uint32_t Tracer::occluded16(RayPacket& rays, uint32_t active, bool coherent) const {
-  const LaneMask valid(active);
-  embree::occluded16(impl_->hierarchy.get(), valid.lane, reinterpret_cast<RTCRay16*>(&rays),
-                     coherent);
+  const uint32_t lanes = traceable(rays, active);
+  occludedPacket(impl_->hierarchy.get(), impl_->wide, coherent, lanes, rays);
   uint32_t blocked = 0;
   for (int i = 0; i < kPacket; ++i) blocked |= uint32_t(rays.farT[i] < 0) << i;
-  return blocked & active;
+  return blocked & lanes;
 }
 
 SurfacePoint Tracer::surface(const Hit& hit) const {

@@ -6,7 +6,8 @@
 // faces. The robust traversal is used: no cracks between triangles that share an edge.
 //
 // Threads: const functions are reentrant. Owner: holds flattened geometry, refers to the Scene, which must
-// outlive it. Errors: constructor throws Error when memory or the instruction set is missing.
+// outlive it. Errors: constructor throws Error when memory or the instruction set is missing, or when the
+// scene is larger than rays can be traced in. A ray with NaN or infinite coordinates hits nothing.
 #pragma once
 
 #include <cstdint>

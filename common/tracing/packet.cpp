@@ -1,0 +1,97 @@
+#include "common/tracing/packet.h"
+
+#include <cstddef>
+#include <cstring>
+
+namespace ninefold {
+namespace {
+
+// A RayPacket is handed to Embree as it is.
+static_assert(sizeof(RayPacket) == sizeof(RTCRay16) && alignof(RayPacket) == alignof(RTCRay16));
+static_assert(offsetof(RayPacket, originX) == offsetof(RTCRay16, org_x));
+static_assert(offsetof(RayPacket, nearT) == offsetof(RTCRay16, tnear));
+static_assert(offsetof(RayPacket, directionX) == offsetof(RTCRay16, dir_x));
+static_assert(offsetof(RayPacket, directionZ) == offsetof(RTCRay16, dir_z));
+static_assert(offsetof(RayPacket, time) == offsetof(RTCRay16, time));
+static_assert(offsetof(RayPacket, farT) == offsetof(RTCRay16, tfar));
+static_assert(offsetof(RayPacket, mask) == offsetof(RTCRay16, mask));
+static_assert(offsetof(RayPacket, flags) == offsetof(RTCRay16, flags));
+
+constexpr int kHalf = kPacket / 2;
+constexpr size_t kRayFields = sizeof(RTCRay16) / (kPacket * sizeof(float));
+
+// Embree's lane masks: -1 = trace, 0 = leave alone.
+struct alignas(64) LaneMask {
+  int lane[kPacket];
+  explicit LaneMask(uint32_t active) {
+    for (int i = 0; i < kPacket; ++i) lane[i] = (active >> i & 1) != 0 ? -1 : 0;
+  }
+};
+
+// Copies `fields` planes of eight lanes between a packet of 8 and a half of a packet of 16.
+void copyHalf(void* eight, const void* sixteen, int half, size_t fields) {
+  for (size_t field = 0; field < fields; ++field)
+    std::memcpy(static_cast<float*>(eight) + field * kHalf,
+                static_cast<const float*>(sixteen) + field * kPacket + size_t(half) * kHalf,
+                kHalf * sizeof(float));
+}
+
+void intersectHalf(RTCScene scene, const int* valid, int half, RTCRayHit16& query) {
+  RTCRayHit8 eight;
+  copyHalf(&eight.ray, &query.ray, half, kRayFields);
+  std::fill_n(eight.hit.geomID, kHalf, RTC_INVALID_GEOMETRY_ID);
+  embree::intersect8(scene, valid, &eight);
+  const int first = half * kHalf;
+  std::copy_n(eight.ray.tfar, kHalf, query.ray.tfar + first);
+  std::copy_n(eight.hit.u, kHalf, query.hit.u + first);
+  std::copy_n(eight.hit.v, kHalf, query.hit.v + first);
+  std::copy_n(eight.hit.primID, kHalf, query.hit.primID + first);
+  std::copy_n(eight.hit.geomID, kHalf, query.hit.geomID + first);
+}
+
+}  // namespace
+
+bool traceable(Vec3 origin, Vec3 direction, float tFar) {
+  const auto small = [](float x) { return std::abs(x) < kMaxCoordinate; };
+  return small(origin.x) && small(origin.y) && small(origin.z) && small(direction.x) &&
+         small(direction.y) && small(direction.z) && !std::isnan(tFar);
+}
+
+uint32_t traceable(const RayPacket& rays, uint32_t active) {
+  uint32_t good[kPacket];
+  for (int i = 0; i < kPacket; ++i) {
+    const auto small = [](float x) { return uint32_t(std::abs(x) < kMaxCoordinate); };
+    good[i] = small(rays.originX[i]) & small(rays.originY[i]) & small(rays.originZ[i]) &
+              small(rays.directionX[i]) & small(rays.directionY[i]) & small(rays.directionZ[i]) &
+              uint32_t(rays.nearT[i] == rays.nearT[i]) & uint32_t(rays.farT[i] == rays.farT[i]);
+  }
+  uint32_t lanes = 0;
+  for (int i = 0; i < kPacket; ++i) lanes |= good[i] << i;
+  return lanes & active;
+}
+
+void intersectPacket(RTCScene scene, bool wide, const RayPacket& rays, uint32_t active,
+                     RTCRayHit16& query) {
+  std::memcpy(&query.ray, &rays, sizeof rays);
+  std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+  const LaneMask valid(active);
+  if (wide) return embree::intersect16(scene, valid.lane, &query);
+  intersectHalf(scene, valid.lane, 0, query);
+  intersectHalf(scene, valid.lane + kHalf, 1, query);
+}
+
+void occludedPacket(RTCScene scene, bool wide, bool coherent, uint32_t active, RayPacket& rays) {
+  const LaneMask valid(active);
+  if (wide) {
+    embree::occluded16(scene, valid.lane, reinterpret_cast<RTCRay16*>(&rays), coherent);
+    return;
+  }
+  for (int half = 0; half < 2; ++half) {
+    RTCRay8 eight;
+    copyHalf(&eight, &rays, half, kRayFields);
+    embree::occluded8(scene, valid.lane + half * kHalf, &eight, coherent);
+    std::copy_n(eight.tfar, kHalf, rays.farT + half * kHalf);
+  }
+}
+
+}  // namespace ninefold
