@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/scene/settings.h"
 
 namespace ninefold {
 
@@ -28,6 +29,11 @@ struct Needs {
 // roughness over the texture is at least 0.6 for dielectrics (metallic < 0.5), 0.85 for metals; or
 // its specular factor is 0.
 bool foldsIntoDiffuse(const Scene& scene, const Material& material);
+
+// The layers that a task of this method carries; master and clients must agree on it.
+inline uint8_t layerMaskOf(const Needs& needs, Method method) {
+  return method == Method::pathTrace ? uint8_t{1} : needs.layerMask();
+}
 
 Needs needsOf(const Scene& scene, Radiance environment);
 

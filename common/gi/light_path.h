@@ -1,0 +1,105 @@
+// light_path.h: the random walk of particles from the lights, written once. Visitors say what becomes of it.
+//
+// At each hit the visitor is told; then one lobe is chosen, D or S, with probability in proportion to its
+// albedo, and the walk survives with the albedos' sum (largest channel, at most kMaxSurvival):
+//   flux *= lobe weight / probability
+// so flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's factor (see
+// shading.h); S lobes carry it for both directions.
+//
+// Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival; 4j+3 inside the lobe.
+// Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
+// Threads: reentrant.   Errors: none. Walks end after kMaxVertices at the latest (survival 0.99^k is nil).
+#pragma once
+
+#include "common/base/counters.h"
+#include "common/gi/emission.h"
+#include "common/sampling/sampler.h"
+#include "common/sampling/warp.h"
+
+namespace ninefold {
+
+inline constexpr float kMaxSurvival = 0.99f;
+inline constexpr int kMaxVertices = 4096;
+
+// Where a particle arrives. flux is that of the arriving particle [W], attenuated by the medium.
+struct Arrival {
+  const ShadingPoint* point;
+  Flux flux;
+  MediumStack media;  // on the side it came from
+  bool fromSpecular;  // the last scattering was S
+  int diffuseBefore;  // D vertices before this one
+};
+
+// Probabilities of the three ways on, D, reflection, transmission; their sum is the survival.
+struct LobeChoice {
+  float diffuse = 0, reflection = 0, transmission = 0;
+  float sum() const { return diffuse + reflection + transmission; }
+};
+
+inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
+  LobeChoice c;
+  c.diffuse = maxComponent(bsdf.diffuse);
+  if (bsdf.reflects) c.reflection = maxComponent(lobeAlbedo(bsdf, Lobe::reflection, cosThetaO));
+  if (bsdf.transmits()) c.transmission = maxComponent(lobeAlbedo(bsdf, Lobe::transmission, cosThetaO));
+  return c;
+}
+
+// Veach's factor of an S lobe for particles: |wo.ns wi.ng| / (|wo.ng wi.ns|), 0 if a normal disagrees.
+inline float specularShadingFactor(const ShadingPoint& p, Vec3 wi, bool transmitted) {
+  const float in = shadingFactor(p, p.wo);
+  const float g = glm::dot(wi, p.ng), s = glm::dot(wi, p.frame.normal);
+  const bool agrees = transmitted ? g < 0 && s < 0 : g > 0 && s > 0;
+  return agrees ? in * g / s : 0.0f;
+}
+
+// visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes on after S.
+// onlySpecular: the walk ends at its first D vertex.
+template <typename Visit>
+void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
+                   const LightSampler& sampler, uint32_t index, uint32_t firstDimension, RayCounts& rays,
+                   Visit&& visit) {
+  bool fromSpecular = false;
+  int specularRun = 0;
+  for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
+    if (isBlack(particle.flux)) return;
+    ++rays.photon;
+    const Hit hit = t.tracer.closest(particle.origin, particle.direction,
+                                     std::numeric_limits<float>::infinity());
+    if (!hit) return;
+    const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -particle.direction, media);
+    particle.flux *= t.shader.attenuation(p, media, hit.t);
+    const bool goOn = visit(Arrival{&p, particle.flux, media, fromSpecular, diffuseBefore});
+
+    // Choose D or an S lobe, or the end.
+    const uint32_t d = firstDimension + 4 * static_cast<uint32_t>(vertex);
+    LobeChoice choice = albedoChoice(p.bsdf, p.localWo().z);
+    if (const float sum = choice.sum(); sum > kMaxSurvival) {
+      const float scale = kMaxSurvival / sum;
+      choice.diffuse *= scale, choice.reflection *= scale, choice.transmission *= scale;
+    }
+    float u = sampler.get1D(index, d + 2);
+    const Vec2 uDirection = sampler.get2D(index, d);
+    if (u < choice.diffuse) {
+      if (!goOn) return;
+      const Vec3 wi = Frame(p.ng).toWorld(squareToCosineHemisphere(uDirection));
+      particle.flux *= shadingFactor(p, p.wo) / choice.diffuse * p.bsdf.diffuse;
+      particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
+      fromSpecular = false, specularRun = 0, ++diffuseBefore;
+      continue;
+    }
+    u -= choice.diffuse;
+    const Lobe lobe = u < choice.reflection ? Lobe::reflection : Lobe::transmission;
+    const float probability = lobe == Lobe::reflection ? choice.reflection : choice.transmission;
+    if (u >= choice.reflection + choice.transmission || ++specularRun > t.settings.specularDepth) return;
+    const auto sample = sampleLobe(p.bsdf, lobe, p.localWo(), uDirection, sampler.get1D(index, d + 3));
+    if (!sample) return;
+    const Vec3 wi = glm::normalize(p.frame.toWorld(sample->wi));
+    const bool transmitted = lobe == Lobe::transmission;
+    particle.flux *= specularShadingFactor(p, wi, transmitted) / probability * sample->weight;
+    particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
+    if (transmitted) media = t.shader.pass(p, media);
+    fromSpecular = true;
+  }
+}
+
+}  // namespace ninefold

@@ -1,0 +1,132 @@
+#include "common/gi/light_set.h"
+
+#include <bit>
+
+#include "common/gi/caustic_photons.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kPilotLog2 = 10;
+constexpr int kMaxPathsLog2 = 20;
+
+int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
+
+Vpl punctualVpl(const PunctualLight& light) {
+  Vpl vpl;
+  vpl.kind = light.kind == LightKind::point  ? Vpl::Kind::point
+             : light.kind == LightKind::spot ? Vpl::Kind::spot
+                                             : Vpl::Kind::directional;
+  vpl.position = light.position;
+  vpl.normal = light.kind == LightKind::directional ? -light.direction : light.direction;
+  vpl.power = light.intensity;
+  const float inner = std::cos(light.innerCone), outer = std::cos(light.outerCone);
+  vpl.coneScale = 1 / std::max(inner - outer, 0.001f);
+  vpl.coneOffset = -outer * vpl.coneScale;
+  return vpl;
+}
+
+// One sample of the emitters; `share` = 1 / (number of samples * probability).
+Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
+  const Emitter& e = t.emitters[index];
+  if (e.kind == EmitterKind::environment) {
+    Vpl vpl;
+    vpl.kind = Vpl::Kind::directional;
+    vpl.normal = squareToSphere(u);
+    vpl.power = share / kSpherePdf * t.emitters.environment();
+    return vpl;
+  }
+  if (e.kind != EmitterKind::triangle) {
+    Vpl vpl = punctualVpl(t.scene.lights[e.light]);
+    vpl.power *= share;
+    return vpl;
+  }
+  const bool back = e.doubleSided && u.x >= 0.5f;
+  if (e.doubleSided) u.x = std::min(2 * u.x - (back ? 1.0f : 0.0f), 0x1.fffffep-1f);
+  const EmitterPoint p = t.emitters.pointAt(index, squareToTriangle(u));
+  Vpl vpl;
+  vpl.emits = true;
+  vpl.position = p.position, vpl.error = p.error;
+  vpl.normal = back ? -e.normal : e.normal;
+  vpl.power = share * (e.doubleSided ? 2.0f : 1.0f) * e.area * p.radiance;
+  return vpl;
+}
+
+void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector<Vpl>& vpls) {
+  const int count = t.settings.directVpls;
+  const LightSampler sampler(t.settings.seed, SampleUse::directVpl, frame.randomization,
+                             static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
+  std::vector<std::pair<uint32_t, size_t>> merged;  // punctual emitter, place of its VPL
+  for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+    const Vec2 u = sampler.get2D(i, 0);
+    const Distribution::Choice choice = t.emitters.byPower().choose(u.x);
+    const Vpl vpl = directVpl(t, choice.index, Vec2(choice.remapped, u.y),
+                              1 / (static_cast<float>(count) * choice.probability));
+    const EmitterKind kind = t.emitters[choice.index].kind;
+    const bool fixed = kind != EmitterKind::triangle && kind != EmitterKind::environment;
+    const auto same = std::find_if(merged.begin(), merged.end(),
+                                   [&](const auto& m) { return fixed && m.first == choice.index; });
+    if (same != merged.end()) {
+      vpls[same->second].power += vpl.power;
+      continue;
+    }
+    if (fixed) merged.emplace_back(choice.index, vpls.size());
+    vpls.push_back(vpl);
+  }
+}
+
+// Walks 2^pathsLog2 particles of block k and hands each D vertex to deposit(point, arrival).
+template <typename Deposit>
+void walkIndirect(const Transport& t, SampleUse use, uint32_t randomization, int k, int pathsLog2,
+                  RayCounts& rays, Deposit&& deposit) {
+  const LightSampler sampler(t.settings.seed, use, randomization, static_cast<uint32_t>(k), pathsLog2,
+                             t.settings.randomization);
+  for (uint32_t i = 0; i < 1u << pathsLog2; ++i) {
+    const Particle start = emitParticle(t, sampler.get2D(i, 0), sampler.get2D(i, 2));
+    walkLightPath(t, start, {}, 0, sampler, i, 4, rays, [&](const Arrival& a) {
+      if (!isBlack(a.point->bsdf.diffuse) && t.allows(a.diffuseBefore + 2)) deposit(a);
+      return t.allows(a.diffuseBefore + 3);
+    });
+  }
+}
+
+Vpl indirectVpl(const Arrival& a, float share) {
+  const ShadingPoint& p = *a.point;
+  Vpl vpl;
+  vpl.position = p.surface.position, vpl.error = p.surface.error;
+  vpl.normal = p.ng;
+  vpl.power = share * kInvPi * shadingFactor(p, p.wo) * p.bsdf.diffuse * a.flux;
+  vpl.diffuseCount = a.diffuseBefore + 1;
+  vpl.media = a.media;
+  return vpl;
+}
+
+}  // namespace
+
+int lightPathsLog2(const Transport& t) {
+  if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(2)) return -1;
+  RayCounts rays;
+  uint64_t vertices = 0;
+  walkIndirect(t, SampleUse::probe, 0, 0, kPilotLog2, rays, [&](const Arrival&) { ++vertices; });
+  if (vertices == 0) return -1;
+  const double mean = static_cast<double>(vertices) / (1 << kPilotLog2);
+  const double wanted = std::log2(t.settings.indirectVpls / mean);
+  return std::clamp(static_cast<int>(std::lround(wanted)), 0, kMaxPathsLog2);
+}
+
+LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
+  LightSet set;
+  if (t.emitters.empty()) return set;
+  addDirectVpls(t, frame, k, set.vpls);
+  if (pathsLog2 >= 0) {
+    const float share = 1 / static_cast<float>(1u << pathsLog2);
+    walkIndirect(t, SampleUse::lightPath, frame.randomization, k, pathsLog2, set.rays,
+                 [&](const Arrival& a) { set.vpls.push_back(indirectVpl(a, share)); });
+    std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power); });
+  }
+  std::vector<Photon> photons = makeCausticPhotons(t, frame, k, set.vpls, set.rays);
+  if (!photons.empty()) set.photons = PhotonGrid(std::move(photons), frame.photonRadius);
+  return set;
+}
+
+}  // namespace ninefold

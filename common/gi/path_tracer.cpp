@@ -1,0 +1,127 @@
+#include "common/gi/path_tracer.h"
+
+#include "common/gi/direct_light.h"
+#include "common/gi/light_path.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kSureVertices = 4;
+
+enum class Way { diffuse, reflection, transmission };
+
+// The state of a path between vertices.
+struct Path {
+  Vec3 origin{0}, direction{0};
+  MediumStack media;
+  Vec3 throughput{1};
+  float lobePdf = 0;    // density of `direction`, 0 if it was the eye's or a smooth lobe's
+  int diffuseCount = 0;
+  int specularRun = 0;
+};
+
+// f |cos| and density of the chosen way for a direction to a light.
+LobeValue evaluateWay(const ShadingPoint& p, Way way, Vec3 w) {
+  const bool above = glm::dot(w, p.ng) > 0;
+  if (above != (way != Way::transmission)) return {};
+  if (way != Way::diffuse)
+    return evaluateLobe(p.bsdf, way == Way::reflection ? Lobe::reflection : Lobe::transmission,
+                        p.localWo(), p.frame.toLocal(w));
+  const float cosine = std::max(glm::dot(w, p.frame.normal), 0.0f);
+  return {cosine * kInvPi * p.bsdf.diffuse, cosineHemispherePdf(cosine)};
+}
+
+Radiance directAtVertex(const Transport& t, const ShadingPoint& p, Way way, Vec2 u, RayCounts& rays) {
+  if (way != Way::diffuse && p.bsdf.alpha == 0) return Radiance(0);
+  const auto light = sampleLight(t, p, u);
+  if (!light) return Radiance(0);
+  const LobeValue value = evaluateWay(p, way, light->w);
+  const Vec3 contribution = value.value * light->weight;
+  if (isBlack(contribution)) return Radiance(0);
+  ++rays.shadow;
+  if (t.tracer.occluded(light->origin, light->segment, light->tFar)) return Radiance(0);
+  return (light->pdf > 0 ? balance(light->pdf, value.pdf) : 1.0f) * contribution;
+}
+
+// Emission met at the end of a ray, weighted against direct light sampling at its start.
+Radiance met(const Transport& t, const Path& path, const Hit& hit, const ShadingPoint& p) {
+  const Radiance emitted = emittedRadiance(t, p);
+  if (isBlack(emitted) || path.lobePdf == 0) return emitted;
+  return balance(path.lobePdf, lightPdf(t, hit, p.surface, path.direction, hit.t)) * emitted;
+}
+
+Radiance escaped(const Transport& t, const Path& path) {
+  const Radiance l = t.emitters.environment();
+  return path.lobePdf == 0 ? l : balance(path.lobePdf, environmentPdf(t)) * l;
+}
+
+// Chooses a way at p; its probability goes into the throughput. False: absorbed, or over a limit.
+bool chooseWay(const Transport& t, const ShadingPoint& p, float u, int vertex, Path& path, Way& way) {
+  const LobeChoice albedo = albedoChoice(p.bsdf, p.localWo().z);
+  const float sum = albedo.sum();
+  if (sum <= 0) return false;
+  const float survival = vertex <= kSureVertices ? 1.0f : std::min(sum, kMaxSurvival);
+  if (u >= survival) return false;
+  u *= sum / survival;
+  way = u < albedo.diffuse                      ? Way::diffuse
+        : u < albedo.diffuse + albedo.reflection ? Way::reflection
+                                                 : Way::transmission;
+  const float share = way == Way::diffuse      ? albedo.diffuse
+                      : way == Way::reflection ? albedo.reflection
+                                               : albedo.transmission;
+  if (share <= 0) return false;
+  path.throughput *= sum / (share * survival);
+  path.specularRun = way == Way::diffuse ? 0 : path.specularRun + 1;
+  path.diffuseCount += way == Way::diffuse ? 1 : 0;
+  return way == Way::diffuse ? t.allows(path.diffuseCount)
+                             : path.specularRun <= t.settings.specularDepth;
+}
+
+// Scatters into a new direction. False: no light goes there.
+bool scatter(const Transport& t, const ShadingPoint& p, Way way, Vec2 u, float uLobe, Path& path) {
+  Vec3 w;
+  if (way == Way::diffuse) {
+    const Vec3 local = squareToCosineHemisphere(u);
+    w = p.frame.toWorld(local);
+    path.throughput *= p.bsdf.diffuse;
+    path.lobePdf = cosineHemispherePdf(local.z);
+  } else {
+    const auto sample = sampleLobe(p.bsdf, way == Way::reflection ? Lobe::reflection : Lobe::transmission,
+                                   p.localWo(), u, uLobe);
+    if (!sample) return false;
+    w = p.frame.toWorld(sample->wi);
+    path.throughput *= sample->weight;
+    path.lobePdf = sample->pdf;
+  }
+  w = glm::normalize(w);
+  if ((glm::dot(w, p.ng) > 0) != (way != Way::transmission)) return false;
+  if (way == Way::transmission) path.media = t.shader.pass(p, path.media);
+  path.origin = offsetOrigin(p.surface, w), path.direction = w;
+  return !isBlack(path.throughput);
+}
+
+}  // namespace
+
+Radiance tracePath(const Transport& t, Vec3 eye, Vec3 direction, const MediumStack& media,
+                   const PixelSampler& sampler, RayCounts& rays) {
+  Path path;
+  path.origin = eye, path.direction = direction, path.media = media;
+  Radiance sum(0);
+  for (int vertex = 1; vertex < kMaxVertices; ++vertex) {
+    ++rays.eye;
+    const Hit hit = t.tracer.closest(path.origin, path.direction, std::numeric_limits<float>::infinity());
+    if (!hit) return sum + path.throughput * escaped(t, path);
+    const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -path.direction, path.media);
+    path.throughput *= t.shader.attenuation(p, path.media, hit.t);
+    sum += path.throughput * met(t, path, hit, p);
+
+    const uint32_t d = 8 * static_cast<uint32_t>(vertex);
+    Way way{};
+    if (!chooseWay(t, p, sampler.get1D(d + 2), vertex, path, way)) return sum;
+    sum += path.throughput * directAtVertex(t, p, way, sampler.get2D(d + 4), rays);
+    if (!scatter(t, p, way, sampler.get2D(d), sampler.get1D(d + 3), path)) return sum;
+  }
+  return sum;
+}
+
+}  // namespace ninefold

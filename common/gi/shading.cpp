@@ -1,0 +1,155 @@
+#include "common/gi/shading.h"
+
+#include "common/scene/needs.h"
+#include "common/scene/texture.h"
+
+namespace ninefold {
+namespace {
+
+Vec3 mix(Vec3 a, Vec3 b, float t) { return a + t * (b - a); }
+
+Vec3 attenuationCoefficient(const Material& m) {
+  if (!m.solid || !std::isfinite(m.attenuationDistance)) return Vec3(0);
+  const auto sigma = [&](float colour) {
+    return -std::log(std::clamp(colour, 1e-6f, 1.0f)) / m.attenuationDistance;
+  };
+  return Vec3(sigma(m.attenuationColor.x), sigma(m.attenuationColor.y), sigma(m.attenuationColor.z));
+}
+
+}  // namespace
+
+Shader::Shader(const Scene& scene) : scene_(&scene) {
+  for (const Material& m : scene.materials) {
+    Prepared p;
+    p.transmits = m.transmission > 0 && m.metallic < 1;
+    p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
+    p.specular = p.transmits || !p.folds || m.alphaMode == AlphaMode::blend;
+    p.sigma = attenuationCoefficient(m);
+    materials_.push_back(p);
+  }
+}
+
+float Shader::indexOf(int material) const {
+  return material == MediumStack::kAir ? 1.0f : scene_->materials[static_cast<size_t>(material)].ior;
+}
+
+Frame Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
+  const Material& material = scene_->materials[static_cast<size_t>(s.material)];
+  Vec3 n = s.shadingNormal;
+  if (material.normalMap) {
+    const Vec4 t = lookUp(*scene_, material.normalMap, s.uv0, s.uv1);
+    const Vec2 slope = material.normalScale * Vec2(2 * t.x - 1, 2 * t.y - 1);
+    const Vec3 bitangent = s.tangentSign * glm::cross(n, s.tangent);
+    const Vec3 bent = slope.x * s.tangent + slope.y * bitangent + std::max(2 * t.z - 1, 1e-3f) * n;
+    if (glm::dot(bent, bent) > 0) n = glm::normalize(bent);
+  }
+  if (glm::dot(s.geometricNormal, ng) < 0) n = -n;
+  // A shading normal that turns away from the viewer cannot carry a BSDF: the geometric one takes over.
+  const bool usable = glm::dot(n, wo) > 1e-4f && glm::dot(n, ng) > 0;
+  return Frame(usable ? n : ng);
+}
+
+Vec3 Shader::dielectricF0(const Material& m, const SurfacePoint& s) const {
+  const float r = (m.ior - 1) / (m.ior + 1);
+  Vec3 f0 = r * r * m.specularColor;
+  if (m.specularColorMap) f0 *= Vec3(lookUp(*scene_, m.specularColorMap, s.uv0, s.uv1));
+  float strength = m.specular;
+  if (m.specularMap) strength *= lookUp(*scene_, m.specularMap, s.uv0, s.uv1).w;
+  return strength * glm::min(f0, Vec3(1));
+}
+
+void Shader::fillOpaque(Bsdf& bsdf, const Material& m, const Prepared& prepared, Vec3 base,
+                        float metallic, float alpha, const SurfacePoint& s) const {
+  const Vec3 f0 = dielectricF0(m, s);
+  bsdf.f0 = mix(f0, base, metallic);
+  bsdf.diffuse = (1 - metallic) * base;
+  if (!isBlack(f0)) bsdf.diffuse *= Vec3(1) - meanReflection(f0, alpha);
+  bsdf.reflects = !prepared.folds && !isBlack(bsdf.f0);
+  if (prepared.folds && !isBlack(bsdf.f0)) {
+    const Vec3 lobe = mix(isBlack(f0) ? Vec3(0) : meanReflection(f0, alpha),
+                          meanReflection(base, alpha), metallic);
+    bsdf.diffuse = glm::min(bsdf.diffuse + lobe, Vec3(1));
+  }
+}
+
+void Shader::fillTransmitting(Bsdf& bsdf, const Material& m, Vec3 base, float metallic,
+                              const SurfacePoint& s) const {
+  float share = m.transmission;
+  if (m.transmissionMap) share *= lookUp(*scene_, m.transmissionMap, s.uv0, s.uv1).x;
+  base *= 1 - metallic;
+  float strength = m.specular;
+  if (m.specularMap) strength *= lookUp(*scene_, m.specularMap, s.uv0, s.uv1).w;
+  bsdf.dielectric = true;
+  bsdf.reflectionTint = strength * m.specularColor;
+  if (m.specularColorMap)
+    bsdf.reflectionTint *= Vec3(lookUp(*scene_, m.specularColorMap, s.uv0, s.uv1));
+  bsdf.reflectionTint = glm::min(bsdf.reflectionTint, Vec3(1));
+  bsdf.transmissionTint = share * base;
+  bsdf.diffuse = (1 - share) * (1 - meanFresnelDielectric(m.ior)) * base;
+  bsdf.reflects = !isBlack(bsdf.reflectionTint);
+}
+
+ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& media) const {
+  const Material& m = scene_->materials[static_cast<size_t>(s.material)];
+  const Prepared& prepared = materials_[static_cast<size_t>(s.material)];
+  ShadingPoint p;
+  p.surface = s;
+  p.wo = wo;
+  p.front = glm::dot(wo, s.geometricNormal) >= 0;
+  p.ng = p.front ? s.geometricNormal : -s.geometricNormal;
+  p.frame = shadingFrame(s, p.ng, wo);
+
+  Vec3 base = m.baseColor;
+  float opacity = m.opacity;
+  if (m.baseColorMap) {
+    const Vec4 t = lookUp(*scene_, m.baseColorMap, s.uv0, s.uv1);
+    base *= Vec3(t);
+    opacity *= t.w;
+  }
+  float metallic = m.metallic, roughness = m.roughness;
+  if (m.metallicRoughnessMap) {
+    const Vec4 t = lookUp(*scene_, m.metallicRoughnessMap, s.uv0, s.uv1);
+    roughness *= t.y, metallic *= t.z;
+  }
+  const float alpha = roughness * roughness;
+  p.bsdf.alpha = alpha < kSmoothAlpha ? 0.0f : alpha;
+  p.bsdf.thin = !m.solid;
+  if (prepared.transmits) {
+    fillTransmitting(p.bsdf, m, base, metallic, s);
+    const int beyond = p.front ? s.material : media.innermostWithout(s.material);
+    const int here = p.front ? media.innermost() : s.material;
+    p.bsdf.eta = p.bsdf.thin ? m.ior : indexOf(beyond) / indexOf(here);
+  } else {
+    fillOpaque(p.bsdf, m, prepared, base, metallic, alpha, s);
+  }
+  if (m.alphaMode == AlphaMode::blend) {
+    opacity = std::clamp(opacity, 0.0f, 1.0f);
+    p.bsdf.diffuse *= opacity, p.bsdf.f0 *= opacity;
+    p.bsdf.reflectionTint *= opacity, p.bsdf.transmissionTint *= opacity;
+    p.bsdf.passThrough = 1 - opacity;
+  }
+  return p;
+}
+
+Vec3 Shader::attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const {
+  const Material& m = scene_->materials[static_cast<size_t>(end.surface.material)];
+  const int inside = !end.front && m.solid && m.transmission > 0 ? end.surface.material : media.innermost();
+  if (inside == MediumStack::kAir) return Vec3(1);
+  const Vec3 sigma = materials_[static_cast<size_t>(inside)].sigma;
+  if (isBlack(sigma)) return Vec3(1);
+  return Vec3(std::exp(-sigma.x * distance), std::exp(-sigma.y * distance),
+              std::exp(-sigma.z * distance));
+}
+
+MediumStack Shader::pass(const ShadingPoint& point, MediumStack media) const {
+  const int material = point.surface.material;
+  const Material& m = scene_->materials[static_cast<size_t>(material)];
+  if (!m.solid || !materials_[static_cast<size_t>(material)].transmits) return media;
+  if (point.front)
+    media.enter(material);
+  else
+    media.leave(material);
+  return media;
+}
+
+}  // namespace ninefold

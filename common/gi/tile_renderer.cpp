@@ -1,0 +1,181 @@
+#include "common/gi/tile_renderer.h"
+
+#include "common/gi/caustic_photons.h"
+#include "common/gi/direct_light.h"
+#include "common/gi/eye_path.h"
+#include "common/gi/path_tracer.h"
+#include "common/gi/vpl_gather.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kBlock = 4;  // a packet is a 4 x 4 block of the sub-plane
+
+void put(RgbPlane& plane, size_t i, Vec3 v) { plane.r[i] = v.x, plane.g[i] = v.y, plane.b[i] = v.z; }
+
+void add(RgbPlane& plane, size_t i, Vec3 v) { plane.r[i] += v.x, plane.g[i] += v.y, plane.b[i] += v.z; }
+
+// One task's constants, so that the functions below stay short.
+struct TaskContext {
+  const Transport& t;
+  const MediumStack& eyeMedia;
+  const Task& task;
+  const LightSet& lights;
+  TaskRect rect;
+  TileGrid grid;
+  CameraRays camera;
+  Scratch& scratch;
+  TileResult& out;
+
+  PixelSampler sampler(int x, int y) const {
+    return PixelSampler(t.settings.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
+                        static_cast<uint32_t>(y), task.frame.randomization, t.settings.randomization);
+  }
+  int pixelX(int i) const { return grid.pixelX(task.phase, rect.i0 + i); }
+  int pixelY(int j) const { return grid.pixelY(task.phase, rect.j0 + j); }
+};
+
+void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel, Reflectance throughput,
+                 float gain, float distance, uint16_t chain) {
+  Receiver r;
+  r.position = x.surface.position, r.ng = x.ng, r.ns = x.frame.normal;
+  r.origin = offsetOrigin(x.surface, x.ng);
+  r.pixel = static_cast<uint32_t>(pixel), r.gain = gain;
+  c.scratch.receivers[static_cast<size_t>(layer)].add(r);
+  LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
+  put(planes.reflectance, pixel, kInvPi * throughput * x.bsdf.diffuse);
+  put(planes.normal, pixel, x.frame.normal);
+  planes.distance[pixel] = distance;
+  planes.chain[pixel] = chain;
+}
+
+void fillExtras(TaskContext& c, const ShadingPoint& p, size_t pixel, float depth) {
+  ExtraPlanes& e = c.out.extras;
+  const uint8_t mask = c.task.extraMask;
+  if ((mask & kAlbedoPlane) != 0) {
+    Vec3 albedo = p.bsdf.diffuse;
+    const float cosine = p.localWo().z;
+    if (p.bsdf.reflects) albedo += lobeAlbedo(p.bsdf, Lobe::reflection, cosine);
+    if (p.bsdf.transmits()) albedo += lobeAlbedo(p.bsdf, Lobe::transmission, cosine);
+    put(e.albedo, pixel, glm::min(albedo, Vec3(1)));
+  }
+  if ((mask & kNormalPlane) != 0) put(e.normal, pixel, p.frame.normal);
+  if ((mask & kDepthPlane) != 0) e.depth[pixel] = depth;
+  if ((mask & kObjectPlane) != 0) e.object[pixel] = p.surface.instance + 1;
+}
+
+void followLayer(TaskContext& c, const ShadingPoint& first, Lobe lobe, float distance, size_t pixel,
+                 const PixelSampler& sampler) {
+  const int layer = lobe == Lobe::reflection ? kReflection : kTransmission;
+  const uint32_t dimension = 8 + static_cast<uint32_t>(layer - 1) * eyePathDimensions(c.t.settings);
+  const EyePathEnd end =
+      followLobe(c.t, first, lobe, distance, c.eyeMedia, sampler, dimension, c.out.rays);
+  put(c.out.layers[static_cast<size_t>(layer)].unfiltered, pixel, end.unfiltered);
+  if (end.arrived)
+    addReceiver(c, layer, end.x, pixel, end.throughput, end.gain, end.distance, end.chain);
+}
+
+void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, size_t pixel,
+                   const PixelSampler& sampler) {
+  LayerPlanes& diffuse = c.out.layers[kDiffuse];
+  if (!hit) {
+    put(diffuse.unfiltered, pixel, c.t.emitters.environment());
+    return;
+  }
+  const ShadingPoint p = c.t.shader.shade(c.t.tracer.surface(hit), -direction, c.eyeMedia);
+  const Vec3 through = c.t.shader.attenuation(p, c.eyeMedia, hit.t);
+  if (c.task.extraMask != 0)
+    fillExtras(c, p, pixel, hit.t * glm::dot(direction, c.t.settings.camera.forward));
+  put(diffuse.unfiltered, pixel, through * emittedRadiance(c.t, p));
+  if (!isBlack(p.bsdf.diffuse)) addReceiver(c, kDiffuse, p, pixel, through, 1, hit.t, 0);
+  if (p.bsdf.reflects) followLayer(c, p, Lobe::reflection, hit.t, pixel, sampler);
+  if (p.bsdf.transmits()) followLayer(c, p, Lobe::transmission, hit.t, pixel, sampler);
+}
+
+void traceBlock(TaskContext& c, int bi, int bj) {
+  RayPacket rays;
+  Hit hits[kPacket];
+  uint32_t active = 0;
+  for (int lane = 0; lane < kPacket; ++lane) {
+    const int i = std::min(bi + lane % kBlock, c.rect.width - 1);
+    const int j = std::min(bj + lane / kBlock, c.rect.height - 1);
+    const int x = c.pixelX(i), y = c.pixelY(j);
+    const Vec2 offset = c.t.settings.jitter ? c.sampler(x, y).get2D(0) : Vec2(0.5f);
+    const Vec3 direction =
+        c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
+    rays.set(lane, c.t.settings.camera.eye, direction, 0, std::numeric_limits<float>::infinity());
+    const bool inside = bi + lane % kBlock < c.rect.width && bj + lane / kBlock < c.rect.height;
+    active |= (inside ? 1u : 0u) << lane;
+  }
+  c.t.tracer.closest16(rays, active, hits);
+  for (int lane = 0; lane < kPacket; ++lane) {
+    if ((active >> lane & 1u) == 0) continue;
+    ++c.out.rays.eye;
+    const int i = bi + lane % kBlock, j = bj + lane / kBlock;
+    const Vec3 direction(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
+    shadeFirstHit(c, hits[lane], direction, static_cast<size_t>(j * c.rect.width + i),
+                  c.sampler(c.pixelX(i), c.pixelY(j)));
+  }
+}
+
+void gatherLayer(TaskContext& c, int layer) {
+  Receivers& receivers = c.scratch.receivers[static_cast<size_t>(layer)];
+  LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
+  receivers.pad(kPacket);
+  gatherVpls(c.t.tracer, c.lights.vpls, c.t.bound, receivers, c.out.rays.shadow);
+  const bool wantsCaustic = layer == kDiffuse && (c.task.extraMask & kCausticPlane) != 0;
+  for (size_t i = 0; i < receivers.size(); ++i) {
+    const size_t pixel = receivers.pixel[i];
+    Irradiance e(receivers.er[i], receivers.eg[i], receivers.eb[i]);
+    if (!c.lights.photons.empty()) {
+      const Irradiance caustic = gatherPhotons(c.lights.photons, receivers.position(i), receivers.ng(i));
+      if (wantsCaustic) add(c.out.extras.caustic, pixel, caustic);
+      e += caustic;
+    }
+    put(planes.irradiance, pixel, receivers.gain[i] * e);
+  }
+}
+
+// The reference method: whole radiance as U of the diffuse layer, which no filter touches.
+void pathTracePixel(TaskContext& c, int i, int j) {
+  const Settings& s = c.t.settings;
+  const int x = c.pixelX(i), y = c.pixelY(j);
+  Radiance sum(0);
+  for (uint32_t path = 0; path < kPathsPerPixel; ++path) {
+    const PixelSampler sampler(s.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
+                               static_cast<uint32_t>(y), c.task.frame.randomization * kPathsPerPixel + path,
+                               s.randomization);
+    const Vec2 offset = s.jitter ? sampler.get2D(0) : Vec2(0.5f);
+    const Vec3 direction =
+        c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
+    sum += tracePath(c.t, s.camera.eye, direction, c.eyeMedia, sampler, c.out.rays);
+  }
+  put(c.out.layers[kDiffuse].unfiltered, static_cast<size_t>(j * c.rect.width + i),
+      sum / static_cast<float>(kPathsPerPixel));
+}
+
+// Instant radiosity: eye paths to their layers' receivers, then the set's light for all of them.
+void radiosityTask(TaskContext& c) {
+  for (Receivers& receivers : c.scratch.receivers) receivers.clear();
+  for (int bj = 0; bj < c.rect.height; bj += kBlock)
+    for (int bi = 0; bi < c.rect.width; bi += kBlock) traceBlock(c, bi, bj);
+  for (int layer = 0; layer < kLayers; ++layer)
+    if (hasLayer(c.out.layerMask, layer)) gatherLayer(c, layer);
+}
+
+}  // namespace
+
+void renderTask(const Transport& t, const MediumStack& eyeMedia, const Task& task, const LightSet& lights,
+                Scratch& scratch, TileResult& out) {
+  const Settings& s = t.settings;
+  const TileGrid grid(s.width, s.height, s.interleave);
+  const TaskRect rect = grid.rect(task.tile, task.phase);
+  out.reset(rect.width, rect.height, layerMaskOf(t.needs, s.method), task.extraMask);
+  TaskContext c{t,    eyeMedia, task, lights, rect, grid, CameraRays(s.camera, s.width, s.height),
+                scratch, out};
+  if (s.method == Method::instantRadiosity) return radiosityTask(c);
+  for (int j = 0; j < rect.height; ++j)
+    for (int i = 0; i < rect.width; ++i) pathTracePixel(c, i, j);
+}
+
+}  // namespace ninefold

@@ -1,0 +1,40 @@
+// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters, the bound of
+// the geometry term, and the targets that caustic photons aim at.
+// Threads: const after construction. Refers to the Tracer and its Scene.
+#pragma once
+
+#include <vector>
+
+#include "common/gi/shading.h"
+#include "common/scene/emitters.h"
+#include "common/scene/needs.h"
+#include "common/scene/settings.h"
+#include "common/tracing/tracer.h"
+
+namespace ninefold {
+
+// A sphere around objects with S lobes.
+struct AimTarget {
+  Vec3 centre{0};
+  float radius = 0;  // [m]
+};
+
+struct Transport {
+  Transport(const Tracer& tracer, const Settings& settings);
+
+  const Tracer& tracer;
+  const Scene& scene;
+  Settings settings;
+  Shader shader;
+  Emitters emitters;
+  Needs needs;
+  float bound;                       // b = c/R^2 [1/m^2]
+  std::vector<AimTarget> targets;    // empty if nothing is specular; at most kMaxTargets
+
+  static constexpr size_t kMaxTargets = 16;
+
+  // Whether a path whose D vertices number `count` (x included) is within the length limit.
+  bool allows(int count) const { return settings.pathLength == 0 || count <= settings.pathLength; }
+};
+
+}  // namespace ninefold
