@@ -3,29 +3,27 @@
 // simulated cluster of a thousand clients all run the same code.
 //
 // Policies, each in one small function:
-//   order        oldest open frame first; the next frame's tasks go out before this one's last are
-//   back light sets   a client goes on with light sets that it has; a new one is the set with most
-//   tasks left
-//                per client at work on it (paper: about two sets for each client and frame)
-//   credit       a client is refilled when it holds less than `low` tasks and up to `high`; both
-//   cover
-//                its round trip at its learned speed (scheduler_client.h). No queue ever grows.
-//   stragglers   nothing left to hand out: a copy of a late task, or of one that another client
-//   would
-finish sooner, goes to a client with credit.At most one copy;
-the first result
-//                wins, the other client's credit stays spent until its own result came
-//   lost         tasks go back to the front of their queue at once
-//   suspect      a client that holds tasks and gives no result for too long: as lost, but its
-//   results
-//                stay welcome and it gets one task as a trial when it is heard of again
+//   order       oldest open frame first; the next frame's tasks go out before this one's last are
+//               back
+//   light sets  a client goes on with light sets that it has; a new one is the set with most tasks
+//               left per client at work on it (paper: about two sets for each client and frame)
+//   credit      a client that holds less than `low` tasks is refilled up to `high`; both cover its
+//               round trip at its learned speed (scheduler_client.h). No queue ever grows.
+//   stragglers  nothing left to hand out: a client with credit gets a copy of a task that is late
+//               or that it would finish sooner. At most one copy; the first result wins. The other
+//               client's credit stays spent until its own result came.
+//   lost        tasks go back to the front of their queue at once
+//   suspect     a client that holds tasks and gives no result for too long: as lost, but its
+//               results stay welcome, and it gets one task on trial when it is heard of again
 //
 // Use: after every event, and at least every 100 ms, call poll() and carry its actions out.
 // A result is reported after its tile was decoded; a tile that cannot be decoded ends the
-// connection (clientLost), so its task is done again. Cost: O(log clients + log tasks) an event,
-// O(K) when a client changes its light set. Deterministic: equal events give equal actions.
-// Threads: none; one owner calls everything. Errors: only broken assumptions of the caller
-// (NINEFOLD_CHECK); whatever a peer sends is a Verdict.
+// connection (clientLost), so its task is done again.
+//
+// Cost: O(log clients + log tasks) an event; O(K) when a client changes its light set; O(clients +
+// tasks) when a frame opens or a view changes. Deterministic: equal events give equal actions.
+// Threads: none; one owner calls everything.
+// Errors: only broken assumptions of the caller (CHECK); whatever a peer sends is a Verdict.
 #pragma once
 
 #include <cstdint>
@@ -41,71 +39,70 @@ the first result
 #include "master/scheduler_pool.h"
 #include "master/scheduler_types.h"
 
-    namespace ninefold {
+namespace ninefold {
 
-  class Scheduler {
-   public:
-    // A client is ready to render. Ids are never used twice.
-    void clientJoined(ClientId client, int threads, Time now);
-    // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
-    void clientLost(ClientId client, Time now);
-    // Any message came from it: a suspect may be tried again.
-    void clientHeard(ClientId client, Time now);
-    // A ping was answered.
-    void roundTripMeasured(ClientId client, Duration roundTrip);
+class Scheduler {
+ public:
+  // A client is ready to render. Ids are never used twice.
+  void clientJoined(ClientId client, int threads, Time now);
+  // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
+  void clientLost(ClientId client, Time now);
+  // Any message came from it: a suspect may be tried again.
+  void clientHeard(ClientId client, Time now);
+  // A ping was answered.
+  void roundTripMeasured(ClientId client, Duration roundTrip);
 
-    // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
-    // Tasks without pixels do not exist.
-    void openFrame(const FrameKey& key, const TileGrid& grid);
-    // All open frames before `firstWanted` are superseded.
-    void viewChanged(uint32_t firstWanted);
+  // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
+  // Tasks without pixels do not exist.
+  void openFrame(const FrameKey& key, const TileGrid& grid);
+  // All open frames before `firstWanted` are superseded.
+  void viewChanged(uint32_t firstWanted);
 
-    // `cost`: how long one thread of the client worked on it, making its light set included.
-    Verdict resultArrived(ClientId client, const TaskId& task, Duration cost, Time now);
-    // What resultArrived would say now: lets the caller skip decoding what will be dropped.
-    Verdict verdictOn(ClientId client, const TaskId& task) const;
+  // `cost`: how long one thread of the client worked on it, making its light set included.
+  Verdict resultArrived(ClientId client, const TaskId& task, Duration cost, Time now);
+  // What resultArrived would say now: lets the caller skip decoding what will be dropped.
+  Verdict verdictOn(ClientId client, const TaskId& task) const;
 
-    Actions poll(Time now);
+  Actions poll(Time now);
 
-    // True while clients have credit that the open frames cannot use: time to open the next frame.
-    bool wantsFrame() const;
-    bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
-    int openFrames() const { return static_cast<int>(frames_.size()); }
-    int clients() const { return pool_.size(); }
-    // Tasks of an open frame that are not done; 0 for any other frame.
-    int tasksLeft(uint32_t frame) const;
+  // True while clients have credit that the open frames cannot use: time to open the next frame.
+  bool wantsFrame() const;
+  bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
+  int openFrames() const { return static_cast<int>(frames_.size()); }
+  int clients() const { return pool_.size(); }
+  // Tasks of an open frame that are not done; 0 for any other frame.
+  int tasksLeft(uint32_t frame) const;
 
-    const SchedulerCounts& counts() const { return counts_; }
-    std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
-    // Why a task is where it is, in words.
-    std::string explain(const TaskId& task, Time now) const;
-    // Aborts if the books do not balance. For tests: O(clients + tasks).
-    void checkInvariants() const;
+  const SchedulerCounts& counts() const { return counts_; }
+  std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
+  // Why a task is where it is, in words.
+  std::string explain(const TaskId& task, Time now) const;
+  // Aborts if the books do not balance. For tests: O(clients + tasks).
+  void checkInvariants() const;
 
-   private:
-    SchedulerFrame* findFrame(uint32_t frame);
-    const SchedulerFrame* findFrame(uint32_t frame) const;
-    Verdict verdictOnClosed(uint32_t frame) const;
-    int waiting() const;  // tasks to hand out, over all open frames
+ private:
+  SchedulerFrame* findFrame(uint32_t frame);
+  const SchedulerFrame* findFrame(uint32_t frame) const;
+  Verdict verdictOnClosed(uint32_t frame) const;
+  int waiting() const;  // tasks to hand out, over all open frames
 
-    void suspectSilentClients(Time now);
-    void trustAgain(SchedulerClient& client);
-    void handOutWaiting(Actions& actions, Time now);
-    void duplicateStragglers(Actions& actions, Time now);
-    bool duplicateOne(SchedulerFrame& frame, Actions& actions, Time now);
-    void assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions,
-                Time now);
-    void closeFrame(uint32_t frame, bool completed);
-    bool isUnfinished(const TaskId& task) const;
-    std::string explainOpen(const SchedulerFrame& frame, int task, Time now) const;
+  void suspectSilentClients(Time now);
+  void trustAgain(SchedulerClient& client);
+  void handOutWaiting(Actions& actions, Time now);
+  void duplicateStragglers(Actions& actions, Time now);
+  bool duplicateOne(SchedulerFrame& frame, Actions& actions, Time now);
+  void assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions, Time now);
+  void closeFrame(uint32_t frame, bool completed);
+  bool isUnfinished(const TaskId& task) const;
+  std::string explainOpen(const SchedulerFrame& frame, int task, Time now) const;
 
-    SchedulerPool pool_;
-    std::map<ClientId, ClientReport> past_;         // clients that were lost
-    std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
-    std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?
-    uint32_t nextFrame_ = 0;                        // every frame id so far is smaller
-    std::vector<Cancellation> cancellations_;       // for the next poll
-    SchedulerCounts counts_;
-  };
+  SchedulerPool pool_;
+  std::map<ClientId, ClientReport> past_;         // clients that were lost
+  std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
+  std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?
+  uint32_t nextFrame_ = 0;                        // every frame id so far is smaller
+  std::vector<Cancellation> cancellations_;       // for the next poll
+  SchedulerCounts counts_;
+};
 
 }  // namespace ninefold
