@@ -1,5 +1,6 @@
 #include "common/tracing/geometry.h"
 
+#include "common/base/error.h"
 #include "common/math/frame.h"
 #include "common/math/rounding.h"
 
@@ -56,15 +57,25 @@ UvGradient uvGradient(const std::vector<Vec2>& uv, const Triangle& t, const Trac
 
 InstanceGeometry::InstanceGeometry(const Scene& scene, const Instance& instance)
     : mesh_(&scene.meshes[static_cast<size_t>(instance.mesh)]) {
-  vertices_.reserve(mesh_->positions.size() + 1);
-  for (const Vec3& p : mesh_->positions)
-    vertices_.emplace_back(DVec3(instance.toWorld * DVec4(DVec3(p), 1.0)));
-  vertices_.emplace_back(0);
+  flatten(instance);
   const DMat3 linear(instance.toWorld);
   const DMat3 cofactor = cofactors(linear);
   handedness_ = glm::dot(linear[0], cofactor[0]) < 0 ? -1.0f : 1.0f;
   directionToWorld_ = normalized(linear);
   normalToWorld_ = handedness_ * normalized(cofactor);
+}
+
+void InstanceGeometry::flatten(const Instance& instance) {
+  vertices_.reserve(mesh_->positions.size() + 1);
+  for (const Vec3& p : mesh_->positions) {
+    const Vec3 world(DVec3(instance.toWorld * DVec4(DVec3(p), 1.0)));
+    const float reach = maxComponent(glm::abs(world));
+    if (!(reach < kMaxDistance && isFinite(world)))
+      fail("instance \"{}\" reaches {:g} m from the scene's middle; scale the scene below {:g} m",
+           instance.name, reach, kMaxDistance);
+    vertices_.push_back(world);
+  }
+  vertices_.emplace_back(0);
 }
 
 Tracer::Corners InstanceGeometry::corners(uint32_t triangle) const {

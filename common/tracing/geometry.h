@@ -13,6 +13,10 @@
 
 namespace ninefold {
 
+// How far [m] geometry may reach from the origin: products of three lengths stay in the range of
+// floats.
+inline constexpr float kMaxDistance = 1e11f;
+
 class InstanceGeometry {
  public:
   InstanceGeometry(const Scene& scene, const Instance& instance);
@@ -28,6 +32,7 @@ class InstanceGeometry {
   void surface(uint32_t triangle, float u, float v, SurfacePoint& p) const;
 
  private:
+  void flatten(const Instance& instance);
   void setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
   void setNormals(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
                   SurfacePoint& p) const;

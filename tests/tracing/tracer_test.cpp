@@ -123,5 +123,51 @@ TEST(Tracer, TracksInstancesByTheirIndexAndFarEndsAreRespected) {
   }
 }
 
+TEST(Tracer, RaysThatAreNotFiniteHitNothingAndHarmNobody) {
+  const Scene scene = sceneOf({cube()});
+  const float nan = std::numeric_limits<float>::quiet_NaN(),
+              infinity = std::numeric_limits<float>::infinity();
+  for (const Isa isa : {Isa::avx2, Isa::automatic}) {
+    const Tracer tracer(scene, isa);
+    for (const float bad : {nan, infinity, -infinity, 3e38f}) {
+      for (int axis = 0; axis < 6; ++axis) {
+        Vec3 origin(0), direction(0, 0, 1);
+        (axis < 3 ? origin : direction)[axis % 3] = bad;
+        EXPECT_FALSE(tracer.closest(origin, direction, kFar));
+        EXPECT_FALSE(tracer.occluded(origin, direction, kFar));
+        RayPacket rays;
+        for (int i = 0; i < kPacket; ++i) rays.set(i, Vec3(0), {0, 0, 1}, 0, kFar);
+        rays.set(5, origin, direction, 0, kFar);
+        RayPacket shadows = rays;
+        Hit hits[kPacket];
+        tracer.closest16(rays, 0xffff, hits);
+        for (int i = 0; i < kPacket; ++i) EXPECT_EQ(bool(hits[i]), i != 5);
+        EXPECT_EQ(tracer.occluded16(shadows, 0xffff), 0xffffu & ~(1u << 5));
+      }
+    }
+  }
+}
+
+TEST(Tracer, RefusesGeometryBeyondTheRangeOfItsArithmetic) {
+  for (const double scale : {1e12, 1e30, 1e300}) {
+    Scene scene = sceneOf({cube()});
+    scene.instances[0].toWorld[0] *= scale;
+    EXPECT_THROW(Tracer(scene, Isa::automatic), Error);
+  }
+}
+
+TEST(Tracer, TakesFlatSlicesAndDegenerateTriangles) {
+  Scene scene =
+      sceneOf({cube(), meshOf({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}}, {{0, 1, 2}, {0, 0, 0}})});
+  scene.instances[0].toWorld[2] = DVec4(0);
+  const Tracer tracer(scene, Isa::automatic);
+  EXPECT_TRUE(tracer.closest({0.3f, 0.2f, 1}, {0, 0, -1}, kFar));
+  for (uint32_t triangle = 0; triangle < 2; ++triangle) {
+    const SurfacePoint p = tracer.surface({1, triangle, 0.3f, 0.3f, 0});
+    EXPECT_TRUE(isFinite(p.position) && isFinite(p.geometricNormal) && isFinite(p.tangent));
+    EXPECT_TRUE(std::isfinite(p.error));
+  }
+}
+
 }  // namespace
 }  // namespace ninefold
