@@ -4,7 +4,7 @@
 
 namespace ninefold {
 
-LightSetCache::Shared LightSetCache::get(const FrameKey& frame, int set) {
+LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set) {
   std::promise<Shared> promise;
   std::shared_future<Shared> future;
   bool ours = false;
@@ -22,7 +22,7 @@ LightSetCache::Shared LightSetCache::get(const FrameKey& frame, int set) {
       promise.set_exception(std::current_exception());
     }
   }
-  return future.get();
+  return {future.get(), ours};
 }
 
 LightSetCache::Group& LightSetCache::group(const FrameKey& frame) {

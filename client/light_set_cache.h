@@ -27,7 +27,11 @@ class LightSetCache {
 
   LightSetCache(Make make, size_t frames) : make_(std::move(make)), frames_(frames) {}
 
-  Shared get(const FrameKey& frame, int set);
+  struct Found {
+    Shared set;
+    bool madeHere = false;  // by this call; else it was there, or another thread made it
+  };
+  Found get(const FrameKey& frame, int set);
 
  private:
   // All sets of one frame key.

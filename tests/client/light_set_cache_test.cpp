@@ -33,7 +33,7 @@ TEST(LightSetCache, ManyThreadsShareOneSetMadeOnce) {
       2);
   std::vector<LightSetCache::Shared> got(8);
   std::vector<std::thread> threads;
-  for (auto& set : got) threads.emplace_back([&] { set = cache.get(frameOf(5), 3); });
+  for (auto& set : got) threads.emplace_back([&] { set = cache.get(frameOf(5), 3).set; });
   for (auto& thread : threads) thread.join();
   EXPECT_EQ(made, 1);
   for (const auto& set : got) EXPECT_EQ(set, got[0]);
@@ -42,11 +42,14 @@ TEST(LightSetCache, ManyThreadsShareOneSetMadeOnce) {
 TEST(LightSetCache, FramesThatDifferOnlyInNumberAndRotationShare) {
   LightSetCache cache([](const FrameKey&, int) { return someSet(); }, 2);
   FrameKey moving = frameOf(1);
-  const auto first = cache.get(moving, 0);
+  const auto first = cache.get(moving, 0).set;
   moving.frame = 17, moving.rotation = 4;
-  EXPECT_EQ(cache.get(moving, 0), first);
+  EXPECT_EQ(cache.get(moving, 0).set, first);
+  EXPECT_FALSE(cache.get(moving, 0).madeHere);
   moving.photonRadius = 0.5f;
-  EXPECT_NE(cache.get(moving, 0), first);
+  const auto other = cache.get(moving, 0);
+  EXPECT_NE(other.set, first);
+  EXPECT_TRUE(other.madeHere);
 }
 
 TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {
@@ -57,7 +60,7 @@ TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {
         return someSet();
       },
       2);
-  const std::weak_ptr<const LightSet> first = cache.get(frameOf(1), 0);
+  const std::weak_ptr<const LightSet> first = cache.get(frameOf(1), 0).set;
   cache.get(frameOf(2), 0);
   cache.get(frameOf(1), 0);  // used again: 2 is now the oldest
   cache.get(frameOf(3), 0);

@@ -1,0 +1,69 @@
+// actions.h: what the client's session asks the program around it to do. Plain values, in order.
+//
+// `load` numbers the scene that is being fetched and built, `line` the connection that tasks came
+// by: answers carry them back, so that those to a question of the past can be told apart and
+// dropped.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "proto/messages.h"
+
+namespace ninefold::act {
+
+// Dial the master once; answered by connected() or connectFailed().
+struct Connect {};
+struct Send {
+  Message message;
+};
+// Send what is queued, then close. The session is offline from now on.
+struct Disconnect {
+  std::string reason;
+};
+// Look for the blobs of a manifest in the cache; answered by blobsFound().
+struct FindBlobs {
+  uint32_t load = 0;
+  std::vector<BlobInfo> manifest;
+};
+// Verify a fetched blob and keep it; answered by sceneFailed() if it is not what it should be.
+struct KeepBlob {
+  uint32_t load = 0;
+  BlobInfo blob;
+  Bytes compressed;
+};
+// All blobs are there: make the scene ready for tracing; answered by sceneBuilt() or sceneFailed().
+struct BuildScene {
+  uint32_t load = 0;
+};
+// Make a renderer of the built scene; answered by jobPrepared() or sceneFailed().
+struct PrepareJob {
+  uint32_t load = 0;
+  uint32_t jobVersion = 0;
+  Settings settings;
+};
+// Render; each task is answered by taskFinished().
+struct StartTasks {
+  uint32_t line = 0;
+  msg::Tasks tasks;
+};
+// Forget waiting tasks of frames before `frame`; all of them if `everything`.
+struct CancelTasks {
+  uint32_t frame = 0;
+  bool everything = false;
+};
+// A line for people.
+struct Tell {
+  std::string line;
+};
+// The program ends, after the connection has sent what is queued.
+struct Exit {
+  int status = 0;
+  std::string line;
+};
+
+using Action = std::variant<Connect, Send, Disconnect, FindBlobs, KeepBlob, BuildScene, PrepareJob,
+                            StartTasks, CancelTasks, Tell, Exit>;
+
+}  // namespace ninefold::act
