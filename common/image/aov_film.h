@@ -23,13 +23,14 @@ class AovFilm {
   std::vector<Channel> channels() const;
 
  private:
-  struct Sums {
-    std::vector<double> albedo[3], normal[3], irradiance[3], caustic[3], depth;
-  };
+  using Rgb = std::array<std::vector<double>, 3>;  // sums over frames
+  void addDepth(int phase, const std::vector<float>& depth);
+
   TileGrid grid_;
   uint8_t extraMask_;
   int64_t frames_ = 0;
-  Sums sums_;
+  Rgb albedo_, normal_, irradiance_, caustic_;
+  std::vector<double> depth_;
   std::vector<uint32_t> hits_;  // frames in which the pixel met a surface
   std::vector<float> object_;
 };

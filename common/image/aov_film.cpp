@@ -1,0 +1,115 @@
+#include "common/image/aov_film.h"
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+using Rgb = std::array<std::vector<double>, 3>;
+
+// Where the pixels of a phase lie: calls f(index in the sub-plane, index in the image).
+template <typename F>
+void forEachPixel(const TileGrid& grid, int phase, const F& f) {
+  size_t sub = 0;
+  for (int j = 0; j < grid.subHeight(phase); ++j)
+    for (int i = 0; i < grid.subWidth(phase); ++i, ++sub)
+      f(sub, static_cast<size_t>(grid.pixelY(phase, j)) * static_cast<size_t>(grid.width()) +
+                 static_cast<size_t>(grid.pixelX(phase, i)));
+}
+
+void addRgb(const TileGrid& grid, int phase, const RgbPlane& plane, Rgb& sums) {
+  forEachPixel(grid, phase, [&](size_t sub, size_t pixel) {
+    sums[0][pixel] += static_cast<double>(plane.r[sub]);
+    sums[1][pixel] += static_cast<double>(plane.g[sub]);
+    sums[2][pixel] += static_cast<double>(plane.b[sub]);
+  });
+}
+
+void appendRgb(const std::string& name, const Rgb& sums, double share, std::vector<Channel>& out) {
+  for (size_t c = 0; c < 3; ++c) {
+    Channel channel{name + "." + "RGB"[c], std::vector<float>(sums[c].size())};
+    for (size_t i = 0; i < sums[c].size(); ++i)
+      channel.values[i] = static_cast<float>(sums[c][i] * share);
+    out.push_back(std::move(channel));
+  }
+}
+
+// Unit again; zero where no frame met a surface.
+void appendNormal(const Rgb& sums, std::vector<Channel>& out) {
+  const size_t n = sums[0].size(), first = out.size();
+  for (const char* name : {"N.x", "N.y", "N.z"}) out.push_back({name, std::vector<float>(n)});
+  for (size_t i = 0; i < n; ++i) {
+    const DVec3 sum(sums[0][i], sums[1][i], sums[2][i]);
+    const double length = glm::length(sum);
+    for (int c = 0; c < 3; ++c)
+      out[first + static_cast<size_t>(c)].values[i] =
+          length > 0 ? static_cast<float>(sum[c] / length) : 0.0f;
+  }
+}
+
+void appendDepth(const std::vector<double>& sums, const std::vector<uint32_t>& hits,
+                 std::vector<Channel>& out) {
+  Channel channel{"Z", std::vector<float>(sums.size())};
+  for (size_t i = 0; i < sums.size(); ++i)
+    channel.values[i] = hits[i] > 0 ? static_cast<float>(sums[i] / hits[i]) : 0.0f;
+  out.push_back(std::move(channel));
+}
+
+}  // namespace
+
+AovFilm::AovFilm(const TileGrid& grid, uint8_t extraMask) : grid_(grid), extraMask_(extraMask) {
+  clear();
+}
+
+void AovFilm::clear() {
+  const size_t n = static_cast<size_t>(grid_.width()) * static_cast<size_t>(grid_.height());
+  frames_ = 0;
+  const auto clearRgb = [&](Rgb& sums, int mask) {
+    for (std::vector<double>& sum : sums) sum.assign((extraMask_ & mask) != 0 ? n : 0, 0);
+  };
+  clearRgb(albedo_, kAlbedoPlane);
+  clearRgb(normal_, kNormalPlane);
+  clearRgb(caustic_, kCausticPlane);
+  for (std::vector<double>& sum : irradiance_) sum.assign(n, 0);
+  depth_.assign((extraMask_ & kDepthPlane) != 0 ? n : 0, 0);
+  hits_.assign(depth_.size(), 0);
+  object_.assign((extraMask_ & kObjectPlane) != 0 ? n : 0, 0);
+}
+
+void AovFilm::add(const FrameBuffer& frame, const FrameFilter& filter) {
+  NINEFOLD_CHECK(frame.extraMask() == extraMask_);
+  ++frames_;
+  for (int phase = 0; phase < grid_.interleave().sets(); ++phase) {
+    const ExtraPlanes& extras = frame.phase(phase).extras;
+    if ((extraMask_ & kAlbedoPlane) != 0) addRgb(grid_, phase, extras.albedo, albedo_);
+    if ((extraMask_ & kNormalPlane) != 0) addRgb(grid_, phase, extras.normal, normal_);
+    if ((extraMask_ & kCausticPlane) != 0) addRgb(grid_, phase, extras.caustic, caustic_);
+    addRgb(grid_, phase, filter.irradiance(phase), irradiance_);
+    if ((extraMask_ & kDepthPlane) != 0) addDepth(phase, extras.depth);
+    if ((extraMask_ & kObjectPlane) != 0)
+      forEachPixel(grid_, phase, [&](size_t sub, size_t pixel) {
+        object_[pixel] = static_cast<float>(extras.object[sub]);
+      });
+  }
+}
+
+void AovFilm::addDepth(int phase, const std::vector<float>& depth) {
+  forEachPixel(grid_, phase, [&](size_t sub, size_t pixel) {
+    depth_[pixel] += static_cast<double>(depth[sub]);
+    hits_[pixel] += depth[sub] > 0;
+  });
+}
+
+std::vector<Channel> AovFilm::channels() const {
+  std::vector<Channel> out;
+  const double share = frames_ > 0 ? 1.0 / static_cast<double>(frames_) : 0;
+  if ((extraMask_ & kAlbedoPlane) != 0) appendRgb("albedo", albedo_, share, out);
+  if ((extraMask_ & kNormalPlane) != 0) appendNormal(normal_, out);
+  if ((extraMask_ & kDepthPlane) != 0) appendDepth(depth_, hits_, out);
+  appendRgb("irradiance", irradiance_, share, out);
+  if ((extraMask_ & kCausticPlane) != 0) appendRgb("caustic", caustic_, share, out);
+  if ((extraMask_ & kObjectPlane) != 0) out.push_back({"objectId", object_});
+  return out;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,184 @@
+#include "common/image/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <memory>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kLargestSide = 16384;  // of files read; the largest picture that we make
+constexpr int kBandRows = 64;        // rows interleaved and written at a time
+
+std::string extensionOf(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+// A library's report as part of our one line.
+std::string oneLine(std::string text) {
+  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
+    text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.empty() ? "unknown reason" : text;
+}
+
+// Its file does not outlive a failure.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const fs::path& target)
+      : target_(target),
+        path_(target.parent_path() /
+              fmt::format(".{}.{}.partial", target.filename().string(), getpid())) {}
+  ~TemporaryFile() {
+    std::error_code ignored;  // nothing there after publish(), or nothing was ever written
+    fs::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  std::string path() const { return path_.string(); }
+  void publish() {
+    std::error_code error;
+    fs::rename(path_, target_, error);
+    if (error) fail("cannot write {}: {}", target_.string(), error.message());
+  }
+
+ private:
+  fs::path target_, path_;
+};
+
+using Planes = std::vector<const float*>;
+
+Planes planesOf(const Picture& picture, bool withExtras) {
+  const RgbPlane& p = picture.beauty.pixels;
+  Planes planes = {p.r.data(), p.g.data(), p.b.data()};
+  for (const Channel& channel : picture.extras) {
+    NINEFOLD_CHECK(channel.values.size() == picture.beauty.count());
+    if (withExtras) planes.push_back(channel.values.data());
+  }
+  return planes;
+}
+
+OIIO::ImageSpec specOf(const Picture& picture, bool isExr) {
+  const int channels = 3 + (isExr ? static_cast<int>(picture.extras.size()) : 0);
+  OIIO::ImageSpec spec(picture.beauty.width, picture.beauty.height, channels,
+                       OIIO::TypeDesc::FLOAT);
+  spec.channelnames = {"R", "G", "B"};
+  if (isExr) {
+    for (const Channel& channel : picture.extras) spec.channelnames.push_back(channel.name);
+    const float rec709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
+    spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
+    spec.attribute("compression", "zip");
+  }
+  spec.attribute("oiio:ColorSpace", "Linear");
+  spec.attribute("Software", "Ninefold");
+  for (const auto& [key, value] : picture.metadata) spec.attribute("ninefold:" + key, value);
+  return spec;
+}
+
+bool writeFloats(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const Planes& planes) {
+  const size_t channels = planes.size(), width = static_cast<size_t>(spec.width);
+  std::vector<float> band(channels * width * kBandRows);
+  for (int y = 0; y < spec.height; y += kBandRows) {
+    const int end = std::min(spec.height, y + kBandRows);
+    const size_t first = static_cast<size_t>(y) * width;
+    const size_t count = static_cast<size_t>(end - y) * width;
+    for (size_t c = 0; c < channels; ++c)
+      for (size_t i = 0; i < count; ++i) band[i * channels + c] = planes[c][first + i];
+    if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::FLOAT, band.data())) return false;
+  }
+  return true;
+}
+
+bool writeCodes(OIIO::ImageOutput& output, const RgbImage& image, const ToneMap& toneMap) {
+  std::vector<uint8_t> rgb;
+  toneMap.apply(image, rgb);
+  return output.write_image(OIIO::TypeDesc::UINT8, rgb.data());
+}
+
+// Indices of R, G and B in the file.
+std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec) {
+  const auto find = [&](const char* name) {
+    const auto at = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
+    return at == spec.channelnames.end() ? -1 : static_cast<int>(at - spec.channelnames.begin());
+  };
+  const std::array<int, 3> named = {find("R"), find("G"), find("B")};
+  if (std::all_of(named.begin(), named.end(), [](int c) { return c >= 0; })) return named;
+  return spec.nchannels >= 3 ? std::array<int, 3>{0, 1, 2} : std::array<int, 3>{0, 0, 0};
+}
+
+void decodeSrgb(std::vector<float>& plane) {
+  for (float& value : plane) value = linearFromSrgb(value);
+}
+
+}  // namespace
+
+void checkOutputPath(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  if (extension != ".exr" && extension != ".hdr" && extension != ".png")
+    fail("cannot write {}: the name must end in .exr, .hdr or .png", path);
+  const fs::path folder = fs::absolute(path).parent_path();
+  std::error_code error;
+  if (!fs::is_directory(folder, error))
+    fail("cannot write {}: there is no folder {}; create it first", path, folder.string());
+  if (access(folder.c_str(), W_OK | X_OK) != 0)
+    fail("cannot write {}: no right to create files in {}", path, folder.string());
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
+    fail("cannot write {}: it exists and is no ordinary file; choose another name", path);
+}
+
+void writeImage(const std::string& path, const Picture& picture, const ToneMap& toneMap) {
+  checkOutputPath(path);
+  const std::string extension = extensionOf(path);
+  const bool isExr = extension == ".exr", isPng = extension == ".png";
+  OIIO::ImageSpec spec = specOf(picture, isExr);
+  if (isPng) {
+    spec.set_format(OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+  }
+  TemporaryFile file(fs::absolute(path));
+  const auto output = OIIO::ImageOutput::create(extension.substr(1));
+  if (!output) fail("cannot write {}: {}", path, oneLine(OIIO::geterror()));
+  const bool written = output->open(file.path(), spec) &&
+                       (isPng ? writeCodes(*output, picture.beauty, toneMap)
+                              : writeFloats(*output, spec, planesOf(picture, isExr))) &&
+                       output->close();
+  if (!written) fail("cannot write {}: {}", path, oneLine(output->geterror()));
+  file.publish();
+}
+
+RgbImage readImage(const std::string& path) {
+  const auto input = OIIO::ImageInput::open(path);
+  if (!input) fail("cannot read image {}: {}", path, oneLine(OIIO::geterror()));
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide ||
+      spec.height > kLargestSide || spec.depth > 1)
+    fail("cannot read image {}: it has {}x{}x{} pixels, {} on a side are allowed", path, spec.width,
+         spec.height, spec.depth, kLargestSide);
+  const bool isSrgb = !spec.format.is_floating_point();
+  const std::array<int, 3> channels = colourChannels(spec);
+  RgbImage image;
+  image.reset(spec.width, spec.height);
+  std::vector<float>* planes[3] = {&image.pixels.r, &image.pixels.g, &image.pixels.b};
+  for (size_t c = 0; c < 3; ++c) {
+    if (!input->read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT,
+                           planes[c]->data()))
+      fail("cannot read image {}: {}", path, oneLine(input->geterror()));
+    if (isSrgb) decodeSrgb(*planes[c]);
+  }
+  return image;
+}
+
+}  // namespace ninefold
