@@ -1,19 +1,23 @@
-// bsdf.h: how one surface point scatters: D, the Lambertian part, and the S lobes (everything else).
+// bsdf.h: how one surface point scatters: D, the Lambertian part, and the S lobes (everything
+// else).
 //
 //   D             f = diffuse / pi; its weight does not depend on directions
 //   reflection    GGX with Smith's height-correlated masking (smooth when alpha = 0)
 //                 opaque: Schlick's Fresnel f0 + (1-f0)(1-cos)^5; dielectric: exact Fresnel of eta
-//   transmission  GGX refraction (Walter 2007), smooth when alpha = 0; thin-walled: straight on, without bending;
+//   transmission  GGX refraction (Walter 2007), smooth when alpha = 0; thin-walled: straight on,
+//   without bending;
 //                 plus the straight pass of weight `passThrough` (alpha blending), always smooth
 //
-// All of it is for basic radiance L/n^2: no eta^2 factor appears and every lobe is symmetric, so light
-// particles and eye paths use the same functions. Directions are unit, local (z = shading normal), point
-// away from the surface; wo.z > 0 always: the caller turns the frame, and eta, to the side of wo.
-// The single-scattering GGX lobes lose energy at high roughness; the loss is stated by the tests, not hidden.
+// All of it is for basic radiance L/n^2: no eta^2 factor appears and every lobe is symmetric, so
+// light particles and eye paths use the same functions. Directions are unit, local (z = shading
+// normal), point away from the surface; wo.z > 0 always: the caller turns the frame, and eta, to
+// the side of wo. The single-scattering GGX lobes lose energy at high roughness; the loss is stated
+// by the tests, not hidden.
 //
 // Source:  Walter et al. 2007; Heitz 2018 (visible normals); Schlick 1994.
-// Proved:  tests/bsdf (chi-square sample/pdf, reciprocity, albedo <= 1, smooth limits, index 1 is invisible).
-// Threads: plain values, pure functions. Errors: none; nullopt means "no light goes there".
+// Proved:  tests/bsdf (chi-square sample/pdf, reciprocity, albedo <= 1, smooth limits, index 1 is
+// invisible). Threads: plain values, pure functions. Errors: none; nullopt means "no light goes
+// there".
 #pragma once
 
 #include <optional>
@@ -25,16 +29,19 @@ namespace ninefold {
 enum class Lobe : uint8_t { reflection, transmission };
 
 struct Bsdf {
-  Reflectance diffuse{0};        // rho of D
-  Vec3 f0{0};                    // opaque: reflectance at normal incidence (Schlick); used if !dielectric
-  float alpha = 0;               // GGX roughness (already squared); below kSmoothAlpha it is set to 0
-  float eta = 1;                 // dielectric: index beyond the surface / index on wo's side
-  bool reflects = false;         // reflection lobe present
-  bool dielectric = false;       // exact Fresnel reflection, and transmission of (1-F) * transmissionTint
-  bool thin = false;             // thin-walled dielectric: transmits straight on; F of both faces
-  Vec3 reflectionTint{0};        // factor of the dielectric reflection (KHR_materials_specular), usually 1
-  Vec3 transmissionTint{0};      // base colour * transmission
-  float passThrough = 0;         // 1 - opacity of alpha blending; the other parts are already times opacity
+  Reflectance diffuse{0};  // rho of D
+  Vec3 f0{0};              // opaque: reflectance at normal incidence (Schlick); used if !dielectric
+  float alpha = 0;         // GGX roughness (already squared); below kSmoothAlpha it is set to 0
+  float eta = 1;           // dielectric: index beyond the surface / index on wo's side
+  bool reflects = false;   // reflection lobe present
+  bool dielectric =
+      false;          // exact Fresnel reflection, and transmission of (1-F) * transmissionTint
+  bool thin = false;  // thin-walled dielectric: transmits straight on; F of both faces
+  Vec3 reflectionTint{
+      0};  // factor of the dielectric reflection (KHR_materials_specular), usually 1
+  Vec3 transmissionTint{0};  // base colour * transmission
+  float passThrough =
+      0;  // 1 - opacity of alpha blending; the other parts are already times opacity
 
   bool transmits() const { return passThrough > 0 || (dielectric && !isBlack(transmissionTint)); }
 };
@@ -42,9 +49,9 @@ struct Bsdf {
 inline constexpr float kSmoothAlpha = 1e-3f;
 
 struct LobeSample {
-  Vec3 wi;        // unit, local; wi.z < 0 when transmitted
-  Vec3 weight;    // f * |cos| / pdf, each in [0, 1] up to rounding
-  float pdf;      // per solid angle, of this lobe alone; 0 for a smooth (delta) lobe
+  Vec3 wi;      // unit, local; wi.z < 0 when transmitted
+  Vec3 weight;  // f * |cos| / pdf, each in [0, 1] up to rounding
+  float pdf;    // per solid angle, of this lobe alone; 0 for a smooth (delta) lobe
   bool smooth;
 };
 
@@ -58,14 +65,16 @@ struct LobeValue {
 };
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi);
 
-// Approximate directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1].
+// Approximate directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0,
+// 1].
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO);
 
-// Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what folding a lobe that is
-// too rough into D adds to rho. 0 <= f0 <= 1.
+// Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what folding a lobe that
+// is too rough into D adds to rho. 0 <= f0 <= 1.
 Reflectance meanReflection(Vec3 f0, float alpha);
 
-// Exact unpolarized Fresnel reflectance at |cosThetaI|, eta = n_t / n_i. 1 on total internal reflection.
+// Exact unpolarized Fresnel reflectance at |cosThetaI|, eta = n_t / n_i. 1 on total internal
+// reflection.
 float fresnelDielectric(float cosThetaI, float eta);
 
 // Mean of fresnelDielectric over the cosine-weighted hemisphere.

@@ -1,0 +1,48 @@
+// lobes.h: the parts behind bsdf.h. Each lobe has one function that samples and one that evaluates;
+// both get weight = f |cos wi| / pdf and pdf from the same expressions, so that they cannot
+// disagree. Threads: pure functions. Errors: none. Internal to common/bsdf.
+#pragma once
+
+#include "common/bsdf/bsdf.h"
+
+namespace ninefold {
+
+// What an interface sends back and what it lets through, at the angle `cosine` to its (micro)
+// normal. A thin wall adds up the bounces between its two faces: F' = 2F/(1+F), and lets 1 - F'
+// through.
+Vec3 interfaceReflectance(const Bsdf& bsdf, float cosine);
+Vec3 interfaceTransmittance(const Bsdf& bsdf, float cosine);
+
+// Rough refraction bends by about alpha |eta - 1|: where that is less than the least roughness, the
+// interface is smooth for light that passes. Index 1 is invisible by this rule, too.
+inline bool smoothReflection(const Bsdf& bsdf) { return bsdf.alpha < kSmoothAlpha; }
+inline bool smoothTransmission(const Bsdf& bsdf) {
+  return bsdf.alpha * std::min(std::abs(bsdf.eta - 1.0f), 1.0f) < kSmoothAlpha;
+}
+
+// Chance of the straight pass inside the transmission lobe, in proportion to what each part lets
+// through.
+struct TransmissionSplit {
+  float straight;   // weight of the straight pass
+  float refracted;  // bound of the weight of refraction
+  float chance() const { return straight / (straight + refracted); }
+};
+TransmissionSplit splitTransmission(const Bsdf& bsdf, float cosThetaO);
+
+std::optional<LobeSample> sampleReflection(const Bsdf& bsdf, Vec3 wo, Vec2 u);
+LobeValue evaluateReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi);
+std::optional<LobeSample> sampleTransmission(const Bsdf& bsdf, Vec3 wo, Vec2 u, float uLobe);
+LobeValue evaluateTransmission(const Bsdf& bsdf, Vec3 wo, Vec3 wi);
+
+// GGX mirror lobe, for reflection and, mirrored to the other side, for rough thin walls. wo.z, wi.z
+// > 0.
+struct MirrorLobe {
+  float cosine;   // wo . m
+  float masking;  // G2(wo, wi) / G1(wo)
+  float pdf;      // of wi [1/sr]
+};
+MirrorLobe mirrorLobe(Vec3 wo, Vec3 wi, Vec3 m, float alpha);
+std::optional<Vec3> halfway(Vec3 wo, Vec3 wi);      // unit; nullopt if they cancel out
+std::optional<Vec3> reflectAbout(Vec3 wo, Vec3 m);  // unit; nullopt if it ends below the surface
+
+}  // namespace ninefold
