@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "common/base/counters.h"
+#include "common/image/layers.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
 #include "proto/framing.h"
@@ -33,8 +34,10 @@ std::string releaseName();
 inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text
 inline constexpr size_t kMaxBlobs = 65536;  // in one scene
 inline constexpr size_t kMaxTasksPerMessage = 4096;
-inline constexpr size_t kBlobChunkBytes = 256 << 10;  // so that heartbeats slip in between
-inline constexpr size_t kMaxTileBytes = 2 << 20;      // an encoded tile
+inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
+inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
+inline constexpr uint8_t kAllExtraPlanes = 31;           // every bit of ExtraPlane
+inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 
 enum class MessageType : uint16_t {
   hello = 1,    // C -> M  first on every connection                            -> Welcome | Refuse
@@ -165,6 +168,9 @@ const char* nameOf(MessageType type);  // "Hello", ...; "unknown" for other numb
 
 // True if `sender` may send messages of this type; false for unknown types.
 bool maySend(Peer sender, MessageType type);
+
+// Frame sizes by type, for a FrameParser; {0, 0} for unknown types.
+FrameLimit messageLimit(uint16_t type);
 
 // Message to frame. Bulk bytes are moved, not copied. The message is our own: CHECKs the limits.
 Frame encodeMessage(Message&& message);

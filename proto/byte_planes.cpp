@@ -1,0 +1,81 @@
+#include "proto/byte_planes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace ninefold {
+namespace {
+
+enum Mode : uint8_t { kZero = 0, kConstant = 1, kPlain = 2, kDifferences = 3 };
+
+// How often a difference or value meets itself again: the larger, the fewer bits zstd needs.
+uint64_t repetition(const std::array<uint32_t, 256>& histogram) {
+  uint64_t sum = 0;
+  for (const uint64_t count : histogram) sum += count * count;
+  return sum;
+}
+
+bool differencesPay(std::span<const uint8_t> plane) {
+  std::array<uint32_t, 256> values{}, differences{};
+  uint8_t last = 0;
+  for (const uint8_t value : plane) {
+    ++values[value];
+    ++differences[static_cast<uint8_t>(value - last)];
+    last = value;
+  }
+  return repetition(differences) > repetition(values);
+}
+
+// Backwards, so that each byte still sees its neighbour's own value.
+void takeDifferences(std::span<uint8_t> plane, size_t width) {
+  for (size_t i = plane.size(); i-- > 1;) {
+    const size_t before = i % width != 0 ? i - 1 : i - width;
+    plane[i] = static_cast<uint8_t>(plane[i] - plane[before]);
+  }
+}
+
+void addDifferences(std::span<uint8_t> plane, size_t width) {
+  for (size_t row = 0; row < plane.size(); row += width) {
+    if (row > 0) plane[row] = static_cast<uint8_t>(plane[row] + plane[row - width]);
+    for (size_t i = row + 1; i < row + width; ++i)
+      plane[i] = static_cast<uint8_t>(plane[i] + plane[i - 1]);
+  }
+}
+
+}  // namespace
+
+void writePlane(std::span<uint8_t> plane, size_t width, Bytes& out) {
+  NINEFOLD_CHECK(!plane.empty() && plane.size() % width == 0);
+  ByteWriter writer(out);
+  const uint8_t first = plane.front();
+  if (std::all_of(plane.begin(), plane.end(), [=](uint8_t b) { return b == first; })) {
+    writer.number<uint8_t>(first == 0 ? kZero : kConstant);
+    if (first != 0) writer.number(first);
+    return;
+  }
+  const bool differences = differencesPay(plane);
+  if (differences) takeDifferences(plane, width);
+  writer.number<uint8_t>(differences ? kDifferences : kPlain);
+  writer.raw(plane.data(), plane.size());
+}
+
+void readPlane(ByteReader& in, size_t width, std::span<uint8_t> plane) {
+  const auto mode = in.number<uint8_t>("plane mode");
+  switch (mode) {
+    case kZero:
+      std::fill(plane.begin(), plane.end(), uint8_t{0});
+      return;
+    case kConstant:
+      std::fill(plane.begin(), plane.end(), in.number<uint8_t>("plane value"));
+      return;
+    case kPlain:
+    case kDifferences:
+      in.raw(plane.data(), plane.size(), "plane");
+      if (mode == kDifferences) addDifferences(plane, width);
+      return;
+    default:
+      fail("{}: plane mode {} is unknown; it is damaged", in.what(), mode);
+  }
+}
+
+}  // namespace ninefold

@@ -1,0 +1,140 @@
+#include "proto/key.h"
+
+#include <fcntl.h>
+#include <openssl/crypto.h>
+#include <openssl/rand.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <utility>
+
+namespace ninefold {
+namespace {
+
+constexpr int kReceiveDeadlineMs = 5000;
+
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  ~Descriptor() {
+    if (fd_ >= 0) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  explicit operator bool() const { return fd_ >= 0; }
+  int get() const { return fd_; }
+  int release() { return std::exchange(fd_, -1); }
+
+ private:
+  int fd_;
+};
+
+std::string systemText() { return std::strerror(errno); }
+
+bool writeAll(int fd, ByteView bytes) {
+  while (!bytes.empty()) {
+    const ssize_t put = ::write(fd, bytes.data(), bytes.size());
+    if (put < 0 && errno == EINTR) continue;
+    if (put <= 0) return false;
+    bytes = bytes.subspan(static_cast<size_t>(put));
+  }
+  return true;
+}
+
+// Reads until `into` is full or the data ends; how many bytes that were. -1 on errors.
+ssize_t readUpTo(int fd, std::span<std::byte> into) {
+  size_t have = 0;
+  while (have < into.size()) {
+    const ssize_t got = ::read(fd, into.data() + have, into.size() - have);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return -1;
+    if (got == 0) break;
+    have += static_cast<size_t>(got);
+  }
+  return static_cast<ssize_t>(have);
+}
+
+void checkKeyFile(int fd, const std::filesystem::path& file) {
+  struct stat facts {};
+  if (::fstat(fd, &facts) != 0) fail("key file {}: {}", file.string(), systemText());
+  if (!S_ISREG(facts.st_mode)) fail("key file {}: is not a regular file", file.string());
+  if ((facts.st_mode & (S_IRWXG | S_IRWXO)) != 0)
+    fail("key file {}: others may use it (mode {:03o}); run: chmod 600 {}", file.string(),
+         facts.st_mode & 0777, file.string());
+  if (facts.st_size != static_cast<off_t>(Key::kBytes))
+    fail("key file {}: has {} bytes instead of {}; make a new one with --new-key", file.string(),
+         facts.st_size, Key::kBytes);
+}
+
+}  // namespace
+
+Key::Key(Key&& other) noexcept : bytes_(other.bytes_) {
+  OPENSSL_cleanse(other.bytes_.data(), kBytes);
+}
+
+Key& Key::operator=(Key&& other) noexcept {
+  if (this != &other) {
+    bytes_ = other.bytes_;
+    OPENSSL_cleanse(other.bytes_.data(), kBytes);
+  }
+  return *this;
+}
+
+Key::~Key() { OPENSSL_cleanse(bytes_.data(), kBytes); }
+
+Key Key::random() {
+  Key key;
+  if (RAND_priv_bytes(reinterpret_cast<unsigned char*>(key.bytes_.data()), kBytes) != 1)
+    fail("the system gives no random bytes; no key can be made");
+  return key;
+}
+
+Key Key::load(const std::filesystem::path& file) {
+  // Not blocking: a named pipe in place of the file must not make us wait.
+  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (!in) fail("key file {}: {}; make one with --new-key", file.string(), systemText());
+  checkKeyFile(in.get(), file);
+  Key key;
+  if (readUpTo(in.get(), key.bytes_) != static_cast<ssize_t>(kBytes))
+    fail("key file {}: cannot be read to its end", file.string());
+  return key;
+}
+
+Key Key::receive(int descriptor) {
+  const Descriptor in(descriptor);
+  Key key;
+  pollfd ready{in.get(), POLLIN, 0};
+  // The launcher has put the whole key into the pipe before it passes it on: one wait is enough.
+  if (::poll(&ready, 1, kReceiveDeadlineMs) != 1 ||
+      readUpTo(in.get(), key.bytes_) != static_cast<ssize_t>(kBytes))
+    fail("no key came over descriptor {}; local clients are started by ninefold-master",
+         descriptor);
+  return key;
+}
+
+void createKeyFile(const std::filesystem::path& file) {
+  const Key key = Key::random();
+  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
+  if (!out && errno == EEXIST)
+    fail("key file {}: exists already and is not overwritten; choose another name", file.string());
+  if (!out) fail("key file {}: {}", file.string(), systemText());
+  if (::fchmod(out.get(), 0600) == 0 && writeAll(out.get(), key.bytes()) && ::fsync(out.get()) == 0)
+    return;
+  const std::string reason = systemText();
+  ::unlink(file.c_str());
+  fail("key file {}: {}", file.string(), reason);
+}
+
+int keyPipe(const Key& key) {
+  int ends[2];
+  if (::pipe2(ends, O_CLOEXEC) != 0) fail("no pipe for a local client's key: {}", systemText());
+  Descriptor in(ends[0]);
+  const Descriptor out(ends[1]);
+  // A new pipe has room for far more than a key: this does not block.
+  if (!writeAll(out.get(), key.bytes())) fail("no pipe for a local client's key: {}", systemText());
+  return in.release();
+}
+
+}  // namespace ninefold

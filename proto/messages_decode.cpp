@@ -1,0 +1,166 @@
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "proto/messages.h"
+#include "proto/scene_blobs.h"
+#include "proto/settings_wire.h"
+
+namespace ninefold {
+namespace {
+
+// Text of a peer goes to people's terminals: no control characters, so no escape sequences and no
+// new lines.
+std::string text(const char* field, const std::string& in) {
+  if (in.size() > kMaxText) fail("{} is longer than {} bytes", field, kMaxText);
+  const bool printable = std::all_of(in.begin(), in.end(), [](char c) {
+    const auto u = static_cast<unsigned char>(c);
+    return u >= 0x20 && u != 0x7f && !(u >= 0x80 && u < 0xa0);
+  });
+  return printable ? in : throw Error(fmt::format("{} holds control characters", field));
+}
+
+Sha256 hash(const std::string& in) {
+  Sha256 out;
+  if (in.size() != out.size()) fail("hash has {} bytes instead of {}", in.size(), out.size());
+  std::copy(in.begin(), in.end(), out.begin());
+  return out;
+}
+
+template <typename T>
+T upTo(const char* field, uint64_t value, uint64_t high, uint64_t low = 0) {
+  if (value < low || value > high) fail("{} is {}, must be {} to {}", field, value, low, high);
+  return static_cast<T>(value);
+}
+
+template <typename T>
+T parse(const std::string& header) {
+  T out;
+  if (!out.ParseFromString(header)) fail("header is not the protobuf message that it should be");
+  return out;
+}
+
+msg::Hello decode(const pb::Hello& in, Bytes&&) {
+  msg::Hello m;
+  m.protocol = in.protocol();
+  m.release = text("release", in.release());
+  m.name = text("name", in.name());
+  m.threads = upTo<uint32_t>("threads", in.threads(), 1024, 1);
+  m.isa = text("isa", in.isa());
+  m.probeClass = text("probe class", in.probe_class());
+  return m;
+}
+
+msg::Welcome decode(const pb::Welcome& in, Bytes&&) {
+  return {in.client_id(), text("release", in.release())};
+}
+
+msg::Refuse decode(const pb::Refuse& in, Bytes&&) { return {text("reason", in.reason())}; }
+
+msg::SceneOffer decode(const pb::SceneOffer& in, Bytes&&) {
+  msg::SceneOffer m;
+  m.sceneVersion = in.scene_version();
+  const auto count =
+      upTo<size_t>("number of blobs", static_cast<uint64_t>(in.blobs_size()), kMaxBlobs);
+  m.blobs.reserve(count);
+  for (const pb::BlobInfo& blob : in.blobs()) {
+    BlobInfo info;
+    info.hash = hash(blob.hash());
+    info.rawBytes = upTo<uint64_t>("blob size", blob.raw_bytes(), kMaxBlobBytes, 1);
+    info.kind = upTo<BlobKind>("blob kind", blob.kind(), static_cast<uint64_t>(BlobKind::meshes));
+    m.blobs.push_back(info);
+  }
+  return m;
+}
+
+msg::BlobRequest decode(const pb::BlobRequest& in, Bytes&&) {
+  return {hash(in.hash()), upTo<uint64_t>("offset", in.offset(), kMaxPackedBytes)};
+}
+
+msg::BlobChunk decode(const pb::BlobChunk& in, Bytes&& payload) {
+  msg::BlobChunk m;
+  m.hash = hash(in.hash());
+  m.total = upTo<uint64_t>("total", in.total(), kMaxPackedBytes, 1);
+  m.offset = upTo<uint64_t>("offset", in.offset(), m.total);
+  upTo<size_t>("size", payload.size(), m.total - m.offset, 1);
+  m.bytes = std::move(payload);
+  return m;
+}
+
+msg::Configure decode(const pb::Configure& in, Bytes&&) {
+  return {in.scene_version(), in.job_version(), fromWire(in.settings())};
+}
+
+msg::Ready decode(const pb::Ready& in, Bytes&&) { return {in.scene_version(), in.job_version()}; }
+
+msg::Progress decode(const pb::Progress& in, Bytes&&) {
+  return {upTo<Phase>("phase", in.phase(), static_cast<uint64_t>(Phase::building)),
+          upTo<uint64_t>("done", in.done(), in.total()), in.total()};
+}
+
+msg::Tasks decode(const pb::Tasks& in, Bytes&&) {
+  msg::Tasks m;
+  m.jobVersion = in.job_version();
+  m.frame = fromWire(in.frame());
+  const auto count =
+      upTo<int>("number of tasks", static_cast<uint64_t>(in.tile_size()), kMaxTasksPerMessage, 1);
+  if (in.phase_size() != count || in.extra_mask_size() != count)
+    fail("tile, phase and extra mask differ in number");
+  for (int i = 0; i < count; ++i)
+    m.items.push_back({in.tile(i), upTo<uint32_t>("phase", in.phase(i), 255),
+                       upTo<uint8_t>("extra mask", in.extra_mask(i), kAllExtraPlanes)});
+  return m;
+}
+
+msg::Cancel decode(const pb::Cancel& in, Bytes&&) { return {in.job_version(), in.frame()}; }
+
+msg::Result decode(const pb::Result& in, Bytes&& payload) {
+  msg::Result m;
+  m.jobVersion = in.job_version();
+  m.frame = in.frame();
+  m.tile = in.tile();
+  m.phase = in.phase();
+  m.busyNs = in.busy_ns();
+  m.setsMade = upTo<uint32_t>("sets made", in.sets_made(), 1);
+  m.replaced = in.replaced();
+  m.rays = {in.rays_eye(), in.rays_shadow(), in.rays_photon(), in.rays_compensation()};
+  m.encoded = std::move(payload);
+  return m;
+}
+
+msg::Ping decode(const pb::Ping& in, Bytes&&) { return {in.clock_ns()}; }
+msg::Pong decode(const pb::Pong& in, Bytes&&) { return {in.echo_ns(), in.clock_ns()}; }
+msg::Goodbye decode(const pb::Goodbye& in, Bytes&&) { return {text("reason", in.reason())}; }
+
+template <typename Header>
+Message decodeAs(Frame&& frame) {
+  return decode(parse<Header>(frame.header), std::move(frame.payload));
+}
+
+using Decoder = Message (*)(Frame&&);
+constexpr Decoder kDecoders[] = {  // in the order of MessageType
+    decodeAs<pb::Hello>,      decodeAs<pb::Welcome>,     decodeAs<pb::Refuse>,
+    decodeAs<pb::SceneOffer>, decodeAs<pb::BlobRequest>, decodeAs<pb::BlobChunk>,
+    decodeAs<pb::Configure>,  decodeAs<pb::Ready>,       decodeAs<pb::Progress>,
+    decodeAs<pb::Tasks>,      decodeAs<pb::Cancel>,      decodeAs<pb::Result>,
+    decodeAs<pb::Ping>,       decodeAs<pb::Pong>,        decodeAs<pb::Goodbye>};
+static_assert(std::size(kDecoders) == std::variant_size_v<Message>);
+
+}  // namespace
+
+Message decodeMessage(Frame&& frame, Peer sender) {
+  const auto type = static_cast<MessageType>(frame.type);
+  const char* name = nameOf(type);
+  if (!maySend(sender, type))
+    fail("peer sent a message of type {} ({}), which is not its to send", frame.type, name);
+  const FrameLimit limit = messageLimit(frame.type);
+  if (frame.header.size() > limit.header || frame.payload.size() > limit.payload)
+    fail("peer sent a malformed {} message: it is too long", name);
+  try {
+    return kDecoders[frame.type - 1](std::move(frame));
+  } catch (const Error& error) {
+    fail("peer sent a malformed {} message: {}", name, error.what());
+  }
+}
+
+}  // namespace ninefold

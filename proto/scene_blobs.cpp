@@ -1,0 +1,120 @@
+#include "proto/scene_blobs.h"
+
+#include <utility>
+
+#include "common/scene/reader.h"
+#include "proto/compression.h"
+#include "proto/scene_archive.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kLevel = 3;  // a scene is sent rarely, and mostly from cache
+
+Blob seal(BlobKind kind, ByteView raw) {
+  if (raw.size() > kMaxBlobBytes)
+    fail("scene: one part of it takes {} bytes, at most {} can be sent; split large meshes",
+         raw.size(), kMaxBlobBytes);
+  return {{sha256(raw), raw.size(), kind}, compressBlob(raw, kLevel)};
+}
+
+size_t sizeOf(const Mesh& mesh) {
+  return mesh.positions.size() * 12 + mesh.normals.size() * 12 + mesh.uv0.size() * 8 +
+         mesh.uv1.size() * 8 + mesh.tangents.size() * 16 + mesh.triangles.size() * 12 + 128;
+}
+
+void packMeshes(const std::vector<Mesh>& meshes, std::vector<Blob>& blobs) {
+  Bytes raw;
+  WriteArchive archive(raw);
+  for (size_t i = 0; i < meshes.size(); ++i) {
+    archive(meshes[i]);
+    const bool full = i + 1 == meshes.size() || raw.size() + sizeOf(meshes[i + 1]) > kMeshBlobBytes;
+    if (!full) continue;
+    blobs.push_back(seal(BlobKind::meshes, raw));
+    raw.clear();
+  }
+}
+
+ByteReader readerOf(const Bytes& raw) { return ByteReader(raw, "scene blob"); }
+
+template <typename T>
+void readOne(const Bytes& raw, T& value) {
+  ByteReader in = readerOf(raw);
+  ReadArchive archive(in);
+  archive(value);
+  in.expectEnd();
+}
+
+void readMeshes(const Bytes& raw, std::vector<Mesh>& meshes) {
+  ByteReader in = readerOf(raw);
+  ReadArchive archive(in);
+  while (in.left() > 0) archive(meshes.emplace_back());
+}
+
+}  // namespace
+
+std::vector<Blob> packScene(const Scene& scene) {
+  std::vector<Blob> blobs;
+  Bytes raw;
+  for (const TextureImage& image : scene.images) {
+    raw.clear();
+    WriteArchive archive(raw);
+    archive(image);
+    blobs.push_back(seal(BlobKind::image, raw));
+  }
+  packMeshes(scene.meshes, blobs);
+  raw.clear();
+  WriteArchive archive(raw);
+  archive(scene);
+  blobs.push_back(seal(BlobKind::rest, raw));
+  std::vector<BlobInfo> manifest;
+  for (const Blob& blob : blobs) manifest.push_back(blob.info);
+  checkManifest(manifest);
+  return blobs;
+}
+
+void checkManifest(const std::vector<BlobInfo>& manifest) {
+  if (manifest.empty() || manifest.size() > kMaxBlobs)
+    fail("scene: {} parts, must be 1 to {}", manifest.size(), kMaxBlobs);
+  uint64_t total = 0;
+  for (const BlobInfo& info : manifest) {
+    const bool last = &info == &manifest.back();
+    if (last != (info.kind == BlobKind::rest)) fail("scene: its parts are out of order");
+    if (info.rawBytes == 0 || info.rawBytes > kMaxBlobBytes)
+      fail("scene: a part of {} bytes, must be 1 to {}", info.rawBytes, kMaxBlobBytes);
+    total += info.rawBytes;
+  }
+  if (total > kMaxSceneBytes)
+    fail("scene: takes {} bytes, at most {} can be sent", total, kMaxSceneBytes);
+}
+
+Bytes unpackBlob(const BlobInfo& info, ByteView compressed) {
+  if (info.rawBytes > kMaxBlobBytes)
+    fail("scene blob: declares {} bytes, at most {} are allowed", info.rawBytes, kMaxBlobBytes);
+  Bytes raw;
+  try {
+    raw = decompressBlob(compressed, info.rawBytes);
+  } catch (const Error& error) {
+    fail("scene blob {}: {}", hex(info.hash), error.what());
+  }
+  if (sha256(raw) != info.hash)
+    fail("scene blob {}: its content does not match its SHA-256", hex(info.hash));
+  return raw;
+}
+
+Scene unpackScene(const std::vector<BlobInfo>& manifest, const std::vector<Bytes>& raw) {
+  checkManifest(manifest);
+  NINEFOLD_CHECK(manifest.size() == raw.size());
+  Scene scene;
+  readOne(raw.back(), scene);
+  for (size_t i = 0; i + 1 < manifest.size(); ++i) {
+    if (manifest[i].kind == BlobKind::image)
+      readOne(raw[i], scene.images.emplace_back());
+    else
+      readMeshes(raw[i], scene.meshes);
+  }
+  validate(scene);
+  return scene;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,16 @@
+// settings_wire.h: Settings and FrameKey as protobuf messages. Internal to messages_decode/encode.
+// Errors: the fromWire functions throw Error naming a field that is out of range. Threads: pure.
+#pragma once
+
+#include "common/scene/settings.h"
+#include "proto/messages.pb.h"
+
+namespace ninefold {
+
+void toWire(const Settings& settings, pb::Settings& out);
+Settings fromWire(const pb::Settings& in);
+
+void toWire(const FrameKey& frame, pb::FrameKey& out);
+FrameKey fromWire(const pb::FrameKey& in);
+
+}  // namespace ninefold

@@ -1,0 +1,145 @@
+#include "proto/tile_codec.h"
+
+#include <zstd.h>
+
+#include "proto/messages.h"
+#include "proto/tile_fields.h"
+
+namespace ninefold {
+namespace {
+
+constexpr uint8_t kVersion = 1;
+enum Storage : uint8_t { kStored = 0, kZstd = 1 };
+constexpr size_t kHeadBytes = 1 + 1 + 1 + 1 + 2 + 2 + 4;
+
+bool isTileShape(int width, int height) {
+  return (width == 0 && height == 0) ||
+         (width > 0 && height > 0 && int64_t{width} * height <= kMaxTilePixels);
+}
+
+void writeHead(const TileResult& tile, Storage storage, size_t fieldBytes, Bytes& out) {
+  ByteWriter writer(out);
+  writer.number(kVersion);
+  writer.number(tile.layerMask);
+  writer.number(tile.extraMask);
+  writer.number<uint8_t>(storage);
+  writer.number(static_cast<uint16_t>(tile.width));
+  writer.number(static_cast<uint16_t>(tile.height));
+  writer.number(static_cast<uint32_t>(fieldBytes));
+}
+
+struct Head {
+  uint8_t version, layerMask, extraMask, storage;
+  uint16_t width, height;
+  uint32_t fieldBytes;
+};
+
+Head readHead(ByteReader& in) {
+  Head head{};
+  head.version = in.number<uint8_t>("version");
+  head.layerMask = in.number<uint8_t>("layer mask");
+  head.extraMask = in.number<uint8_t>("extra mask");
+  head.storage = in.number<uint8_t>("storage");
+  head.width = in.number<uint16_t>("width");
+  head.height = in.number<uint16_t>("height");
+  head.fieldBytes = in.number<uint32_t>("size");
+  return head;
+}
+
+void checkHead(const Head& head, const TileShape& expected) {
+  if (head.version != kVersion) fail("tile: version {} is unknown", head.version);
+  if (head.width != expected.width || head.height != expected.height)
+    fail("tile: is {} x {} pixels, the task has {} x {}", head.width, head.height, expected.width,
+         expected.height);
+  if (head.layerMask != expected.layerMask || head.extraMask != expected.extraMask)
+    fail("tile: has layers {:#x} and planes {:#x}, the task wants {:#x} and {:#x}", head.layerMask,
+         head.extraMask, expected.layerMask, expected.extraMask);
+  const auto pixels = static_cast<size_t>(expected.width) * static_cast<size_t>(expected.height);
+  if (head.fieldBytes > mostFieldBytes(pixels, head.layerMask, head.extraMask))
+    fail("tile: declares {} bytes, more than its planes can take", head.fieldBytes);
+}
+
+}  // namespace
+
+uint64_t ditherKey(uint64_t seed, const FrameKey& frame, uint32_t tile, uint32_t phase) {
+  const uint64_t moment =
+      mixBits(seed ^ mixBits(uint64_t{frame.randomization} << 32 | frame.rotation));
+  return mixBits(moment ^ mixBits(uint64_t{tile} << 32 | phase));
+}
+
+struct TileEncoder::Impl {
+  std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), ZSTD_freeCCtx};
+  BytePlanes scratch;
+  Bytes fields;
+};
+
+TileEncoder::TileEncoder() : impl_(std::make_unique<Impl>()) {}
+TileEncoder::~TileEncoder() = default;
+
+TileEncoder::Encoded TileEncoder::encode(const TileResult& tile, uint64_t dither, int level) {
+  NINEFOLD_CHECK(isTileShape(tile.width, tile.height));
+  Bytes& fields = impl_->fields;
+  fields.clear();
+  Encoded encoded;
+  if (tile.count() > 0) {
+    FieldWriter writer(tile.width, static_cast<size_t>(tile.count()), dither, impl_->scratch,
+                       fields);
+    forEachField(writer, tile);
+    encoded.replaced = writer.replaced();
+  }
+  Bytes& out = encoded.bytes;
+  if (level != 0) {
+    writeHead(tile, kZstd, fields.size(), out);
+    out.resize(kHeadBytes + ZSTD_compressBound(fields.size()));
+    const size_t size =
+        ZSTD_compressCCtx(impl_->zstd.get(), out.data() + kHeadBytes, out.size() - kHeadBytes,
+                          fields.data(), fields.size(), level);
+    NINEFOLD_CHECK(ZSTD_isError(size) == 0);
+    out.resize(kHeadBytes + size);
+    if (size < fields.size()) return encoded;
+    out.clear();
+  }
+  writeHead(tile, kStored, fields.size(), out);
+  out.insert(out.end(), fields.begin(), fields.end());
+  return encoded;
+}
+
+struct TileDecoder::Impl {
+  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), ZSTD_freeDCtx};
+  BytePlanes scratch;
+  Bytes fields;
+
+  // The fields as they were before zstd; exactly `size` bytes, which has been checked.
+  ByteView open(ByteView body, uint8_t storage, size_t size) {
+    if (storage == kStored) {
+      if (body.size() != size) fail("tile: holds {} bytes, declares {}", body.size(), size);
+      return body;
+    }
+    if (storage != kZstd) fail("tile: storage {} is unknown", storage);
+    fields.resize(size);
+    const size_t got =
+        ZSTD_decompressDCtx(zstd.get(), fields.data(), size, body.data(), body.size());
+    if (ZSTD_isError(got) != 0 || got != size) fail("tile: compressed data is damaged");
+    return fields;
+  }
+};
+
+TileDecoder::TileDecoder() : impl_(std::make_unique<Impl>()) {}
+TileDecoder::~TileDecoder() = default;
+
+void TileDecoder::decode(ByteView bytes, const TileShape& expected, TileResult& out) {
+  NINEFOLD_CHECK(isTileShape(expected.width, expected.height));
+  ByteReader in(bytes, "tile");
+  const Head head = readHead(in);
+  checkHead(head, expected);
+  ByteReader fields(impl_->open(in.take(in.left(), "planes"), head.storage, head.fieldBytes),
+                    "tile");
+  out.reset(expected.width, expected.height, expected.layerMask, expected.extraMask);
+  if (out.count() > 0) {
+    FieldReader reader(out.width, static_cast<size_t>(out.count()), impl_->scratch, fields);
+    forEachField(reader, out);
+  }
+  fields.expectEnd();
+}
+
+}  // namespace ninefold
