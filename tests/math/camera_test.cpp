@@ -1,0 +1,58 @@
+// Film positions to directions: what is left, right, up, down and how wide the view is.
+#include "common/math/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace ninefold {
+namespace {
+
+Camera tilted() {
+  Camera camera;
+  camera.forward = glm::normalize(Vec3(1, -0.5f, 2));
+  camera.up = Vec3(0.1f, 3, 0);
+  camera.verticalFov = 1.1f;
+  return camera;
+}
+
+TEST(CameraRays, MiddleOfTheFilmLooksForward) {
+  const Camera camera = tilted();
+  const Vec3 d = CameraRays(camera, 640, 480).direction(320, 240);
+  EXPECT_NEAR(glm::length(d - camera.forward), 0, 1e-6f);
+}
+
+TEST(CameraRays, EdgesOfTheFilmSpanTheFieldOfView) {
+  const Camera camera = tilted();
+  for (const int width : {480, 640, 1920}) {
+    const CameraRays rays(camera, width, 480);
+    const auto angle = [](Vec3 a, Vec3 b) {
+      return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+    };
+    const float middleX = static_cast<float>(width) / 2;
+    EXPECT_NEAR(angle(rays.direction(middleX, 0), rays.direction(middleX, 480)), camera.verticalFov,
+                1e-5f);
+    const float horizontal =
+        2 * std::atan(std::tan(camera.verticalFov / 2) * static_cast<float>(width) / 480);
+    EXPECT_NEAR(angle(rays.direction(0, 240), rays.direction(static_cast<float>(width), 240)),
+                horizontal, 1e-5f);
+  }
+}
+
+TEST(CameraRays, RightIsRightAndDownIsDown) {
+  const CameraRays rays(Camera{}, 64, 48);  // looks along -z, y up
+  EXPECT_GT(rays.direction(60, 24).x, 0);
+  EXPECT_LT(rays.direction(60, 24).z, 0);
+  EXPECT_LT(rays.direction(32, 40).y, 0);
+}
+
+TEST(CameraRays, DirectionsAreUnitVectors) {
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<float> uniform(0, 640);
+  const CameraRays rays(tilted(), 640, 640);
+  for (int i = 0; i < 1000; ++i)
+    ASSERT_NEAR(glm::length(rays.direction(uniform(engine), uniform(engine))), 1, 1e-6f);
+}
+
+}  // namespace
+}  // namespace ninefold
