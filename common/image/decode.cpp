@@ -1,0 +1,85 @@
+#include "common/image/decode.h"
+
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+// No format here packs more than this many pixels into a byte (1-bit PNG: 8 * 1032 by deflate's
+// limit).
+constexpr uint64_t kMaxPixelsPerByte = 8256;
+
+bool startsWith(std::span<const std::byte> file, std::string_view magic) {
+  return file.size() >= magic.size() &&
+         std::equal(magic.begin(), magic.end(), file.begin(),
+                    [](char c, std::byte b) { return std::byte(c) == b; });
+}
+
+// TGA has no magic: a colour map flag of 0 or 1, a known image type, 8 to 32 bits a pixel.
+bool looksLikeTga(std::span<const std::byte> file) {
+  if (file.size() < 18) return false;
+  const auto at = [&](size_t i) { return std::to_integer<int>(file[i]); };
+  const int type = at(2) & ~8;
+  return at(1) <= 1 && type >= 1 && type <= 3 && at(16) >= 8 && at(16) <= 32;
+}
+
+const char* formatOf(std::span<const std::byte> file) {
+  if (startsWith(file, "\x89PNG\r\n\x1a\n")) return "png";
+  if (startsWith(file, "\xff\xd8\xff")) return "jpeg";
+  if (startsWith(file, "BM")) return "bmp";
+  if (looksLikeTga(file)) return "targa";
+  fail("not a PNG, JPEG, BMP or TGA image: convert it to PNG");
+}
+
+void checkSize(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits) {
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1)
+    fail("an image of {} x {} x {} pixels", spec.width, spec.height, spec.depth);
+  const auto width = static_cast<uint64_t>(spec.width), height = static_cast<uint64_t>(spec.height);
+  if (width > limits.side || height > limits.side)
+    fail("{} x {} pixels, more than {} on a side: scale it down", width, height, limits.side);
+  if (width * height > limits.texels)
+    fail("{} x {} pixels are more than the {} that are left for all textures: scale them down",
+         width, height, limits.texels);
+  if (width * height / kMaxPixelsPerByte > fileBytes)
+    fail("truncated: {} bytes cannot hold {} x {} pixels", fileBytes, width, height);
+  if (spec.nchannels < 1) fail("no channels");
+}
+
+// OpenImageIO's messages may have several lines.
+std::string firstLine(std::string text) {
+  if (text.empty()) return "unreadable";
+  return text.substr(0, text.find('\n'));
+}
+
+}  // namespace
+
+DecodedImage decodeImage(std::span<const std::byte> file, ImageLimits limits) {
+  const char* format = formatOf(file);
+  OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
+  OIIO::ImageSpec config, spec;
+  config["oiio:UnassociatedAlpha"] = 1;
+  OIIO::Filesystem::IOProxy* proxy = &memory;
+  config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
+  auto input = OIIO::ImageInput::create(format);
+  if (!input) fail("{} images cannot be read: {}", format, firstLine(OIIO::geterror()));
+  if (!input->open(std::string("memory.") + format, spec, config))
+    fail("bad {} image: {}", format, firstLine(input->geterror()));
+  checkSize(spec, file.size(), limits);
+  DecodedImage image;
+  image.width = spec.width, image.height = spec.height;
+  image.channels = std::min(spec.nchannels, 4);
+  image.texels.resize(static_cast<size_t>(image.width) * static_cast<size_t>(image.height) *
+                      static_cast<size_t>(image.channels));
+  if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.texels.data()))
+    fail("bad {} image: {}", format, firstLine(input->geterror()));
+  return image;
+}
+
+}  // namespace ninefold

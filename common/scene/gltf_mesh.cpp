@@ -1,0 +1,135 @@
+#include "common/scene/gltf_mesh.h"
+
+#include <tiny_gltf.h>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/scene/gltf_accessor.h"
+#include "common/scene/mesh_cleanup.h"
+
+namespace ninefold {
+namespace {
+
+bool hasTriangles(const tinygltf::Primitive& p) {
+  return p.mode == TINYGLTF_MODE_TRIANGLES || p.mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+         p.mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+// Corners of triangle t among the vertices in file order.
+Triangle cornersOf(int mode, uint32_t t) {
+  if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) return {t, t + 1 + t % 2, t + 2 - t % 2};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {t + 1, t + 2, 0};
+  return {3 * t, 3 * t + 1, 3 * t + 2};
+}
+
+uint64_t triangleCount(int mode, uint64_t corners, const std::string& what) {
+  if (mode != TINYGLTF_MODE_TRIANGLES) return corners < 3 ? 0 : corners - 2;
+  if (corners % 3 != 0) fail("{}: {} corners are no multiple of three", what, corners);
+  return corners / 3;
+}
+
+// The elements that an attribute has for the kept vertices; empty if the primitive lacks it.
+template <typename V>
+std::vector<V> attribute(const tinygltf::Model& model, const tinygltf::Primitive& from,
+                         const char* name, size_t vertices, const std::vector<uint32_t>& kept,
+                         const std::string& what) {
+  const auto found = from.attributes.find(name);
+  if (found == from.attributes.end()) return {};
+  const GltfAccessor accessor(model, found->second, V::length(), what + " " + name);
+  if (accessor.count() != vertices)
+    fail("{}: {} has {} elements for {} vertices", what, name, accessor.count(), vertices);
+  std::vector<V> values;
+  values.reserve(kept.size());
+  for (const uint32_t i : kept) values.emplace_back(accessor.element(i));
+  return values;
+}
+
+}  // namespace
+
+const std::vector<int>& GltfMeshes::use(int mesh) {
+  const auto [entry, isNew] = known_.try_emplace(mesh);
+  if (!isNew) return entry->second;
+  if (mesh < 0 || static_cast<size_t>(mesh) >= model_->meshes.size())
+    fail("mesh {} does not exist", mesh);
+  const tinygltf::Mesh& from = model_->meshes[static_cast<size_t>(mesh)];
+  for (size_t i = 0; i < from.primitives.size(); ++i) {
+    const tinygltf::Primitive& primitive = from.primitives[i];
+    if (!hasTriangles(primitive)) {
+      ++skippedPrimitives_;
+      continue;
+    }
+    const std::string what =
+        "mesh " + std::to_string(mesh) + " '" + from.name + "' primitive " + std::to_string(i);
+    Mesh read;
+    read.name = from.name;
+    readPrimitive(primitive, what, read);
+    if (read.triangles.empty()) continue;
+    entry->second.push_back(static_cast<int>(scene_->meshes.size()));
+    scene_->meshes.push_back(std::move(read));
+  }
+  return entry->second;
+}
+
+void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const std::string& what,
+                               Mesh& mesh) {
+  const auto position = from.attributes.find("POSITION");
+  if (position == from.attributes.end()) fail("{}: has no POSITION", what);
+  const size_t vertices = GltfAccessor(*model_, position->second, 3, what + " POSITION").count();
+  mesh.triangles = trianglesOf(from, vertices, what);
+  const std::vector<uint32_t> kept = compactVertices(mesh.triangles);
+  mesh.positions = attribute<Vec3>(*model_, from, "POSITION", vertices, kept, what);
+  mesh.normals = attribute<Vec3>(*model_, from, "NORMAL", vertices, kept, what);
+  mesh.uv0 = attribute<Vec2>(*model_, from, "TEXCOORD_0", vertices, kept, what);
+  mesh.uv1 = attribute<Vec2>(*model_, from, "TEXCOORD_1", vertices, kept, what);
+  mesh.tangents = attribute<Vec4>(*model_, from, "TANGENT", vertices, kept, what);
+  flatTriangles_ += cleanMesh(mesh, what);
+  if (!from.targets.empty() || from.attributes.count("JOINTS_0") != 0) ++deformed_;
+  if (mesh.triangles.empty()) return;
+  mesh.material = materials_.use(from.material);
+  if (lacksCoordinates(mesh)) ++withoutCoordinates_;
+}
+
+std::vector<Triangle> GltfMeshes::trianglesOf(const tinygltf::Primitive& from, size_t vertices,
+                                              const std::string& what) {
+  const bool indexed = from.indices >= 0;
+  const GltfAccessor list(*model_, indexed ? from.indices : from.attributes.at("POSITION"), 1,
+                          what + " indices");
+  if (indexed && (!list.isUnsignedInteger() || list.components() != 1))
+    fail("{}: its indices are not unsigned integers", what);
+  const uint64_t count = triangleCount(from.mode, list.count(), what);
+  triangles_ += count;
+  if (triangles_ > kMaxTriangles || vertices > std::numeric_limits<uint32_t>::max())
+    fail("more than {} triangles: simplify the scene", kMaxTriangles);
+  std::vector<Triangle> triangles(count);
+  for (uint32_t t = 0; t < count; ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const uint32_t place = cornersOf(from.mode, t)[corner];
+      const uint32_t index = indexed ? list.index(place) : place;
+      if (index >= vertices)
+        fail("{}: index {} at place {} is out of range, there are {} vertices", what, index, place,
+             vertices);
+      triangles[t][corner] = index;
+    }
+  return triangles;
+}
+
+bool GltfMeshes::lacksCoordinates(const Mesh& mesh) const {
+  const Material& m = scene_->materials[static_cast<size_t>(mesh.material)];
+  for (const TextureUse* use :
+       {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissionMap, &m.transmissionMap,
+        &m.specularMap, &m.specularColorMap})
+    if (*use && (use->uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) return true;
+  return false;
+}
+
+void GltfMeshes::warnOfLosses() const {
+  if (skippedPrimitives_ > 0)
+    warn("{} primitives of points or lines are left out", skippedPrimitives_);
+  if (flatTriangles_ > 0) warn("{} triangles without area are left out", flatTriangles_);
+  if (deformed_ > 0) warn("{} skinned or morphed meshes are shown undeformed", deformed_);
+  if (withoutCoordinates_ > 0)
+    warn("{} meshes have textures but no texture coordinates: they show one texel",
+         withoutCoordinates_);
+}
+
+}  // namespace ninefold

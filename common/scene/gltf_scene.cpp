@@ -1,0 +1,164 @@
+#include "common/scene/gltf_scene.h"
+
+#include "common/base/log.h"
+#include "common/scene/gltf_accessor.h"
+#include "common/scene/gltf_file.h"
+#include "common/scene/gltf_mesh.h"
+#include "common/scene/gltf_transform.h"
+#include "common/scene/gltf_value.h"
+#include "common/scene/reader.h"
+#include "common/scene/world.h"
+
+namespace ninefold {
+namespace {
+
+Vec3 unitOr(DVec3 v, Vec3 otherwise) {
+  const double length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? Vec3(v / length) : otherwise;
+}
+
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(const tinygltf::Model& model)
+      : model_(&model), meshes_(model, draft_.scene), seen_(model.nodes.size(), 0) {}
+
+  SceneDraft build();
+
+ private:
+  struct Visit {
+    int node;
+    DMat4 parent;
+  };
+  std::vector<int> roots() const;
+  void enter(int node);
+  void visit(const Visit& visit, std::vector<Visit>& open);
+  void addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld);
+  void addCamera(const tinygltf::Node& node, const DMat4& toWorld);
+  void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
+
+  const tinygltf::Model* model_;
+  SceneDraft draft_;
+  GltfMeshes meshes_;
+  std::vector<char> seen_;
+};
+
+std::vector<int> SceneBuilder::roots() const {
+  if (!model_->scenes.empty()) {
+    const int scene = std::max(model_->defaultScene, 0);
+    if (static_cast<size_t>(scene) >= model_->scenes.size()) fail("scene {} does not exist", scene);
+    return model_->scenes[static_cast<size_t>(scene)].nodes;
+  }
+  std::vector<char> isChild(model_->nodes.size(), 0);
+  for (const tinygltf::Node& node : model_->nodes)
+    for (const int child : node.children)
+      if (child >= 0 && static_cast<size_t>(child) < isChild.size())
+        isChild[static_cast<size_t>(child)] = 1;
+  std::vector<int> nodes;
+  for (size_t i = 0; i < isChild.size(); ++i)
+    if (isChild[i] == 0) nodes.push_back(static_cast<int>(i));
+  return nodes;
+}
+
+// The nodes must form trees: that bounds the work, and a cycle would never end.
+void SceneBuilder::enter(int node) {
+  if (node < 0 || static_cast<size_t>(node) >= seen_.size()) fail("node {} does not exist", node);
+  if (seen_[static_cast<size_t>(node)]++ != 0)
+    fail("node {} is reached twice: a node must have one parent and no cycle above it", node);
+}
+
+SceneDraft SceneBuilder::build() {
+  if (model_->scenes.size() > 1)
+    log("{} scenes in the file: the default one is read", model_->scenes.size());
+  std::vector<Visit> open;
+  const std::vector<int> nodes = roots();
+  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open.push_back({*node, DMat4(1)});
+  while (!open.empty()) {
+    const Visit next = open.back();
+    open.pop_back();
+    enter(next.node);
+    try {
+      visit(next, open);
+    } catch (const Error& e) {
+      fail("node {} '{}': {}", next.node, model_->nodes[static_cast<size_t>(next.node)].name,
+           e.what());
+    }
+  }
+  meshes_.warnOfLosses();
+  return std::move(draft_);
+}
+
+void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
+  const tinygltf::Node& node = model_->nodes[static_cast<size_t>(visit.node)];
+  const DMat4 toWorld = visit.parent * localMatrix(node);
+  if (node.mesh >= 0) addMesh(node, visit.node, toWorld);
+  if (node.camera >= 0) addCamera(node, toWorld);
+  if (const auto* e = extensionOf(node, "KHR_lights_punctual"))
+    addLight(node, integerOr(*e, "light", -1), toWorld);
+  for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
+    open.push_back({*child, toWorld});
+}
+
+void SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld) {
+  const std::vector<int>& meshes = meshes_.use(node.mesh);
+  if (meshes.empty()) return;
+  const std::string& name =
+      node.name.empty() ? model_->meshes[static_cast<size_t>(node.mesh)].name : node.name;
+  const auto add = [&](const DMat4& matrix) {
+    for (const int mesh : meshes) draft_.addInstance(mesh, index, name, matrix);
+  };
+  const auto* e = extensionOf(node, "EXT_mesh_gpu_instancing");
+  if (e == nullptr) return add(toWorld);
+  const CopyMatrices copies(*model_, *e);
+  if (copies.count() > kMaxInstances) fail("more than {} instances: merge objects", kMaxInstances);
+  for (size_t i = 0; i < copies.count(); ++i) add(toWorld * copies.matrix(i));
+}
+
+void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {
+  if (static_cast<size_t>(node.camera) >= model_->cameras.size())
+    fail("camera {} does not exist", node.camera);
+  const tinygltf::Camera& from = model_->cameras[static_cast<size_t>(node.camera)];
+  if (from.type != "perspective") {
+    warn("camera '{}' is not perspective: left out", node.name);
+    return;
+  }
+  Camera camera;
+  camera.name = node.name.empty() ? from.name : node.name;
+  camera.forward = unitOr(-DVec3(toWorld[2]), Vec3(0, 0, -1));
+  camera.up = unitOr(DVec3(toWorld[1]), Vec3(0, 1, 0));
+  camera.verticalFov = static_cast<float>(from.perspective.yfov);
+  draft_.scene.cameras.push_back(camera);
+  draft_.eyes.emplace_back(toWorld[3]);
+}
+
+void SceneBuilder::addLight(const tinygltf::Node& node, int index, const DMat4& toWorld) {
+  if (index < 0 || static_cast<size_t>(index) >= model_->lights.size())
+    fail("light {} does not exist", index);
+  const tinygltf::Light& from = model_->lights[static_cast<size_t>(index)];
+  PunctualLight light;
+  light.name = node.name.empty() ? from.name : node.name;
+  if (from.type == "spot")
+    light.kind = LightKind::spot;
+  else if (from.type == "directional")
+    light.kind = LightKind::directional;
+  else if (from.type != "point")
+    fail("light {} is of the unknown type '{}'", index, from.type);
+  light.direction = unitOr(-DVec3(toWorld[2]), Vec3(0, 0, -1));
+  const auto strength = static_cast<float>(from.intensity);
+  light.intensity = Vec3(strength);
+  for (int c = 0; c < 3 && from.color.size() == 3; ++c)
+    light.intensity[c] *= static_cast<float>(from.color[static_cast<size_t>(c)]);
+  if (light.kind == LightKind::spot) {
+    light.innerCone = static_cast<float>(from.spot.innerConeAngle);
+    light.outerCone = static_cast<float>(from.spot.outerConeAngle);
+  }
+  draft_.scene.lights.push_back(light);
+  draft_.lightPositions.emplace_back(toWorld[3]);
+}
+
+}  // namespace
+
+SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder) {
+  return SceneBuilder(*parseGltf(file, folder)).build();
+}
+
+}  // namespace ninefold

@@ -1,0 +1,52 @@
+#include "common/scene/reader.h"
+
+#include <algorithm>
+#include <cctype>
+#include <new>
+
+#include "common/base/error.h"
+#include "common/scene/gltf_guard.h"
+#include "common/scene/gltf_scene.h"
+#include "common/scene/obj_reader.h"
+#include "common/scene/scene_folder.h"
+
+namespace ninefold {
+namespace {
+
+std::string lowerExtension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+SceneDraft readDraft(const std::filesystem::path& file) {
+  const std::string extension = lowerExtension(file);
+  const bool gltf = extension == ".gltf" || extension == ".glb";
+  if (!gltf && extension != ".obj")
+    fail("not a scene that can be read: .gltf, .glb and .obj are known");
+  const std::vector<unsigned char> bytes = readRegularFile(file, kMaxFileBytes);
+  const SceneFolder folder(file);
+  return gltf ? readGltf(bytes, folder) : readObj(bytes, folder);
+}
+
+// Names inside a scene file may hold anything; a message stays one line.
+std::string oneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return text;
+}
+
+}  // namespace
+
+Scene readScene(const std::filesystem::path& file) try {
+  Scene scene = finishScene(readDraft(file));
+  scene.name = file.stem().string();
+  return scene;
+} catch (const Error& e) {
+  fail("{}: {}", file.string(), oneLine(e.what()));
+} catch (const std::bad_alloc&) {
+  fail("{}: not enough memory for this scene: simplify it", file.string());
+}
+
+}  // namespace ninefold

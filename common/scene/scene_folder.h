@@ -1,0 +1,32 @@
+// scene_folder.h: the only way from a path written in a scene file to bytes. What a file names
+// resolves to a regular file beneath the scene's folder (after symbolic links) or to nothing.
+//
+// Errors: throws Error (missing, outside, not a regular file, too big).
+// Threads: reentrant.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ninefold {
+
+// Bytes of a regular file; refuses devices, pipes and folders, and more than `limit` bytes.
+std::vector<unsigned char> readRegularFile(const std::filesystem::path& file, uint64_t limit);
+
+class SceneFolder {
+ public:
+  // The folder that holds `sceneFile`. An empty path gives a folder in which nothing is found.
+  explicit SceneFolder(const std::filesystem::path& sceneFile);
+
+  // `reference`: a relative path, percent-decoded already.
+  std::filesystem::path resolve(std::string_view reference) const;
+  std::vector<unsigned char> read(std::string_view reference, uint64_t limit) const;
+
+ private:
+  std::filesystem::path folder_;  // canonical
+};
+
+}  // namespace ninefold
