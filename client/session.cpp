@@ -152,6 +152,11 @@ void Session::taskFinished(uint32_t line, msg::Result&& result, Time) {
     send(std::move(result));
 }
 
+void Session::taskFailed(const std::string& line) {
+  if (online()) send(msg::Goodbye{"cannot render"});
+  end(1, fmt::format("cannot render {}", line));
+}
+
 void Session::tasksRefused(Time now) {
   leave("the master sent more tasks than were asked for", now);
 }

@@ -53,6 +53,7 @@ class Session {
   void jobPrepared(uint32_t load, uint32_t jobVersion, Time now);
   void sceneFailed(uint32_t load, const std::string& line, Time now);
   void taskFinished(uint32_t line, msg::Result&& result, Time now);
+  void taskFailed(const std::string& line);
   void tasksRefused(Time now);  // more of them than our queue holds
 
   void tick(Time now);

@@ -1,0 +1,183 @@
+#include "client/program.h"
+
+#include <signal.h>
+
+#include <functional>
+
+#include "common/base/log.h"
+
+namespace ninefold::client {
+namespace {
+
+constexpr Duration kTick = milliseconds(100);
+constexpr size_t kTasksPerThread = 256;  // twice what the scheduler may ever have out, and some
+
+Time now() { return Clock::now(); }
+
+SessionOptions sessionOptions(const Options& options, msg::Hello hello) {
+  SessionOptions session;
+  session.seed = std::hash<std::string>()(hello.name) ^
+                 static_cast<uint64_t>(now().time_since_epoch().count());
+  session.hello = std::move(hello);
+  session.master = options.master;
+  session.reconnect = !options.local();
+  return session;
+}
+
+bool isFinal(ConnectProblem problem) {
+  return problem == ConnectProblem::wrongKey || problem == ConnectProblem::badAddress ||
+         problem == ConnectProblem::notNinefold;
+}
+
+}  // namespace
+
+Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
+                 std::shared_ptr<const Key> key, std::optional<BlobCache> cache)
+    : loop_(loop),
+      master_(parseEndpoint(options.master, "--master")),
+      local_(options.local()),
+      key_(std::move(key)),
+      session_(sessionOptions(options, std::move(hello)), now()),
+      builder_(std::move(cache), options.isa, options.threads, answers()),
+      workers_(options.threads, kTasksPerThread * static_cast<size_t>(options.threads)) {
+  loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
+    // Ctrl-C at the master's terminal reaches its local clients too, but is the master's to handle.
+    if (local_ && signal == SIGINT) return;
+    session_.stop("stopped by a signal");
+    carryOut();
+  });
+}
+
+int Program::run() {
+  tick();
+  loop_.run();
+  return status_;
+}
+
+void Program::tick() {
+  session_.tick(now());
+  carryOut();
+  if (!ending_) timer_ = loop_.after(kTick, [this] { tick(); });
+}
+
+template <typename Event>
+void Program::later(Event event) {
+  loop_.post([this, event = std::move(event)]() mutable {
+    event();
+    carryOut();
+  });
+}
+
+SceneBuilder::Answers Program::answers() {
+  SceneBuilder::Answers answers;
+  answers.found = [this](uint32_t load, std::vector<BlobInfo> missing) {
+    later([this, load, missing = std::move(missing)]() mutable {
+      session_.blobsFound(load, std::move(missing), now());
+    });
+  };
+  answers.built = [this](uint32_t load) {
+    later([this, load] { session_.sceneBuilt(load, now()); });
+  };
+  answers.prepared = [this](uint32_t load, uint32_t version, std::shared_ptr<RenderJob> job) {
+    later([this, load, version, job = std::move(job)] {
+      job_ = job;
+      session_.jobPrepared(load, version, now());
+    });
+  };
+  answers.failed = [this](uint32_t load, std::string line) {
+    later([this, load, line = std::move(line)] { session_.sceneFailed(load, line, now()); });
+  };
+  return answers;
+}
+
+void Program::carryOut() {
+  for (auto actions = session_.takeActions(); !actions.empty(); actions = session_.takeActions())
+    for (act::Action& action : actions)
+      std::visit([this](auto&& a) { on(std::move(a)); }, std::move(action));
+}
+
+void Program::on(act::Connect&&) {
+  connect(
+      loop_, master_, local_ ? KeyUse::local : KeyUse::cluster, key_,
+      [this](std::shared_ptr<Connection> connection) { startConnection(std::move(connection)); },
+      [this](const ConnectFailure& failure) {
+        session_.connectFailed(failure.line, isFinal(failure.problem), now());
+        carryOut();
+      });
+}
+
+void Program::startConnection(std::shared_ptr<Connection> connection) {
+  connection_ = std::move(connection);
+  const Connection* ours = connection_.get();
+  Connection::Events events;
+  events.onMessage = [this, ours](Message&& message) {
+    if (connection_.get() != ours) return;
+    session_.received(std::move(message), now());
+    carryOut();
+  };
+  events.onClosed = [this, ours](const std::string& reason) {
+    if (connection_.get() != ours) return;
+    connection_.reset();
+    if (ending_) return loop_.stop();
+    session_.disconnected(reason, now());
+    carryOut();
+  };
+  connection_->start(std::move(events));
+  session_.connected(now());
+  carryOut();
+}
+
+void Program::on(act::Send&& action) {
+  if (connection_) connection_->send(std::move(action.message));
+}
+
+void Program::on(act::Disconnect&& action) {
+  if (const auto connection = std::exchange(connection_, nullptr))
+    connection->finish(action.reason);
+}
+
+void Program::on(act::StartTasks&& action) {
+  for (const msg::TaskItem& item : action.tasks.items) {
+    const auto job = [this, job = job_, line = action.line, frame = action.tasks.frame,
+                      item](int thread) { runTask(*job, line, frame, item, thread); };
+    if (!workers_.start(action.tasks.frame.frame, job)) return session_.tasksRefused(now());
+  }
+}
+
+// On a worker's thread.
+void Program::runTask(RenderJob& job, uint32_t line, const FrameKey& frame,
+                      const msg::TaskItem& item, int thread) {
+  try {
+    msg::Result result = job.run(frame, item, thread, now);
+    later([this, line, result = std::move(result)]() mutable {
+      session_.taskFinished(line, std::move(result), now());
+    });
+  } catch (const std::exception& error) {  // no memory, most likely
+    later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", frame.frame, item.tile,
+                                    item.phase, error.what())] { session_.taskFailed(line); });
+  }
+}
+
+void Program::on(act::CancelTasks&& action) {
+  workers_.cancel([&](uint32_t frame) { return action.everything || frame < action.frame; });
+}
+
+void Program::on(act::Tell&& action) {
+  if (!local_) log("{}", action.line);
+}
+
+void Program::on(act::Exit&& action) {
+  ending_ = true;
+  status_ = action.status;
+  timer_.reset();
+  if (status_ != 0)
+    warn("{}", action.line);
+  else if (!local_)
+    log("{}", action.line);
+  if (connection_)
+    connection_->finish(action.line);
+  else
+    loop_.stop();
+}
+
+}  // namespace ninefold::client

@@ -1,0 +1,64 @@
+// program.h: the client around its session: the connection, the workers and the builder, and
+// nothing that decides. Carries the session's actions out and tells it what became of them.
+//
+// Threads: everything runs in the loop's thread; workers and builder post what they have to it.
+// Owner: main. Errors: ends with a status and one line, see run.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "client/options.h"
+#include "client/scene_builder.h"
+#include "client/session.h"
+#include "client/workers.h"
+#include "proto/connection.h"
+
+namespace ninefold::client {
+
+class Program {
+ public:
+  Program(EventLoop& loop, const Options& options, msg::Hello hello, std::shared_ptr<const Key> key,
+          std::optional<BlobCache> cache);
+
+  // Until the session ends; the exit status. Prints the last line.
+  int run();
+
+ private:
+  void carryOut();
+  void on(act::Connect&&);
+  void on(act::Send&&);
+  void on(act::Disconnect&&);
+  void on(act::FindBlobs&& a) { builder_.ask(std::move(a)); }
+  void on(act::KeepBlob&& a) { builder_.ask(std::move(a)); }
+  void on(act::BuildScene&& a) { builder_.ask(std::move(a)); }
+  void on(act::PrepareJob&& a) { builder_.ask(std::move(a)); }
+  void on(act::StartTasks&&);
+  void on(act::CancelTasks&&);
+  void on(act::Tell&&);
+  void on(act::Exit&&);
+
+  void startConnection(std::shared_ptr<Connection> connection);
+  void runTask(RenderJob& job, uint32_t line, const FrameKey& frame, const msg::TaskItem& item,
+               int thread);
+  void tick();
+  // Runs `event` on the session in the loop's thread, and what follows from it.
+  template <typename Event>
+  void later(Event event);
+  SceneBuilder::Answers answers();
+
+  EventLoop& loop_;
+  const Endpoint master_;
+  const bool local_;
+  const std::shared_ptr<const Key> key_;
+  Session session_;
+  std::shared_ptr<Connection> connection_;
+  std::shared_ptr<RenderJob> job_;
+  std::unique_ptr<EventLoop::Timer> timer_;
+  int status_ = 0;
+  bool ending_ = false;
+  SceneBuilder builder_;
+  Workers workers_;
+};
+
+}  // namespace ninefold::client
