@@ -1,12 +1,11 @@
 // surface.h: a hit, the surface point at it, and where rays from it may safely start.
 //
-// Robust origins: how far rounding may put the point, or the ray test's idea of it, off its surface is
-// bounded from the triangle's corners (math/rounding.h), and a new ray starts outside that bound along the
-// geometric normal. There is no scene-dependent epsilon.
-// A segment needs the same care at its far end, where the ray test errs in proportion to the length too:
-// end it at offsetOrigin(y, n, error + kRayRounding * length, x - y), farT = 1.
-// Source: Pharr, Jakob, Humphreys, "Physically Based Rendering" 3.9 (error bounds of intersection points).
-// Threads: plain values.
+// Robust origins: how far rounding may put the point, or the ray test's idea of it, off its surface
+// is bounded from the triangle's corners (math/rounding.h), and a new ray starts outside that bound
+// along the geometric normal. There is no scene-dependent epsilon. A segment needs the same care at
+// its far end, where the ray test errs in proportion to the length too: end it at offsetOrigin(y,
+// n, error + kRayRounding * length, x - y), farT = 1. Source: Pharr, Jakob, Humphreys, "Physically
+// Based Rendering" 3.9 (error bounds of intersection points). Threads: plain values.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +33,7 @@ struct SurfacePoint {
   Vec2 uv0{0}, uv1{0};
   uint32_t instance = 0, triangle = 0;
   int material = 0;
-  float error = 0;          // bound of the distance of `position` from the exact surface [m]
+  float error = 0;  // bound of the distance of `position` from the exact surface [m]
 };
 
 // Start of a ray from `p` into `direction`: moved to the side of the surface into which it goes.

@@ -1,13 +1,15 @@
 // tracer.h: closest hit and occlusion on a whole scene. The only door to Embree (versions 3 and 4).
 //
-// All instances are flattened to world-space triangles, one geometry per instance (geomID = instance
-// index). The hierarchy is built by one thread with fixed quality, so that all clients of a class have
-// the same one. Alpha-masked texels are passed through by filter functions; back faces are hit like front
-// faces. The robust traversal is used: no cracks between triangles that share an edge.
+// All instances are flattened to world-space triangles, one geometry per instance (geomID =
+// instance index). The hierarchy is built by one thread with fixed quality, so that all clients of
+// a class have the same one. Alpha-masked texels are passed through by filter functions; back faces
+// are hit like front faces. The robust traversal is used: no cracks between triangles that share an
+// edge.
 //
-// Threads: const functions are reentrant. Owner: holds flattened geometry, refers to the Scene, which must
-// outlive it. Errors: constructor throws Error when memory or the instruction set is missing, or when the
-// scene is larger than rays can be traced in. A ray with NaN or infinite coordinates hits nothing.
+// Threads: const functions are reentrant. Owner: holds flattened geometry, refers to the Scene,
+// which must outlive it. Errors: constructor throws Error when memory or the instruction set is
+// missing, or when the scene is larger than rays can be traced in. A ray with NaN or infinite
+// coordinates hits nothing.
 #pragma once
 
 #include <cstdint>
@@ -50,18 +52,21 @@ class Tracer {
 
   // Closest hit of one ray; Hit::none() if there is none.
   Hit closest(Vec3 origin, Vec3 direction, float tFar) const;
-  // Closest hits of the lanes in `active` (bit i = lane i). hits[lane] of inactive lanes is untouched.
+  // Closest hits of the lanes in `active` (bit i = lane i). hits[lane] of inactive lanes is
+  // untouched.
   void closest16(RayPacket& rays, uint32_t active, Hit* hits) const;
 
   bool occluded(Vec3 origin, Vec3 direction, float tFar) const;
-  // Bits of the active lanes whose segment is blocked. `coherent`: the rays share an end or are parallel.
+  // Bits of the active lanes whose segment is blocked. `coherent`: the rays share an end or are
+  // parallel.
   uint32_t occluded16(RayPacket& rays, uint32_t active, bool coherent = true) const;
 
   // The surface at a hit, in world space, with its error bound.
   SurfacePoint surface(const Hit& hit) const;
 
-  // World-space corners of a triangle of an instance in the mesh's order, as barycentrics count them. The
-  // front sees them counterclockwise, or clockwise if the instance is mirrored: see surface().
+  // World-space corners of a triangle of an instance in the mesh's order, as barycentrics count
+  // them. The front sees them counterclockwise, or clockwise if the instance is mirrored: see
+  // surface().
   struct Corners {
     Vec3 a, b, c;
   };
