@@ -23,19 +23,16 @@ SchedulerClient::SchedulerClient(ClientId id, int threads, Time now)
   report_.threads = std::max(1, threads);
 }
 
-int SchedulerClient::onTheWay() const {
-  const auto perThread = (roundTrip_ + taskTime() - Duration(1)) / taskTime();  // rounded up
-  return static_cast<int>(std::min<int64_t>(perThread, kMaxPerThread)) * threads();
-}
-
 int SchedulerClient::low() const {
   if (trust_ != Trust::trusted) return trust_ == Trust::trial ? 1 : 0;
-  return std::min(kRefillBelow * threads() + onTheWay(), (kMaxPerThread - 1) * threads());
+  const auto onTheWay = (threads() * roundTrip_ + taskTime() - Duration(1)) / taskTime();
+  const int64_t bound = int64_t{kMaxPerThread - 1} * threads();
+  return static_cast<int>(std::min(threads() + onTheWay, bound));
 }
 
 int SchedulerClient::high() const {
   if (trust_ != Trust::trusted) return low();
-  return low() + (kFillUpTo - kRefillBelow) * threads();
+  return low() + (threads() + kGroup - 1) / kGroup;
 }
 
 Duration SchedulerClient::silenceLimit() const {
@@ -44,7 +41,7 @@ Duration SchedulerClient::silenceLimit() const {
 }
 
 void SchedulerClient::updateRefilling() {
-  if (inFlight() < low()) refilling_ = true;
+  if (inFlight() <= low()) refilling_ = true;
   if (inFlight() >= high()) refilling_ = false;
 }
 

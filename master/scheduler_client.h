@@ -2,10 +2,10 @@
 // speed and its credit.
 //
 // Credit. With T threads, task time t (moving average of what it reports) and round trip r, a
-// client works without a pause if it holds T tasks to work on and T r/t more that are on their way.
-// It is refilled
-//     below   low  = kRefillBelow T + T r/t      up to   high = kFillUpTo T + T r/t,
-// two numbers apart so that tasks travel in small groups, and at most kMaxPerThread T.
+// client works without a pause if it holds T tasks to work on and T r/t more that are on their way:
+//     low = T + ceil(T r/t)      high = low + ceil(T/kGroup)      both at most kMaxPerThread T
+// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in small
+// groups. Not more, as a frame waits for all that its slowest client holds.
 //
 // Trust. trusted --no result for silenceLimit()--> suspect --any result--> trusted;
 //        suspect --heard of, and holds nothing--> trial (one task) --result--> trusted,
@@ -25,10 +25,9 @@ enum class Trust : uint8_t { trusted, trial, suspect };
 
 class SchedulerClient {
  public:
-  static constexpr int kRefillBelow = 2;                      // tasks a thread
-  static constexpr int kFillUpTo = 3;                         // tasks a thread
-  static constexpr int kMaxPerThread = 64;                    // bounds what a slow line can ask for
-  static constexpr Duration kFirstGuess = milliseconds(100);  // task time before any result
+  static constexpr int kGroup = 2;          // threads for each task that travels in a group
+  static constexpr int kMaxPerThread = 64;  // bounds what a slow line can ask for
+  static constexpr Duration kFirstGuess = milliseconds(100);       // task time before any result
   static constexpr Duration kSilenceAtLeast = milliseconds(1000);  // see silenceLimit()
   static constexpr Duration kSilenceBeforeFirst = milliseconds(5000);
   static constexpr int kSilenceFactor = 4;  // times the expected time for all that it holds
@@ -43,7 +42,7 @@ class SchedulerClient {
 
   int low() const;
   int high() const;
-  // Tasks that may be sent now; 0 once refilled, until it falls below low().
+  // Tasks that may be sent now; 0 once refilled, until it falls to low().
   int credit() const { return refilling_ ? std::max(0, high() - inFlight()) : 0; }
 
   Duration taskTime() const { return taskTime_.value_or(kFirstGuess); }
@@ -75,7 +74,6 @@ class SchedulerClient {
  private:
   static constexpr size_t kRemembered = 4;
   Duration workTime(int tasks) const { return taskTime() * ((tasks + threads() - 1) / threads()); }
-  int onTheWay() const;
   void updateRefilling();
 
   ClientReport report_;
