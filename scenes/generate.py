@@ -10,7 +10,7 @@ import pathlib
 
 from generator import glb
 
-NAMES = ("cornell", "table_room")
+NAMES = ("cornell", "table_room", "egg_room", "invisible_date", "office", "conference", "u_office")
 
 
 def main():

@@ -187,3 +187,30 @@ def tube(path, radius, segments, ends=True):
             ring = [(q[0], vec.mul(forward, -1 if i == 0 else 1), q[2]) for q in row[:-1]]
             mesh.fan(ring[::-1] if i == 0 else ring)
     return mesh.grid(rows)
+
+
+def table_top(width, depth, thickness, segments, power=4.0, edge=3, y=0.0):
+    """A slab over the outline |x/a|^n + |z/b|^n = 1 with a half-round edge of `edge` * 2 pieces;
+    `y` is the height of its lower side. Power 2 is an ellipse."""
+    a, b, r = width / 2, depth / 2, thickness / 2
+    outline = []
+    for k in range(segments):
+        t = 2 * math.pi * k / segments
+        s, c = math.sin(t), math.cos(t)
+        size = (abs(s) ** power + abs(c) ** power) ** (-1 / power)
+        x, z = s * size, c * size
+        n = (math.copysign(abs(x) ** (power - 1), x) / a, math.copysign(abs(z) ** (power - 1), z) / b)
+        outline.append((x * a, z * b, *vec.mul((*n, 0), 1 / math.hypot(*n))[:2]))
+    rows = []
+    for j in range(2 * edge + 1):
+        angle = math.pi * (j / (2 * edge) - 0.5)
+        inset, up = r * (math.cos(angle) - 1), math.sin(angle)
+        row = []
+        for x, z, nx, nz in [*outline, outline[0]]:
+            place = (x + nx * inset, y + r + r * up, z + nz * inset)
+            normal = (nx * math.cos(angle), up, nz * math.cos(angle))
+            row.append((place, vec.unit(normal), (place[0], place[2])))
+        rows.append(row)
+    mesh = Mesh().grid(rows)
+    mesh.fan([(p, (0, 1, 0), uv) for p, _, uv in rows[-1][:-1]])
+    return mesh.fan([(p, (0, -1, 0), uv) for p, _, uv in rows[0][-2::-1]])
