@@ -1,0 +1,30 @@
+#include "master/job_offer.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+
+JobOffer::JobOffer(std::vector<Blob> blobs, const Settings& settings)
+    : blobs_(std::move(blobs)), settings_(settings) {
+  for (const Blob& blob : blobs_) byHash_[blob.info.hash] = &blob;
+}
+
+msg::SceneOffer JobOffer::sceneOffer() const {
+  msg::SceneOffer offer{kScene, {}};
+  for (const Blob& blob : blobs_) offer.blobs.push_back(blob.info);
+  return offer;
+}
+
+msg::BlobChunk JobOffer::piece(const msg::BlobRequest& request) const {
+  const auto found = byHash_.find(request.hash);
+  if (found == byHash_.end() || request.offset >= found->second->compressed.size())
+    fail("asked for a piece of the scene that does not exist");
+  const ByteView all = found->second->compressed;
+  const auto offset = static_cast<size_t>(request.offset);
+  const ByteView piece = all.subspan(offset, std::min(kBlobChunkBytes, all.size() - offset));
+  return {request.hash, request.offset, all.size(), Bytes(piece.begin(), piece.end())};
+}
+
+}  // namespace ninefold
