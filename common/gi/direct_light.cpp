@@ -1,12 +1,13 @@
 #include "common/gi/direct_light.h"
 
+#include "common/math/rounding.h"
 #include "common/sampling/warp.h"
 
 namespace ninefold {
 namespace {
 
-std::optional<LightSample> sampleTriangle(const Transport& t, const Emitter& e, uint32_t index, float P,
-                                          const ShadingPoint& p, Vec2 u) {
+std::optional<LightSample> sampleTriangle(const Transport& t, const Emitter& e, uint32_t index,
+                                          float P, const ShadingPoint& p, Vec2 u) {
   const EmitterPoint y = t.emitters.pointAt(index, squareToTriangle(u));
   const Vec3 towards = y.position - p.surface.position;
   const float d2 = glm::dot(towards, towards);
@@ -19,7 +20,8 @@ std::optional<LightSample> sampleTriangle(const Transport& t, const Emitter& e, 
   s.pdf = P / e.area * d2 / cosY;
   s.weight = y.radiance / s.pdf;
   s.origin = offsetOrigin(p.surface, s.w);
-  s.segment = offsetOrigin(y.position, e.normal, y.error, -s.w) - s.origin;
+  const float error = y.error + kRayRounding * std::sqrt(d2);
+  s.segment = offsetOrigin(y.position, e.normal, error, -s.w) - s.origin;
   return s;
 }
 
@@ -33,7 +35,8 @@ LightSample sampleEnvironment(const Transport& t, float P, const ShadingPoint& p
   return s;
 }
 
-std::optional<LightSample> samplePunctual(const PunctualLight& light, float P, const ShadingPoint& p) {
+std::optional<LightSample> samplePunctual(const PunctualLight& light, float P,
+                                          const ShadingPoint& p) {
   LightSample s;
   if (light.kind == LightKind::directional) {
     s.w = -light.direction;
@@ -64,13 +67,15 @@ std::optional<LightSample> sampleLight(const Transport& t, const ShadingPoint& p
   return samplePunctual(t.scene.lights[e.light], choice.probability, p);
 }
 
-float lightPdf(const Transport& t, const Hit& hit, const SurfacePoint& surface, Vec3 w, float distance) {
+float lightPdf(const Transport& t, const Hit& hit, const SurfacePoint& surface, Vec3 w,
+               float distance) {
   const int index = t.emitters.find(hit.instance, hit.triangle);
   if (index < 0) return 0;
   const Emitter& e = t.emitters[static_cast<size_t>(index)];
   const float cosY = std::abs(glm::dot(w, surface.geometricNormal));
   if (cosY <= 0) return 0;
-  return t.emitters.byPower().probability(static_cast<uint32_t>(index)) / e.area * distance * distance / cosY;
+  return t.emitters.byPower().probability(static_cast<uint32_t>(index)) / e.area * distance *
+         distance / cosY;
 }
 
 float environmentPdf(const Transport& t) {

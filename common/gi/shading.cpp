@@ -18,6 +18,23 @@ Vec3 attenuationCoefficient(const Material& m) {
 
 }  // namespace
 
+MeanReflection::MeanReflection() {
+  for (int i = 0; i <= kSteps; ++i) {
+    const float roughness = static_cast<float>(i) / kSteps;
+    const float alpha = roughness * roughness;
+    ends_[static_cast<size_t>(i)] = {meanReflection(Vec3(0), alpha).x, meanReflection(Vec3(1), alpha).x};
+  }
+}
+
+Reflectance MeanReflection::operator()(Vec3 f0, float alpha) const {
+  const float at = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kSteps;
+  const auto i = std::min(static_cast<size_t>(at), static_cast<size_t>(kSteps - 1));
+  const float part = at - static_cast<float>(i);
+  const float black = ends_[i].black + part * (ends_[i + 1].black - ends_[i].black);
+  const float white = ends_[i].white + part * (ends_[i + 1].white - ends_[i].white);
+  return black * (Vec3(1) - f0) + white * f0;
+}
+
 Shader::Shader(const Scene& scene) : scene_(&scene) {
   for (const Material& m : scene.materials) {
     Prepared p;
@@ -25,6 +42,7 @@ Shader::Shader(const Scene& scene) : scene_(&scene) {
     p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
     p.specular = p.transmits || !p.folds || m.alphaMode == AlphaMode::blend;
     p.sigma = attenuationCoefficient(m);
+    p.meanFresnel = p.transmits ? meanFresnelDielectric(m.ior) : 0;
     materials_.push_back(p);
   }
 }
@@ -63,17 +81,17 @@ void Shader::fillOpaque(Bsdf& bsdf, const Material& m, const Prepared& prepared,
   const Vec3 f0 = dielectricF0(m, s);
   bsdf.f0 = mix(f0, base, metallic);
   bsdf.diffuse = (1 - metallic) * base;
-  if (!isBlack(f0)) bsdf.diffuse *= Vec3(1) - meanReflection(f0, alpha);
+  if (!isBlack(f0)) bsdf.diffuse *= Vec3(1) - meanReflection_(f0, alpha);
   bsdf.reflects = !prepared.folds && !isBlack(bsdf.f0);
   if (prepared.folds && !isBlack(bsdf.f0)) {
-    const Vec3 lobe = mix(isBlack(f0) ? Vec3(0) : meanReflection(f0, alpha),
-                          meanReflection(base, alpha), metallic);
+    const Vec3 lobe = mix(isBlack(f0) ? Vec3(0) : meanReflection_(f0, alpha),
+                          meanReflection_(base, alpha), metallic);
     bsdf.diffuse = glm::min(bsdf.diffuse + lobe, Vec3(1));
   }
 }
 
-void Shader::fillTransmitting(Bsdf& bsdf, const Material& m, Vec3 base, float metallic,
-                              const SurfacePoint& s) const {
+void Shader::fillTransmitting(Bsdf& bsdf, const Material& m, const Prepared& prepared, Vec3 base,
+                              float metallic, const SurfacePoint& s) const {
   float share = m.transmission;
   if (m.transmissionMap) share *= lookUp(*scene_, m.transmissionMap, s.uv0, s.uv1).x;
   base *= 1 - metallic;
@@ -85,7 +103,7 @@ void Shader::fillTransmitting(Bsdf& bsdf, const Material& m, Vec3 base, float me
     bsdf.reflectionTint *= Vec3(lookUp(*scene_, m.specularColorMap, s.uv0, s.uv1));
   bsdf.reflectionTint = glm::min(bsdf.reflectionTint, Vec3(1));
   bsdf.transmissionTint = share * base;
-  bsdf.diffuse = (1 - share) * (1 - meanFresnelDielectric(m.ior)) * base;
+  bsdf.diffuse = (1 - share) * (1 - prepared.meanFresnel) * base;
   bsdf.reflects = !isBlack(bsdf.reflectionTint);
 }
 
@@ -115,7 +133,7 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   p.bsdf.alpha = alpha < kSmoothAlpha ? 0.0f : alpha;
   p.bsdf.thin = !m.solid;
   if (prepared.transmits) {
-    fillTransmitting(p.bsdf, m, base, metallic, s);
+    fillTransmitting(p.bsdf, m, prepared, base, metallic, s);
     const int beyond = p.front ? s.material : media.innermostWithout(s.material);
     const int here = p.front ? media.innermost() : s.material;
     p.bsdf.eta = p.bsdf.thin ? m.ior : indexOf(beyond) / indexOf(here);

@@ -12,6 +12,7 @@
 // Threads: const, reentrant. Refers to the Scene.   Errors: none for valid scenes.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "common/bsdf/bsdf.h"
@@ -32,6 +33,20 @@ struct ShadingPoint {
   bool front = true;         // wo is on the front side of the surface
 
   Vec3 localWo() const { return frame.toLocal(wo); }
+};
+
+// Mean reflection of the opaque lobe, linear in f0 for each roughness: a table, because every hit asks.
+class MeanReflection {
+ public:
+  MeanReflection();
+  Reflectance operator()(Vec3 f0, float alpha) const;
+
+ private:
+  static constexpr int kSteps = 64;  // over sqrt(alpha), i.e. perceptual roughness
+  struct Ends {
+    float black, white;              // for f0 = 0 and f0 = 1
+  };
+  std::array<Ends, kSteps + 1> ends_;
 };
 
 class Shader {
@@ -56,17 +71,19 @@ class Shader {
     bool transmits = false;   // dielectric interface
     bool specular = false;    // keeps any S lobe
     Vec3 sigma{0};            // attenuation inside [1/m]
+    float meanFresnel = 0;    // of a transmitting material's interface
   };
   float indexOf(int material) const;
   Frame shadingFrame(const SurfacePoint& surface, Vec3 ng, Vec3 wo) const;
   void fillOpaque(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                   float metallic, float alpha, const SurfacePoint& s) const;
-  void fillTransmitting(Bsdf& bsdf, const Material& material, Vec3 base, float metallic,
-                        const SurfacePoint& s) const;
+  void fillTransmitting(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
+                        float metallic, const SurfacePoint& s) const;
   Vec3 dielectricF0(const Material& material, const SurfacePoint& s) const;
 
   const Scene* scene_;
   std::vector<Prepared> materials_;
+  MeanReflection meanReflection_;
 };
 
 // The factor that a particle's flux takes for interpolated normals on arrival from unit direction w (away

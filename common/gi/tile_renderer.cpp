@@ -122,7 +122,7 @@ void gatherLayer(TaskContext& c, int layer) {
   Receivers& receivers = c.scratch.receivers[static_cast<size_t>(layer)];
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
   receivers.pad(kPacket);
-  gatherVpls(c.t.tracer, c.lights.vpls, c.t.bound, receivers, c.out.rays.shadow);
+  gatherVpls(c.t, c.lights.vpls, receivers, c.out.rays.shadow);
   const bool wantsCaustic = layer == kDiffuse && (c.task.extraMask & kCausticPlane) != 0;
   for (size_t i = 0; i < receivers.size(); ++i) {
     const size_t pixel = receivers.pixel[i];

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "common/math/rounding.h"
+
 namespace ninefold {
 namespace {
 
@@ -68,6 +70,7 @@ Transport::Transport(const Tracer& t, const Settings& s)
       emitters(t.scene(), s.environment),
       needs(needsOf(t.scene(), s.environment)),
       bound(s.bound / std::max(t.scene().bounds.radius() * t.scene().bounds.radius(), 1e-30f)),
+      farRounding(kRayRounding * 2 * t.scene().bounds.radius()),
       targets(aimTargets(t.scene(), shader)) {}
 
 }  // namespace ninefold

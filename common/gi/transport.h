@@ -29,6 +29,7 @@ struct Transport {
   Emitters emitters;
   Needs needs;
   float bound;                       // b = c/R^2 [1/m^2]
+  Metres farRounding;                // how far a ray across the scene may err at its end, see math/rounding.h
   std::vector<AimTarget> targets;    // empty if nothing is specular; at most kMaxTargets
 
   static constexpr size_t kMaxTargets = 16;

@@ -2,6 +2,8 @@
 
 #include <bit>
 
+#include "common/math/rounding.h"
+
 namespace ninefold {
 namespace {
 
@@ -11,10 +13,11 @@ struct alignas(64) PacketWeights {
   float toX[kPacket], toY[kPacket], toZ[kPacket];  // from shadow ray origin to its end
 };
 
-// Where shadow rays to a surface VPL end: off its surface, on the emitting side.
-Vec3 rayTarget(const Vpl& vpl) {
-  return vpl.kind == Vpl::Kind::surface ? offsetOrigin(vpl.position, vpl.normal, vpl.error, vpl.normal)
-                                        : vpl.position;
+// Where shadow rays to a surface VPL end: off its surface, on the emitting side, by what rounding
+// may do on the way from anywhere in the scene.
+Vec3 rayTarget(const Vpl& vpl, Metres R) {
+  if (vpl.kind != Vpl::Kind::surface) return vpl.position;
+  return offsetOrigin(vpl.position, vpl.normal, vpl.error + kRayRounding * 2 * R, vpl.normal);
 }
 
 // Straight-line loops over planar arrays: the compiler turns them into vector code.
@@ -25,7 +28,7 @@ void surfaceWeights(const Vpl& vpl, Vec3 target, float bound, const Receivers& r
     const float dx = vpl.position.x - r.px[i], dy = vpl.position.y - r.py[i],
                 dz = vpl.position.z - r.pz[i];
     const float d2 = dx * dx + dy * dy + dz * dz;
-    const float cosXd = dx * r.gx[i] + dy * r.gy[i] + dz * r.gz[i];    // cos * d
+    const float cosXd = dx * r.gx[i] + dy * r.gy[i] + dz * r.gz[i];  // cos * d
     const float cosSd = dx * r.sx[i] + dy * r.sy[i] + dz * r.sz[i];
     const float cosYd = -(dx * vpl.normal.x + dy * vpl.normal.y + dz * vpl.normal.z);
     const bool faces = cosXd > 0 && cosSd > 0 && cosYd > 0 && d2 > 0;
@@ -75,7 +78,8 @@ uint32_t setUpRays(const PacketWeights& weights, const Receivers& r, size_t firs
                    RayPacket& rays) {
   const size_t valid = std::min<size_t>(kPacket, r.size() - first);
   uint32_t active = 0;
-  for (size_t lane = 0; lane < valid; ++lane) active |= (weights.weight[lane] > 0 ? 1u : 0u) << lane;
+  for (size_t lane = 0; lane < valid; ++lane)
+    active |= (weights.weight[lane] > 0 ? 1u : 0u) << lane;
   if (active == 0) return 0;
   for (size_t lane = 0; lane < kPacket; ++lane) {
     const size_t i = first + lane;
@@ -100,17 +104,18 @@ void addVisible(const Vpl& vpl, const PacketWeights& weights, uint32_t visible, 
 
 }  // namespace
 
-void gatherVpls(const Tracer& tracer, const std::vector<Vpl>& vpls, float bound, Receivers& receivers,
+void gatherVpls(const Transport& t, const std::vector<Vpl>& vpls, Receivers& receivers,
                 uint64_t& shadowRays) {
   RayPacket rays;
   PacketWeights weights;
+  const Metres R = tracer.scene().bounds.radius();
   for (const Vpl& vpl : vpls) {
-    const Vec3 target = rayTarget(vpl);
+    const Vec3 target = rayTarget(t, vpl);
     const bool directional = vpl.kind == Vpl::Kind::directional;
     const float tFar = directional ? std::numeric_limits<float>::infinity() : 1.0f;
     for (size_t first = 0; first < receivers.size(); first += kPacket) {
       if (vpl.kind == Vpl::Kind::surface)
-        surfaceWeights(vpl, target, bound, receivers, first, weights);
+        surfaceWeights(vpl, target, t.bound, receivers, first, weights);
       else if (directional)
         directionalWeights(vpl, receivers, first, weights);
       else
@@ -118,7 +123,7 @@ void gatherVpls(const Tracer& tracer, const std::vector<Vpl>& vpls, float bound,
       const uint32_t active = setUpRays(weights, receivers, first, tFar, rays);
       if (active == 0) continue;
       shadowRays += static_cast<uint64_t>(std::popcount(active));
-      addVisible(vpl, weights, active & ~tracer.occluded16(rays, active), receivers, first);
+      addVisible(vpl, weights, active & ~t.tracer.occluded16(rays, active), receivers, first);
     }
   }
 }

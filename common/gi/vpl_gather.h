@@ -21,7 +21,7 @@
 namespace ninefold {
 
 // Adds to receivers.er/eg/eb; receivers must be padded to kPacket. `shadowRays` counts active lanes.
-void gatherVpls(const Tracer& tracer, const std::vector<Vpl>& vpls, float bound, Receivers& receivers,
+void gatherVpls(const Transport& transport, const std::vector<Vpl>& vpls, Receivers& receivers,
                 uint64_t& shadowRays);
 
 }  // namespace ninefold

@@ -84,7 +84,7 @@ TEST(Furnace, GlassBallIsInvisible) {
       SceneBuilder b;
       const int wall = b.material(testing::matte(Vec3(0), Vec3(1)));
       const int clear = b.material(testing::glass(1.5f));
-      b.box(wall, Vec3(-1), Vec3(1), true).sphere(clear, Vec3(0), 0.5f, 12);
+      b.box(wall, Vec3(-1), Vec3(1), true).sphere(clear, Vec3(0), 0.5f, 64);
       b.camera(inside ? Vec3(0.1f, 0, 0.2f) : Vec3(0, 0, 0.95f), Vec3(0.05f, 0.02f, -0.3f), 1.0f);
       const Scene scene = b.build();
       const Tracer tracer(scene, Isa::automatic);
