@@ -15,9 +15,9 @@ struct alignas(64) PacketWeights {
 
 // Where shadow rays to a surface VPL end: off its surface, on the emitting side, by what rounding
 // may do on the way from anywhere in the scene.
-Vec3 rayTarget(const Vpl& vpl, Metres R) {
+Vec3 rayTarget(const Transport& t, const Vpl& vpl) {
   if (vpl.kind != Vpl::Kind::surface) return vpl.position;
-  return offsetOrigin(vpl.position, vpl.normal, vpl.error + kRayRounding * 2 * R, vpl.normal);
+  return offsetOrigin(vpl.position, vpl.normal, vpl.error + t.farRounding, vpl.normal);
 }
 
 // Straight-line loops over planar arrays: the compiler turns them into vector code.
@@ -108,7 +108,6 @@ void gatherVpls(const Transport& t, const std::vector<Vpl>& vpls, Receivers& rec
                 uint64_t& shadowRays) {
   RayPacket rays;
   PacketWeights weights;
-  const Metres R = tracer.scene().bounds.radius();
   for (const Vpl& vpl : vpls) {
     const Vec3 target = rayTarget(t, vpl);
     const bool directional = vpl.kind == Vpl::Kind::directional;
