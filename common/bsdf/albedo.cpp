@@ -1,10 +1,11 @@
-// albedo.cpp: how much a lobe scatters in all, from one small table that is integrated once.
+// albedo.cpp: how much a lobe scatters in all.
 //
-// For the opaque lobe the Fresnel term is linear in f0, so two numbers are exact for every f0:
-//   A(cos_o, alpha) = int D G2 .../(4 cos_o) dwi           the lobe with F = 1
+// For the opaque lobe the Fresnel term is linear in f0, so one small table of two numbers,
+// integrated once, serves every f0:
+//   A(cos_o, alpha) = int D G2/(4 cos_o) dwi, the lobe with F = 1
 //   B(cos_o, alpha) = the same with F = (1 - wo.m)^5
 //   albedo = f0 (A - B) + B
-// For dielectrics F is taken at the one angle that stands for the lobe, (1 - c)^5 = B/A.
+// Rough dielectrics depend on eta as well: a mean over a few fixed samples, made when asked for.
 #include <array>
 
 #include "common/bsdf/ggx.h"
@@ -22,18 +23,28 @@ constexpr int kAngles = 32;  // cos_o = (i/31)^2: denser where grazing light ris
 constexpr int kRoughs = 16;  // alpha = (j/15)^2
 using Table = std::array<std::array<Albedo, kAngles>, kRoughs>;
 
+constexpr float kLeastCosine = 1e-4f;
+
+Vec3 upward(float cosTheta) {
+  return Vec3(std::sqrt((1.0f - cosTheta) * (1.0f + cosTheta)), 0.0f, cosTheta);
+}
+
+Vec2 gridPoint(int k, int side) {
+  return (Vec2(k % side, k / side) + Vec2(0.5f)) / static_cast<float>(side);
+}
+
+Reflectance opaqueAlbedo(Vec3 f0, Albedo all) { return f0 * (all.a - all.b) + Vec3(all.b); }
+
 float power5(float x) { return x * x * x * x * x; }
 
 // Visible-normal sampling makes the integrand smooth, so a regular grid of samples serves.
 Albedo integrate(float cosThetaO, float alpha) {
   if (alpha == 0) return {1.0f, power5(1.0f - cosThetaO)};
   constexpr int kGrid = 16;
-  const Vec3 wo(std::sqrt(1.0f - cosThetaO * cosThetaO), 0.0f, cosThetaO);
+  const Vec3 wo = upward(cosThetaO);
   double a = 0, b = 0;
   for (int k = 0; k < kGrid * kGrid; ++k) {
-    const Vec2 u((static_cast<float>(k % kGrid) + 0.5f) / kGrid,
-                 (static_cast<float>(k / kGrid) + 0.5f) / kGrid);
-    const Vec3 m = ggx::sampleVisibleNormal(wo, alpha, u);
+    const Vec3 m = ggx::sampleVisibleNormal(wo, alpha, gridPoint(k, kGrid));
     const std::optional<Vec3> wi = reflectAbout(wo, m);
     if (!wi) continue;
     const MirrorLobe lobe = mirrorLobe(wo, *wi, m, alpha);
@@ -51,7 +62,7 @@ Table makeTable() {
     for (int i = 0; i < kAngles; ++i) {
       const float c = static_cast<float>(i) / (kAngles - 1);
       table[static_cast<size_t>(j)][static_cast<size_t>(i)] =
-          integrate(std::max(c * c, 1e-4f), r * r);
+          integrate(std::max(c * c, kLeastCosine), r * r);
     }
   }
   return table;
@@ -83,26 +94,36 @@ Albedo mirrorAlbedo(float cosThetaO, float alpha) {
              mix(high[c.index], high[c.index + 1], c.part), r.part);
 }
 
-Reflectance transmissionAlbedo(const Bsdf& bsdf, float cosThetaO) {
-  Reflectance through(0.0f);
-  if (bsdf.dielectric) {
-    const Albedo all = mirrorAlbedo(cosThetaO, smoothTransmission(bsdf) ? 0 : bsdf.alpha);
-    const float cosine = 1.0f - std::pow(all.b / all.a, 0.2f);
-    through = all.a * interfaceTransmittance(bsdf, cosine);
+// Mean weight over a few fixed samples; the straight pass is added by itself.
+Reflectance meanWeight(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
+  constexpr int kGrid = 4;
+  Bsdf interface = bsdf;
+  interface.passThrough = 0;
+  Vec3 sum(0.0f);
+  for (int k = 0; k < kGrid * kGrid; ++k) {
+    const auto s = sampleLobe(interface, lobe, upward(cosThetaO), gridPoint(k, kGrid), 0);
+    if (s) sum += s->weight / float(kGrid * kGrid);
   }
-  return glm::clamp(through + Vec3(bsdf.passThrough), 0.0f, 1.0f);
+  return sum;
 }
 
 }  // namespace
 
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
-  cosThetaO = std::clamp(cosThetaO, 0.0f, 1.0f);
-  if (lobe == Lobe::transmission) return transmissionAlbedo(bsdf, cosThetaO);
-  if (!bsdf.reflects) return Reflectance(0.0f);
-  const Albedo all = mirrorAlbedo(cosThetaO, bsdf.alpha);
-  if (!bsdf.dielectric) return glm::clamp(bsdf.f0 * (all.a - all.b) + Vec3(all.b), 0.0f, 1.0f);
-  const float cosine = 1.0f - std::pow(all.b / all.a, 0.2f);
-  return glm::clamp(all.a * interfaceReflectance(bsdf, cosine), 0.0f, 1.0f);
+  const float c = std::clamp(cosThetaO, kLeastCosine, 1.0f);
+  Reflectance albedo(0.0f);
+  if (lobe == Lobe::transmission) {
+    albedo = Vec3(bsdf.passThrough);
+    if (bsdf.dielectric) {
+      albedo +=
+          smoothTransmission(bsdf) ? interfaceTransmittance(bsdf, c) : meanWeight(bsdf, lobe, c);
+    }
+  } else if (bsdf.reflects && bsdf.dielectric) {
+    albedo = smoothReflection(bsdf) ? interfaceReflectance(bsdf, c) : meanWeight(bsdf, lobe, c);
+  } else if (bsdf.reflects) {
+    albedo = opaqueAlbedo(bsdf.f0, mirrorAlbedo(c, bsdf.alpha));
+  }
+  return glm::clamp(albedo, 0.0f, 1.0f);
 }
 
 // 2 int_0^1 albedo(c) c dc, with c = t^2 as in the table.
@@ -112,7 +133,7 @@ Reflectance meanReflection(Vec3 f0, float alpha) {
   for (int i = 0; i < kSteps; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / kSteps, c = t * t;
     const Albedo all = mirrorAlbedo(c, alpha);
-    sum += 4.0f * t * c / kSteps * (f0 * (all.a - all.b) + Vec3(all.b));
+    sum += 4.0f * t * c / kSteps * opaqueAlbedo(f0, all);
   }
   return glm::clamp(sum, 0.0f, 1.0f);
 }

@@ -1,23 +1,24 @@
-// bsdf.h: how one surface point scatters: D, the Lambertian part, and the S lobes (everything
-// else).
+// bsdf.h: how one surface point scatters: D, the Lambertian part, and the S lobes (all the rest).
 //
 //   D             f = diffuse / pi; its weight does not depend on directions
 //   reflection    GGX with Smith's height-correlated masking (smooth when alpha = 0)
 //                 opaque: Schlick's Fresnel f0 + (1-f0)(1-cos)^5; dielectric: exact Fresnel of eta
 //   transmission  GGX refraction (Walter 2007), smooth when alpha = 0; thin-walled: straight on,
-//   without bending;
+//                 without bending (rough: the mirror lobe, turned to the other side);
 //                 plus the straight pass of weight `passThrough` (alpha blending), always smooth
 //
-// All of it is for basic radiance L/n^2: no eta^2 factor appears and every lobe is symmetric, so
-// light particles and eye paths use the same functions. Directions are unit, local (z = shading
-// normal), point away from the surface; wo.z > 0 always: the caller turns the frame, and eta, to
-// the side of wo. The single-scattering GGX lobes lose energy at high roughness; the loss is stated
-// by the tests, not hidden.
+// All of it is for basic radiance L/n^2: weights hold no eta^2, and every lobe is symmetric in the
+// measure n^2 dw, f(wo, wi; eta) = eta^2 f(wi, wo; 1/eta), so light particles and eye paths use the
+// same functions. Directions are unit, local (z = shading normal), point away from the surface;
+// wo.z > 0 always: the caller turns the frame, and eta, to the side of wo. Fresnel's F and 1-F are
+// part of the weights: the caller chooses the lobe by lobeAlbedo, or follows both.
+// Refraction whose spread, alpha |eta - 1|, is below kSmoothAlpha is smooth; eta = 1 is invisible.
+// The single-scattering GGX lobes lose energy at high roughness: a white metal seen head-on keeps
+// 92 % at alpha = 0.25, 69 % at 0.5, 31 % at 1. The loss is stated by the tests, not hidden.
 //
 // Source:  Walter et al. 2007; Heitz 2018 (visible normals); Schlick 1994.
-// Proved:  tests/bsdf (chi-square sample/pdf, reciprocity, albedo <= 1, smooth limits, index 1 is
-// invisible). Threads: plain values, pure functions. Errors: none; nullopt means "no light goes
-// there".
+// Proved:  tests/bsdf (chi-square sample/pdf, reciprocity, albedo <= 1, smooth limits, extremes).
+// Threads: plain values, pure functions. Errors: none; nullopt means "no light goes there".
 #pragma once
 
 #include <optional>
@@ -34,14 +35,11 @@ struct Bsdf {
   float alpha = 0;         // GGX roughness (already squared); below kSmoothAlpha it is set to 0
   float eta = 1;           // dielectric: index beyond the surface / index on wo's side
   bool reflects = false;   // reflection lobe present
-  bool dielectric =
-      false;          // exact Fresnel reflection, and transmission of (1-F) * transmissionTint
-  bool thin = false;  // thin-walled dielectric: transmits straight on; F of both faces
-  Vec3 reflectionTint{
-      0};  // factor of the dielectric reflection (KHR_materials_specular), usually 1
+  bool dielectric = false;   // exact Fresnel: reflects F, transmits (1-F) * transmissionTint
+  bool thin = false;         // thin-walled dielectric: transmits straight on; F of both faces
+  Vec3 reflectionTint{0};    // of the dielectric (KHR_materials_specular), usually 1
   Vec3 transmissionTint{0};  // base colour * transmission
-  float passThrough =
-      0;  // 1 - opacity of alpha blending; the other parts are already times opacity
+  float passThrough = 0;     // 1 - opacity of alpha blending; the other parts are times opacity
 
   bool transmits() const { return passThrough > 0 || (dielectric && !isBlack(transmissionTint)); }
 };
@@ -51,7 +49,7 @@ inline constexpr float kSmoothAlpha = 1e-3f;
 struct LobeSample {
   Vec3 wi;      // unit, local; wi.z < 0 when transmitted
   Vec3 weight;  // f * |cos| / pdf, each in [0, 1] up to rounding
-  float pdf;    // per solid angle, of this lobe alone; 0 for a smooth (delta) lobe
+  float pdf;    // per solid angle, given the lobe (uLobe's choice included); 0 if smooth (delta)
   bool smooth;
 };
 
@@ -65,16 +63,15 @@ struct LobeValue {
 };
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi);
 
-// Approximate directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0,
-// 1].
+// Directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1], within
+// 0.05. Exact for smooth lobes, a table for opaque ones, 16 fixed samples for rough dielectrics.
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO);
 
 // Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what folding a lobe that
 // is too rough into D adds to rho. 0 <= f0 <= 1.
 Reflectance meanReflection(Vec3 f0, float alpha);
 
-// Exact unpolarized Fresnel reflectance at |cosThetaI|, eta = n_t / n_i. 1 on total internal
-// reflection.
+// Exact unpolarized Fresnel reflectance at |cosThetaI|, eta = n_t / n_i; 1 on total reflection.
 float fresnelDielectric(float cosThetaI, float eta);
 
 // Mean of fresnelDielectric over the cosine-weighted hemisphere.

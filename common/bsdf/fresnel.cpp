@@ -1,5 +1,5 @@
-// fresnel.cpp: how much a smooth dielectric interface reflects. Source: Born and Wolf, Principles
-// of Optics, 1.5.
+// fresnel.cpp: how much a smooth dielectric interface reflects.
+// Source: Born and Wolf, Principles of Optics, 1.5.
 #include "common/bsdf/bsdf.h"
 
 namespace ninefold {

@@ -8,8 +8,9 @@
 //
 // All is written without a division by a cosine, so that grazing directions stay finite.
 // Source:  Walter et al. 2007; Heitz 2014 (masking), 2018 (visible normals); Dupuy and Benyoub 2023
-// (sampling). Proved:  tests/bsdf (chi-square through each lobe). Threads: pure functions. Internal
-// to common/bsdf.
+//          (sampling by spherical caps).
+// Proved:  tests/bsdf (chi-square through each lobe).
+// Threads: pure functions. Internal to common/bsdf.
 #pragma once
 
 #include "common/math/units.h"

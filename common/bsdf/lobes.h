@@ -1,15 +1,14 @@
 // lobes.h: the parts behind bsdf.h. Each lobe has one function that samples and one that evaluates;
-// both get weight = f |cos wi| / pdf and pdf from the same expressions, so that they cannot
-// disagree. Threads: pure functions. Errors: none. Internal to common/bsdf.
+// both get weight = f |cos wi| / pdf and pdf from the same expressions, so they cannot disagree.
+// Threads: pure functions. Errors: none. Internal to common/bsdf.
 #pragma once
 
 #include "common/bsdf/bsdf.h"
 
 namespace ninefold {
 
-// What an interface sends back and what it lets through, at the angle `cosine` to its (micro)
-// normal. A thin wall adds up the bounces between its two faces: F' = 2F/(1+F), and lets 1 - F'
-// through.
+// What an interface sends back and lets through, at `cosine` to its (micro) normal. A thin wall
+// adds up the bounces between its two faces: F' = 2F/(1+F), and lets 1 - F' through.
 Vec3 interfaceReflectance(const Bsdf& bsdf, float cosine);
 Vec3 interfaceTransmittance(const Bsdf& bsdf, float cosine);
 
@@ -20,8 +19,7 @@ inline bool smoothTransmission(const Bsdf& bsdf) {
   return bsdf.alpha * std::min(std::abs(bsdf.eta - 1.0f), 1.0f) < kSmoothAlpha;
 }
 
-// Chance of the straight pass inside the transmission lobe, in proportion to what each part lets
-// through.
+// The parts of the transmission lobe are chosen in proportion to what they let through.
 struct TransmissionSplit {
   float straight;   // weight of the straight pass
   float refracted;  // bound of the weight of refraction
@@ -34,8 +32,7 @@ LobeValue evaluateReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi);
 std::optional<LobeSample> sampleTransmission(const Bsdf& bsdf, Vec3 wo, Vec2 u, float uLobe);
 LobeValue evaluateTransmission(const Bsdf& bsdf, Vec3 wo, Vec3 wi);
 
-// GGX mirror lobe, for reflection and, mirrored to the other side, for rough thin walls. wo.z, wi.z
-// > 0.
+// GGX mirror lobe of reflection, and of rough thin walls turned to this side. wo.z > 0, wi.z > 0.
 struct MirrorLobe {
   float cosine;   // wo . m
   float masking;  // G2(wo, wi) / G1(wo)

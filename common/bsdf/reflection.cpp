@@ -1,11 +1,12 @@
 // reflection.cpp: the mirror lobe: f cos_i = F D G2 / (4 cos_o), sampled by visible normals.
+#include <limits>
+
 #include "common/bsdf/ggx.h"
 #include "common/bsdf/lobes.h"
 
 namespace ninefold {
 
-// p(wi) = p(m)/(4 wo.m) = G1(wo)/cos_o D/4, and f cos_i / p = F G2/G1(wo); both without dividing by
-// cosines.
+// p(wi) = p(m)/(4 wo.m) = G1(wo)/cos_o D/4 and f cos_i / p = F G2/G1(wo), free of divided cosines.
 MirrorLobe mirrorLobe(Vec3 wo, Vec3 wi, Vec3 m, float alpha) {
   const float so = ggx::slope(wo, alpha), si = ggx::slope(wi, alpha);
   return {std::min(glm::dot(wo, m), 1.0f), wi.z * (wo.z + so) / (so * wi.z + si * wo.z),

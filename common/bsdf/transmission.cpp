@@ -1,15 +1,15 @@
-// transmission.cpp: light that passes: straight on, bent by a smooth interface, or spread by a
-// rough one.
+// transmission.cpp: light that passes: straight on, bent by a smooth interface or spread by a rough
+// one. Thin walls: the mirror lobe, turned to the other side.
 //
 //   f |cos_i| = (1-F) G1(wo) G1(wi) D(m) (wo.m) / cos_o  dm/dwi              [1/sr]
 //   dm/dwi    = eta^2 |wi.m| / (wo.m + eta wi.m)^2 = eta g (c + g)^2 / (eta^2 - 1)^2,
 //               c = wo.m, g = eta |wi.m| = sqrt(eta^2 - 1 + c^2)
 //
-// Its integral over wi is the fraction that gets through. For basic radiance L/n^2 the same f
-// serves eye paths and particles: f(wo, wi; eta) = eta^2 f(wi, wo; 1/eta), which is symmetry in the
-// measure n^2 dw. Masking is the product G1 G1: what is seen from above and from below lies at
-// opposite heights, so that the correlated form for one side would let too much through. Source:
-// Walter et al. 2007. Thin walls: the mirror lobe, turned to the other side.
+// The integral of f |cos_i| over wi is the fraction that gets through. Masking is a plain product:
+// what is seen from above and from below tends to lie at opposite heights, so that the correlated
+// form for one side would let too much through.
+//
+// Source: Walter et al. 2007.
 #include "common/bsdf/ggx.h"
 #include "common/bsdf/lobes.h"
 
@@ -19,8 +19,7 @@ namespace {
 
 float snell2(float c, float eta) { return (eta - 1.0f) * (eta + 1.0f) + c * c; }
 
-// Through a normal m at cosine c = wo.m: eta wi = (c - g) m - wo. nullopt on total internal
-// reflection.
+// Through a normal m at cosine c = wo.m: eta wi = (c - g) m - wo. nullopt on total reflection.
 std::optional<Vec3> refract(Vec3 wo, Vec3 m, float c, float eta) {
   const float g2 = snell2(c, eta);
   if (!(g2 > 0)) return std::nullopt;

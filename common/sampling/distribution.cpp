@@ -26,8 +26,7 @@ Distribution::Distribution(const std::vector<float>& weights) {
 }
 
 Distribution::Choice Distribution::choose(float u) const {
-  // The first end above u belongs to a non-empty interval: an empty one ends where its predecessor
-  // does.
+  // The first end above u is that of a non-empty interval: an empty one ends with its predecessor.
   const auto end = std::upper_bound(cumulative_.begin(), cumulative_.end(), static_cast<double>(u));
   const auto index = static_cast<uint32_t>(end - cumulative_.begin());
   const double begin = index == 0 ? 0 : cumulative_[index - 1];

@@ -1,8 +1,8 @@
 // distribution.h: choice among n things in proportion to given weights.
 // A choice spends log2(1/probability) of the 24 bits of u: `remapped` is only as fine as what is
-// left, so with very many entries take another dimension instead. Proved:
-// tests/sampling/distribution_test.cpp. Threads: const after construction. Errors: NINEFOLD_CHECK
-// on negative or non-finite weights.
+// left, so with very many entries take another dimension instead.
+// Proved:  tests/sampling/distribution_test.cpp.
+// Threads: const after construction. Errors: NINEFOLD_CHECK on negative or non-finite weights.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +25,9 @@ class Distribution {
 
   bool empty() const { return cumulative_.empty(); }
   double total() const { return total_; }  // sum of the weights
-  Choice choose(float u) const;  // u in [0, 1); never an index of weight 0; not when empty
-  float probability(uint32_t index) const;  // not when empty
+  // Both not when empty. u in [0, 1); never an index of weight 0.
+  Choice choose(float u) const;
+  float probability(uint32_t index) const;
 
  private:
   std::vector<double> cumulative_;  // normalized, last element 1

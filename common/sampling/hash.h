@@ -1,7 +1,8 @@
 // hash.h: mixes words into one well distributed 64-bit word; the base of all addressed randomness.
-// Source:  the finalizer is Stafford's variant 13 of MurmurHash3 (2011), as in SplitMix64 (Steele
-// et al. 2014). Proved:  tests/sampling/hash_test.cpp (each input bit flips each output bit half of
-// the time). Threads: pure functions. Errors: none.
+// Source:  the finalizer is Stafford's variant 13 of MurmurHash3 (2011), as in SplitMix64
+//          (Steele, Lea and Flood 2014).
+// Proved:  tests/sampling/hash_test.cpp (each input bit flips each output bit half of the time).
+// Threads: pure functions. Errors: none.
 #pragma once
 
 #include <cstdint>

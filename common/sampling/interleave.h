@@ -6,7 +6,8 @@
 // bottom. Light set k serves phase p of a frame by k = (p + rotation) mod K: over K rotations every
 // pixel meets every set, and while the picture moves the rotation stays put.
 //
-// Source: Keller and Heidrich, "Interleaved Sampling", 2001.   Threads: plain values.
+// Source:  Keller and Heidrich, "Interleaved Sampling", 2001.
+// Proved:  tests/sampling/interleave_test.cpp. Threads: plain values.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +22,8 @@ struct Interleave {
   bool operator==(const Interleave&) const = default;
 };
 
-inline constexpr int kTaskSide =
-    32;  // a full task is 32 x 32 pixels of one phase; part of the pixel class
+// A full task is 32 x 32 pixels of one phase; part of the pixel class.
+inline constexpr int kTaskSide = 32;
 
 // A rectangle of a phase's sub-plane.
 struct TaskRect {

@@ -1,14 +1,13 @@
-// owen.h: nested uniform (Owen) scrambling of 32-bit fractions, by hashing instead of a stored
-// tree.
+// owen.h: nested uniform (Owen) scrambling of 32-bit fractions, by a hash instead of a stored tree.
 //
 // Bit k of the result is bit k of x, flipped or not by a hash of the seed and of all higher bits of
-// x. So intervals that share a prefix are permuted as a whole: every elementary interval goes onto
-// another one, and every net stays a net. Applied to an index it permutes aligned blocks of 2^j
-// indices in the same way.
+// x. So numbers that share a prefix keep sharing one: elementary intervals are permuted as a whole
+// and every net stays a net. Applied to an index it permutes aligned blocks of 2^j indices alike.
 //
 // Source:  Owen 1995; Laine and Karras 2011 (hash on reversed bits); Burley 2020; constants:
-// Vegdahl 2021. Proved:  tests/sampling/owen_test.cpp (prefixes stay together; flips are fair and
-// independent of siblings). Threads: pure functions. Errors: none.
+//          Vegdahl, "Building a Better LK Hash", 2021.
+// Proved:  tests/sampling/owen_test.cpp (prefixes stay together; flips are fair and independent).
+// Threads: pure functions. Errors: none.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +23,7 @@ constexpr uint32_t reverseBits(uint32_t x) {
 
 constexpr uint32_t owenScramble(uint32_t x, uint32_t seed) {
   x = reverseBits(x);
-  // In each step a bit depends on itself and lower bits only, as products with even numbers carry
-  // upwards.
+  // In each step a bit depends on itself and lower bits only: carries and products go upwards.
   x ^= x * 0x3d20adeau;
   x += seed;
   x *= (seed >> 16) | 1u;

@@ -1,32 +1,23 @@
 // sampler.h: addressed random numbers. A sample is a pure function of (key, index, dimension);
-// nothing is ever drawn from a shared stream, so any client computes any part of a frame bit for
-// bit.
+// nothing is ever drawn from a shared stream, so any client computes any part of a frame by itself.
 //
 // LightSampler   light set k of a frame takes the k-th aligned block of 2^m points of one
-// randomized Sobol'
-//                sequence, so that the K sets together are again well distributed. Dimensions
-//                beyond the first kSobolDimensions are padded replications: the same points, with
-//                their indices permuted inside the block and a randomization of their own.
+//                randomized Sobol' sequence, so that K sets together are again well distributed.
+//                Dimensions beyond the first kSobolDimensions are padded replications: the same
+//                points, their indices permuted inside the block, with their own randomization.
 // PixelSampler   one sequence per pixel: index = randomization index, so that a pixel's samples
-// over frames
-//                complement each other; same padding (permuted inside aligned blocks of 2^j
-//                indices).
+//                complement each other over frames; padded in the same way.
 // Randomization  exclusiveOr: one random word per dimension, as the paper; owen: nested uniform
-// scrambling.
-//                The padding permutes indices by nested scrambling in both: Sobol' points are
-//                linear in the bits of the index, so an exclusive-or of indices would only be one
-//                more exclusive-or of the points, and padded dimensions would repeat the first ones
-//                up to a constant.
+//                scrambling. Padding permutes indices by nested scrambling in both: Sobol' points
+//                are linear in the bits of the index, so an exclusive-or of indices would only be
+//                one more exclusive-or of the points, and would repeat the first dimensions.
 //
-// get2D takes dimensions that share a replication: use even ones. Nothing is checked here, it is a
-// hot path.
+// get2D takes dimensions of one replication: use even ones. Nothing is checked on this hot path.
 //
 // Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002; Owen 1995; Burley 2020
-// (hashed Owen);
-//          Keller, "Myths of Computer Graphics" (padding).
-// Proved:  tests/sampling (elementary intervals of each block and of unions of 2^j blocks; order
-// independence). Threads: const, reentrant. Errors: none. All values are in [0, 1), multiples of
-// 2^-24.
+//          (hashed Owen); Keller, "Myths of Computer Graphics" (padding).
+// Proved:  tests/sampling (elementary intervals of each block and of unions of 2^j blocks; order).
+// Threads: const, reentrant. Errors: none. All values are multiples of 2^-24 in [0, 1).
 #pragma once
 
 #include <cstdint>

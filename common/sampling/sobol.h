@@ -1,12 +1,11 @@
-// sobol.h: the first four dimensions of the Sobol' sequence, point by index: x_d(i) = C_d i over
-// GF(2).
+// sobol.h: four dimensions of the Sobol' sequence, point by index: x_d(i) = C_d i over GF(2).
 //
 // Dimensions 0 and 1 are a (0,2)-sequence, all four a (3,4)-sequence in base 2: any aligned block
 // of 2^m indices puts the same number of points into every elementary interval of volume 2^(t-m).
 //
 // Source:  Sobol' 1967; Joe and Kuo 2008 (primitive polynomials and initial numbers).
-// Proved:  tests/sampling/sobol_test.cpp (against Boost.Random's own sequence; elementary
-// intervals). Threads: pure functions. Errors: none; every 32-bit index is valid.
+// Proved:  tests/sampling/sobol_test.cpp (against Boost.Random's sequence; elementary intervals).
+// Threads: pure functions. Errors: none; every 32-bit index is valid.
 #pragma once
 
 #include <array>
@@ -51,8 +50,7 @@ constexpr Columns columns(uint32_t dimension) {
   return c;
 }
 
-// The images of all values of each of the four bytes of an index, so that a point costs four
-// look-ups.
+// The images of all values of each byte of an index, so that a point costs four look-ups.
 using ByteTables = std::array<std::array<uint32_t, 256>, 4>;
 
 constexpr ByteTables byteTables(uint32_t dimension) {

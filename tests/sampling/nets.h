@@ -1,5 +1,4 @@
-// nets.h: the defining property of a (t,m,s)-net in base 2, for the tests of Sobol' points and
-// samplers.
+// nets.h: the defining property of a (t,m,s)-net in base 2, for tests of points and samplers.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +10,7 @@ namespace ninefold {
 // Points stored dimension by dimension: points[d][i] in [0, 1).
 using PointSet = std::vector<std::vector<float>>;
 
-// Whether each box whose side in dimension d is 2^-splits[d] holds the same number of the 2^m
-// points.
+// Whether all boxes whose side in dimension d is 2^-splits[d] hold the same number of points.
 inline bool boxesAreEquallyFull(const PointSet& points, const std::vector<int>& splits) {
   const int bits = std::accumulate(splits.begin(), splits.end(), 0);
   std::vector<uint32_t> counts(size_t{1} << bits);
@@ -45,8 +43,7 @@ bool everySplit(std::vector<int>& splits, size_t d, int bits, const Check& check
   return true;
 }
 
-// Whether 2^m points are a (t,m,s)-net: every elementary interval of volume 2^(t-m) holds 2^t of
-// them.
+// Whether 2^m points are a (t,m,s)-net: elementary intervals of volume 2^(t-m) hold 2^t of them.
 inline bool isNet(const PointSet& points, int t) {
   int m = 0;
   while ((size_t{1} << m) < points[0].size()) ++m;

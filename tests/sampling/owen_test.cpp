@@ -21,8 +21,7 @@ TEST(OwenScramble, NumbersWithACommonPrefixKeepIt) {
   }
 }
 
-// The flip of bit k below a prefix is a fair coin over the seeds, for few and for many bits set
-// above it.
+// The flip of bit k below a prefix is a fair coin over the seeds, however many bits are set above.
 TEST(OwenScramble, EveryBitFlipsHalfOfTheTime) {
   constexpr int kSeeds = 4096;
   for (const uint32_t x : {0u, 1u, 0x80000000u, 0x12345678u, 0xffffffffu}) {

@@ -14,8 +14,7 @@ namespace {
 
 constexpr Randomization kBoth[] = {Randomization::exclusiveOr, Randomization::owen};
 
-// The points of sets first ... first + count - 1, dimensions 4g ... 4g+3 of which the first `s` are
-// kept.
+// The points of `count` sets from `first` on, in the first `s` dimensions of replication `group`.
 PointSet lightPoints(uint32_t first, uint32_t count, int m, uint32_t group, uint32_t s,
                      Randomization kind, uint32_t randomization = 3) {
   PointSet points(s);

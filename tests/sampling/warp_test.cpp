@@ -100,8 +100,7 @@ TEST(Warp, TriangleIsUniform) {
   EXPECT_GT(rowColumnP(place, [](double s) { return s * s; }), sidak(0.01, kTests));
 }
 
-// Continuity keeps stratification: neighbouring squares go to neighbouring places, with bounded
-// stretch.
+// Continuity keeps stratification: neighbours go to neighbouring places, with bounded stretch.
 TEST(Warp, MapsAreContinuous) {
   constexpr float kStep = 1e-3f;
   for (uint64_t i = 0; i < 20000; ++i) {
