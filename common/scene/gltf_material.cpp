@@ -151,11 +151,12 @@ int GltfMaterials::image(int texture, bool srgb) {
   const tinygltf::Image& from = model_->images[static_cast<size_t>(source)];
   const std::string name =
       "image " + std::to_string(source) + " '" + (from.name.empty() ? from.uri : from.name) + "'";
-  return images_.add(name, srgb, [&]() -> std::span<const unsigned char> {
+  const auto bytes = [&]() -> std::span<const unsigned char> {
     if (from.bufferView < 0) return from.image;
     const BytesOfView view = bytesOfView(*model_, from.bufferView, name);
     return {view.data, view.size};
-  });
+  };
+  return images_.add({name, bytes}, srgb);
 }
 
 }  // namespace ninefold

@@ -12,16 +12,24 @@
 
 namespace ninefold {
 
+// A compressed image: its name tells it from others; its bytes are asked for only when it is new.
+struct ImageSource {
+  std::string name;
+  std::function<std::span<const unsigned char>()> bytes;
+};
+
 class ImageLibrary {
  public:
   explicit ImageLibrary(std::vector<TextureImage>& images) : images_(&images) {}
 
-  // Index of the image `name`; `bytes` is asked for its compressed bytes when it is new. Names tell
-  // images apart.
-  int add(const std::string& name, bool srgb,
-          const std::function<std::span<const unsigned char>()>& bytes);
+  int add(const ImageSource& source, bool srgb);
+
+  // An sRGB image whose alpha is that of `opacity`, or its first channel if it has no alpha.
+  // `colour` may be null (white); its texels decide the size.
+  int addCutout(const ImageSource* colour, const ImageSource& opacity);
 
  private:
+  TextureImage decode(const ImageSource& source) const;
   int append(TextureImage image);
 
   std::vector<TextureImage>* images_;

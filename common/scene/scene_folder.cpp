@@ -77,25 +77,38 @@ SceneFolder::SceneFolder(const fs::path& sceneFile) {
   if (error) fail("folder '{}' cannot be opened: {}", parent.string(), error.message());
 }
 
-fs::path SceneFolder::resolve(std::string_view reference) const {
+// Where the reference leads, beneath the folder; the file need not exist.
+fs::path SceneFolder::locate(std::string_view reference) const {
   if (reference.empty() || reference.find('\0') != std::string_view::npos)
     fail("a file name in the scene is empty or has a zero byte");
   const fs::path path(reference);
+  const std::string_view shown = reference.substr(0, 200);
   if (path.is_absolute() || hasScheme(reference))
     fail(
         "'{}' is not a path beneath the scene's folder: copy the file there and name it relatively",
-        reference.substr(0, 200));
-  if (folder_.empty()) fail("'{}' is missing: this scene has no folder", reference.substr(0, 200));
+        shown);
+  if (folder_.empty()) fail("'{}' is missing: this scene has no folder", shown);
   std::error_code error;
   const fs::path file = fs::weakly_canonical(folder_ / path, error);
-  if (error) fail("'{}' cannot be opened: {}", reference.substr(0, 200), error.message());
+  if (error) fail("'{}' cannot be opened: {}", shown, error.message());
   if (!isBeneath(folder_, file))
-    fail("'{}' leads outside the scene's folder: copy the file there", reference.substr(0, 200));
+    fail("'{}' leads outside the scene's folder: copy the file there", shown);
+  return file;
+}
+
+bool SceneFolder::exists(std::string_view reference) const {
+  std::error_code error;
+  return fs::exists(locate(reference), error);
+}
+
+fs::path SceneFolder::resolve(std::string_view reference) const {
+  const fs::path file = locate(reference);
+  const std::string_view shown = reference.substr(0, 200);
+  std::error_code error;
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status))
-    fail("'{}' is missing: put it into the scene's folder {}", reference.substr(0, 200),
-         folder_.string());
-  if (!fs::is_regular_file(status)) fail("'{}' is not a regular file", reference.substr(0, 200));
+    fail("'{}' is missing: put it into the scene's folder {}", shown, folder_.string());
+  if (!fs::is_regular_file(status)) fail("'{}' is not a regular file", shown);
   return file;
 }
 

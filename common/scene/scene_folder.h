@@ -24,8 +24,11 @@ class SceneFolder {
   // `reference`: a relative path, percent-decoded already.
   std::filesystem::path resolve(std::string_view reference) const;
   std::vector<unsigned char> read(std::string_view reference, uint64_t limit) const;
+  // False if there is no such file; what leads outside is an Error all the same.
+  bool exists(std::string_view reference) const;
 
  private:
+  std::filesystem::path locate(std::string_view reference) const;
   std::filesystem::path folder_;  // canonical
 };
 
