@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "common/base/error.h"
@@ -133,10 +136,12 @@ void checkOutputPath(const std::string& path) {
   std::error_code error;
   if (!fs::is_directory(folder, error))
     fail("cannot write {}: there is no folder {}; create it first", path, folder.string());
-  if (access(folder.c_str(), W_OK | X_OK) != 0)
-    fail("cannot write {}: no right to create files in {}", path, folder.string());
   if (fs::exists(path, error) && !fs::is_regular_file(path, error))
     fail("cannot write {}: it exists and is no ordinary file; choose another name", path);
+  const TemporaryFile trial(fs::absolute(path));
+  if (!std::ofstream(trial.path()))
+    fail("cannot write {}: no file can be created in {} ({})", path, folder.string(),
+         std::strerror(errno));
 }
 
 void writeImage(const std::string& path, const Picture& picture, const ToneMap& toneMap) {

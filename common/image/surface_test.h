@@ -40,7 +40,7 @@ inline constexpr float kMirrorDistance = 0.1f;
 inline constexpr float kMirrorNormal = 0.7f;  // 45 degrees
 inline constexpr float kFootprints = 1.0f;
 // Cosine between view ray and surface below which the tangent plane's slope is no longer believed.
-inline constexpr float kGrazingCosine = 0.05f;
+inline constexpr float kGrazingCosine = 0.02f;
 
 // What the surface test needs of a pixel besides its normal: u = 0 where there is no x.
 struct SurfaceGuide {

@@ -1,0 +1,124 @@
+#include "common/image/frame_filter.h"
+
+#include <gtest/gtest.h>
+
+#include "common/image/aov_film.h"
+#include "tests/image/synthetic.h"
+
+namespace ninefold {
+namespace {
+
+using namespace synthetic;
+
+Point wall(Vec3 direction) { return plane(direction, Vec3(0, 0, -2), Vec3(0, 0, 1)); }
+
+RgbImage compose(const FrameBuffer& frame) {
+  FrameFilter filter;
+  RgbImage beauty;
+  filter.reset(frame.grid(), frame.layerMask(), SurfaceTest::surface);
+  filter.compose(frame, camera(), 1, beauty);
+  return beauty;
+}
+
+// A wall whose texture changes at every pixel, under an even light, with a highlight.
+TEST(FrameFilter, LeavesTexturesAndHighlightsSharp) {
+  const CameraRays rays(camera(), 96, 64);
+  const auto texture = [](int x, int y) {
+    return 0.01f * static_cast<float>((x * 5 + y * 3) % 31);
+  };
+  const auto highlight = [](int x, int y) { return x == 40 && y == 20 ? 7.0f : 0.0f; };
+  const TileGrid grid(96, 64, {3, 3});
+  const RgbImage beauty =
+      compose(frameOf(grid, kDiffuseBit, 0, [&](TileResult& out, size_t i, int x, int y) {
+        const Point p =
+            wall(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+        LayerPlanes& layer = out.layers[kDiffuse];
+        layer.distance[i] = p.distance;
+        set(layer.normal, i, p.normal);
+        set(layer.irradiance, i, Vec3(1, 2, 3));
+        set(layer.reflectance, i, Vec3(texture(x, y)));
+        set(layer.unfiltered, i, Vec3(highlight(x, y)));
+      }));
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 96; ++x) {
+      const Vec3 expected = texture(x, y) * Vec3(1, 2, 3) + Vec3(highlight(x, y));
+      ASSERT_EQ(beauty.rgb(beauty.at(x, y)), expected) << x << ", " << y;
+    }
+}
+
+TEST(FrameFilter, AddsTheLayersThatAreThere) {
+  for (const uint8_t layers : {kDiffuseBit, uint8_t(kDiffuseBit | kTransmissionBit),
+                               uint8_t(kDiffuseBit | kReflectionBit | kTransmissionBit)}) {
+    const TileGrid grid(31, 17, {2, 3});
+    const RgbImage beauty =
+        compose(frameOf(grid, layers, 0, [&](TileResult& out, size_t i, int, int) {
+          for (int l = 0; l < kLayers; ++l)
+            if (hasLayer(layers, l)) {
+              LayerPlanes& layer = out.layers[static_cast<size_t>(l)];
+              set(layer.reflectance, i, Vec3(0.25f));
+              set(layer.irradiance, i, Vec3(static_cast<float>(4 << l)));
+              set(layer.unfiltered, i, Vec3(static_cast<float>(100 << l)));
+            }
+        }));
+    float expected = 0;
+    for (int l = 0; l < kLayers; ++l)
+      if (hasLayer(layers, l)) expected += static_cast<float>(101 << l);
+    for (size_t i = 0; i < beauty.count(); ++i) ASSERT_EQ(beauty.rgb(i), Vec3(expected));
+  }
+}
+
+TEST(FrameFilter, TakesNothingFromOneFrameToTheNext) {
+  const TileGrid grid(64, 48, {3, 3});
+  const auto lit = [&](float e) {
+    return frameOfShape(grid, wall,
+                        [=](int x, int, const Point&) { return e + static_cast<float>(x % 7); });
+  };
+  FrameFilter filter;
+  RgbImage first, other, again;
+  filter.reset(grid, kDiffuseBit, SurfaceTest::surface);
+  filter.compose(lit(1), camera(), 1, first);
+  filter.compose(lit(5), camera(), 1, other);
+  filter.compose(lit(1), camera(), 1, again);
+  EXPECT_NE(first, other);
+  EXPECT_EQ(first, again);
+}
+
+TEST(AovFilm, NamesItsChannelsAndAveragesThem) {
+  const TileGrid grid(41, 23, {3, 3});
+  const uint8_t extras = kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | kCausticPlane;
+  AovFilm film(grid, extras);
+  FrameFilter filter;
+  filter.reset(grid, kDiffuseBit, SurfaceTest::surface);
+  for (int n = 0; n < 4; ++n) {  // every pixel meets a surface in frames 0 and 1 only
+    const bool hit = n < 2;
+    const FrameBuffer frame =
+        frameOf(grid, kDiffuseBit, extras, [&](TileResult& out, size_t i, int x, int y) {
+          set(out.extras.albedo, i, Vec3(0.25f * static_cast<float>(n), 0, 1));
+          set(out.extras.normal, i, hit ? (n == 0 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)) : Vec3(0));
+          set(out.extras.caustic, i, Vec3(static_cast<float>(x)));
+          out.extras.depth[i] = hit ? 2 + static_cast<float>(n) : 0;
+          out.extras.object[i] = static_cast<uint32_t>(y + n);
+          set(out.layers[kDiffuse].irradiance, i, Vec3(static_cast<float>(n)));
+        });
+    RgbImage beauty;
+    filter.compose(frame, camera(), 1, beauty);
+    film.add(frame, filter);
+  }
+  std::string names;
+  for (const Channel& channel : film.channels()) names += channel.name + " ";
+  EXPECT_EQ(names,
+            "albedo.R albedo.G albedo.B N.x N.y N.z Z irradiance.R irradiance.G irradiance.B "
+            "caustic.R caustic.G caustic.B objectId ");
+  const std::vector<Channel> channels = film.channels();
+  const size_t at = 11 * 41 + 30;
+  const auto value = [&](size_t c) { return channels[c].values.at(at); };
+  EXPECT_FLOAT_EQ(value(0), 0.375f);
+  EXPECT_FLOAT_EQ(value(3), std::sqrt(0.5f));
+  EXPECT_FLOAT_EQ(value(6), 2.5f);
+  EXPECT_FLOAT_EQ(value(7), 1.5f);
+  EXPECT_FLOAT_EQ(value(10), 30);
+  EXPECT_FLOAT_EQ(value(13), 14);
+}
+
+}  // namespace
+}  // namespace ninefold

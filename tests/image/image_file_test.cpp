@@ -1,0 +1,152 @@
+#include "common/image/image_file.h"
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <limits>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ImageFile : public testing::Test {
+ protected:
+  ImageFile()
+      : folder_(fs::temp_directory_path() /
+                ("ninefold_image_" + std::to_string(getpid()) +
+                 std::string(testing::UnitTest::GetInstance()->current_test_info()->name()))) {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~ImageFile() override { fs::remove_all(folder_); }
+
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+  size_t files() const {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), {}));
+  }
+  std::string errorOf(const std::function<void()>& action) const {
+    try {
+      action();
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  fs::path folder_;
+};
+
+// Radiance from 1e-6 to 1e6, another in each channel and pixel.
+RgbImage sample(int width = 70, int height = 131) {
+  RgbImage image;
+  image.reset(width, height);
+  const float last = static_cast<float>(image.count());
+  for (size_t i = 0; i < image.count(); ++i) {
+    const float t = static_cast<float>(i) / last;
+    image.pixels.r[i] = std::pow(10.0f, 12 * t - 6);
+    image.pixels.g[i] = std::pow(10.0f, 6 - 12 * t);
+    image.pixels.b[i] = t;
+  }
+  return image;
+}
+
+TEST_F(ImageFile, ExrKeepsEveryBit) {
+  RgbImage image = sample();
+  image.pixels.g[5] = -1.25f;
+  image.pixels.b[6] = std::numeric_limits<float>::infinity();
+  writeImage(path("a.exr"), {image, {}, {}});
+  EXPECT_EQ(readImage(path("a.exr")), image);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ImageFile, ExrCarriesNamedChannelsAndMetadata) {
+  const RgbImage image = sample(5, 3);
+  std::vector<Channel> extras;
+  for (const char* name : {"albedo.R", "N.x", "N.y", "N.z", "Z", "objectId"})
+    extras.push_back({name, std::vector<float>(15, static_cast<float>(extras.size()) + 0.5f)});
+  writeImage(path("a.EXR"), {image, extras, {{"seed", "17"}, {"scene", "table_room.glb"}}});
+  EXPECT_EQ(readImage(path("a.EXR")), image);
+
+  const auto input = OIIO::ImageInput::open(path("a.EXR"));
+  ASSERT_TRUE(input);
+  const OIIO::ImageSpec spec = input->spec();
+  EXPECT_EQ(spec.get_string_attribute("ninefold:seed"), "17");
+  EXPECT_EQ(spec.get_string_attribute("ninefold:scene"), "table_room.glb");
+  EXPECT_EQ(spec.nchannels, 9);
+  for (const Channel& extra : extras) {
+    const int channel = spec.channelindex(extra.name);
+    ASSERT_GE(channel, 0) << extra.name;
+    std::vector<float> values(15);
+    ASSERT_TRUE(
+        input->read_image(0, 0, channel, channel + 1, OIIO::TypeDesc::FLOAT, values.data()));
+    EXPECT_EQ(values, extra.values) << extra.name;
+  }
+}
+
+TEST_F(ImageFile, HdrKeepsOnePercentOfThePixelsLargestChannel) {
+  const RgbImage image = sample();
+  writeImage(path("a.hdr"), {image, {}, {}});
+  const RgbImage back = readImage(path("a.hdr"));
+  for (size_t i = 0; i < image.count(); ++i)
+    for (int c = 0; c < 3; ++c)
+      ASSERT_NEAR(back.rgb(i)[c], image.rgb(i)[c], 0.01f * maxComponent(image.rgb(i)));
+}
+
+TEST_F(ImageFile, PngHoldsTheToneMappedCodes) {
+  const RgbImage image = sample();
+  const ToneMap toneMap(-2);
+  writeImage(path("a.png"), {image, {{"Z", std::vector<float>(image.count())}}, {}}, toneMap);
+  const RgbImage back = readImage(path("a.png"));
+  for (size_t i = 0; i < image.count(); ++i)
+    for (int c = 0; c < 3; ++c)
+      ASSERT_EQ(std::lround(255 * srgbFromLinear(back.rgb(i)[c])), toneMap.code(image.rgb(i)[c]));
+}
+
+TEST_F(ImageFile, ReplacesTheOldFileOrLeavesIt) {
+  writeImage(path("a.exr"), {sample(), {}, {}});
+  writeImage(path("a.exr"), {sample(3, 3), {}, {}});
+  EXPECT_EQ(readImage(path("a.exr")).width, 3);
+  EXPECT_NE(errorOf([&] { writeImage(path("a.exr"), {RgbImage{}, {}, {}}); }), "");
+  EXPECT_EQ(readImage(path("a.exr")).width, 3);
+  EXPECT_EQ(files(), 1u);
+}
+
+TEST_F(ImageFile, RefusesPathsItCannotWriteInOneLine) {
+  fs::create_directory(path("folder.exr"));
+  for (const std::string& bad : {path("a.jpeg"), path("a"), path("none/a.exr"), path("folder.exr"),
+                                 std::string("/proc/a.exr"), std::string()}) {
+    const std::string early = errorOf([&] { checkOutputPath(bad); });
+    const std::string late = errorOf([&] { writeImage(bad, {sample(), {}, {}}); });
+    for (const std::string& line : {early, late}) {
+      EXPECT_NE(line.find("cannot write " + bad), std::string::npos) << bad << ": " << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    }
+  }
+}
+
+TEST_F(ImageFile, RefusesFilesItCannotReadInOneLine) {
+  std::ofstream(path("text.exr")) << "no picture\n";
+  std::ofstream(path("text.png")) << "no picture\n";
+  std::ofstream(path("huge.hdr")) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 90000 +X 90000\n";
+  writeImage(path("whole.exr"), {sample(), {}, {}});
+  std::ifstream whole(path("whole.exr"), std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(whole), {});
+  std::ofstream(path("half.exr"), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
+  for (const char* name : {"none.exr", "text.exr", "text.png", "huge.hdr", "half.exr"}) {
+    const std::string line = errorOf([&] { readImage(path(name)); });
+    EXPECT_NE(line.find("cannot read image " + path(name)), std::string::npos) << name << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+}
+
+}  // namespace
+}  // namespace ninefold
