@@ -210,11 +210,11 @@ bool Scheduler::duplicateOne(SchedulerFrame& frame, Actions& actions, Time now) 
 
 void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions,
                        Time now) {
-  const Duration estimate = std::max(client.timeForOneMore(), kShortestEstimate);
+  const Duration estimate = client.timeForOneMore();
   frame.addHolder(task, {.client = client.id(),
                          .sent = now,
                          .expected = now + estimate,
-                         .late = now + kLateFactor * estimate});
+                         .late = now + kLateFactor * std::max(estimate, kShortestEstimate)});
   const int set = frame.setOf(task);
   const auto use = frame.useSet(client.id(), set);
   client.counts().frames += use.firstInFrame;

@@ -1,0 +1,153 @@
+// The scheduler around a simulated cluster: every frame completes, whatever happens to the clients,
+// and threads do useful work for at least the stated share of the time. Also what 1000 clients
+// cost.
+#include "tests/master/simulated_cluster.h"
+
+#include <random>
+
+namespace ninefold {
+namespace {
+
+using Clients = std::vector<SimulatedClient>;
+
+Clients alike(int count, SimulatedClient model = {}) {
+  return Clients(static_cast<size_t>(count), model);
+}
+
+// Speeds from 1/4 to 4, threads from 1 to 8, latencies from 0.05 to 1.6 ms, in a fixed mixture.
+Clients mixed(int count) {
+  Clients clients;
+  for (int i = 0; i < count; ++i)
+    clients.push_back({.threads = 1 + i * 5 % 8,
+                       .speed = 0.25 * (1 << i * 3 % 5),
+                       .latency = 5e-5 * (1 << i * 2 % 6)});
+  return clients;
+}
+
+SimulatedCluster play(const SimulatedJob& job, const Clients& clients) {
+  SimulatedCluster cluster(job, clients);
+  cluster.run();
+  EXPECT_TRUE(cluster.finished()) << cluster.completed() << " of " << job.frames << " frames";
+  EXPECT_TRUE(cluster.everyTaskOnce());
+  return cluster;
+}
+
+double meanSetsPerFrame(const SimulatedCluster& cluster) {
+  double sum = 0;
+  for (const ClientReport& r : cluster.reports()) sum += r.setsPerFrame();
+  return sum / static_cast<double>(cluster.reports().size());
+}
+
+TEST(SimulatedCluster, EqualClientsWorkWithoutPause) {
+  for (const int count : {1, 2, 5, 16, 64}) {
+    SCOPED_TRACE(count);
+    EXPECT_GE(play({.frames = 10}, alike(count)).efficiency(), 0.98);
+  }
+}
+
+TEST(SimulatedCluster, ClientsMakeFewLightSets) {
+  // Fewest possible: 9 sets over n clients. The paper: about two for each client and frame.
+  for (const auto& [count, most] : {std::pair(2, 5.0), {5, 3.2}, {16, 2.0}, {64, 1.3}}) {
+    SCOPED_TRACE(count);
+    EXPECT_LE(meanSetsPerFrame(play({.frames = 10}, alike(count))), most);
+  }
+}
+
+TEST(SimulatedCluster, MixedClientsShareBySpeed) {
+  SimulatedJob job{.grid = TileGrid(1280, 960, {3, 3}), .frames = 30, .checkEvery = 1000};
+  for (const auto& [count, least] : {std::pair(2, 0.99), {8, 0.97}, {32, 0.95}, {64, 0.8}}) {
+    SCOPED_TRACE(count);
+    const SimulatedCluster cluster = play(job, mixed(count));
+    EXPECT_GE(cluster.efficiency(), least);
+  }
+}
+
+TEST(SimulatedCluster, LatencyIsHidden) {
+  for (const auto& [latency, least] : {std::pair(1e-4, 0.99), {1e-3, 0.99}, {1e-2, 0.98}}) {
+    SCOPED_TRACE(latency);
+    EXPECT_GE(play({.frames = 40}, alike(4, {.latency = latency})).efficiency(), least);
+  }
+}
+
+TEST(SimulatedCluster, CreditStaysSmall) {
+  EXPECT_LE(play({.frames = 5, .checkEvery = 1}, alike(8)).mostInFlight(), 3);
+}
+
+TEST(SimulatedCluster, ADeadClientCostsItsShareOnly) {
+  Clients clients = alike(8);
+  clients[3].dies = 0.5;
+  const SimulatedCluster cluster = play({.frames = 10}, clients);
+  EXPECT_GE(cluster.scheduler().counts().reissued, 1u);
+  // Had all eight lived on, 1 / 8 of the speed more from 0.5 s on.
+  const double whole = play({.frames = 10}, alike(8)).elapsed();
+  EXPECT_LE(cluster.elapsed(), 1.03 * (0.5 + (whole - 0.5) * 8 / 7));
+}
+
+TEST(SimulatedCluster, ACutLineAndAFrozenClientDoNotStopTheFrames) {
+  Clients clients = alike(6);
+  clients[1].cut = 0.3;
+  clients[2].freezes = 0.4;
+  clients[4].freezes = 0.5, clients[4].thaws = 2.5;
+  const SimulatedCluster cluster = play({.frames = 40}, clients);
+  // No more than the lost speed and one wait for the silence limit.
+  const double whole = play({.frames = 40}, alike(6)).elapsed();
+  EXPECT_LE(cluster.elapsed(), 6.0 / 3 * whole + 1.5);
+  EXPECT_GT(cluster.scheduler().counts().reissued, 0u);
+  EXPECT_FALSE(cluster.reports()[4].suspect) << "it thawed and works again";
+  EXPECT_GT(cluster.reports()[4].tasks, cluster.reports()[2].tasks);
+}
+
+TEST(SimulatedCluster, TheFirstFrameAroundAFrozenClientWaitsOnlyForCopies) {
+  // With no further frame to open, idle clients copy the frozen client's tasks when they are late.
+  Clients clients = alike(4);
+  clients[0].freezes = 0.1;
+  const SimulatedCluster cluster = play({.frames = 1, .framesInFlight = 1}, clients);
+  EXPECT_LE(cluster.elapsed(), 1.2 * (315 * 4e-3 / 3));
+}
+
+TEST(SimulatedCluster, LateJoinersAreUsed) {
+  Clients clients = alike(2);
+  for (int i = 0; i < 6; ++i) clients.push_back({.joins = 1.0 + 0.1 * i});
+  const SimulatedCluster cluster = play({.frames = 20}, clients);
+  for (const ClientReport& r : cluster.reports()) EXPECT_GE(r.busyFraction(), 0.95) << r.client;
+}
+
+TEST(SimulatedCluster, ViewChangesCancelAndTheNewestFramesStillComplete) {
+  const SimulatedCluster cluster =
+      play({.frames = 20, .moving = true, .viewChangeEvery = 0.2}, alike(16));
+  const SchedulerCounts& n = cluster.scheduler().counts();
+  EXPECT_GT(n.cancelledFrames, 0u);
+  EXPECT_GT(n.droppedStale, 0u);
+  EXPECT_LE(n.droppedStale, n.cancelledTasks);
+}
+
+TEST(SimulatedCluster, SurvivesRandomFailures) {
+  for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto uniform = [&](double a, double b) {
+      return std::uniform_real_distribution<double>(a, b)(random);
+    };
+    Clients clients = mixed(10);
+    for (SimulatedClient& c : clients) {
+      c.joins = uniform(0, 0.5);
+      const double kind = uniform(0, 4), when = c.joins + uniform(0, 1);
+      if (kind < 1)
+        c.dies = when;
+      else if (kind < 2)
+        c.cut = when;
+      else if (kind < 3)
+        c.freezes = when, c.thaws = when + uniform(0, 3);
+    }
+    clients.push_back({});  // one that lives
+    play({.frames = 30, .checkEvery = 3}, clients);
+  }
+}
+
+TEST(SimulatedCluster, AThousandClientsShareFiveThousandTasks) {
+  SimulatedJob job{.grid = TileGrid(2560, 1920, {3, 3}), .frames = 3, .checkEvery = 1000};
+  EXPECT_GE(play(job, alike(1000)).efficiency(), 0.85);
+}
+
+}  // namespace
+}  // namespace ninefold
