@@ -31,9 +31,6 @@
 
 namespace ninefold {
 
-// Which key the peers share.
-enum class KeyUse : uint8_t { local, cluster };
-
 struct Endpoint {
   std::string host;  // name or address, IPv6 without brackets
   uint16_t port = 0;

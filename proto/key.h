@@ -33,6 +33,10 @@ class Key {
   std::array<std::byte, kBytes> bytes_{};
 };
 
+// Which key two peers share: the one-time key of the clients that the master starts, or the
+// cluster's.
+enum class KeyUse : uint8_t { local, cluster };
+
 // --new-key: writes 32 random bytes to a new file of mode 0600; refuses to overwrite anything.
 void createKeyFile(const std::filesystem::path& file);
 

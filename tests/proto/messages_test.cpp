@@ -1,0 +1,212 @@
+#include "proto/messages.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "proto/scene_blobs.h"
+
+namespace ninefold {
+namespace {
+
+Sha256 someHash(uint8_t fill) {
+  Sha256 hash;
+  hash.fill(fill);
+  return hash;
+}
+
+Settings oddSettings() {
+  Settings s;
+  s.method = Method::pathTrace;
+  s.width = 1, s.height = 16384;
+  s.camera = {"küche", Vec3(1, 2, 3), Vec3(0, 0, 1), Vec3(0, 2, 0), 1.25f};
+  s.interleave = {16, 1};
+  s.directVpls = 0, s.indirectVpls = 65536, s.photons = 16777216;
+  s.pathLength = 4, s.specularDepth = 1;
+  s.bound = 1e-3f, s.photonRadius = 0.5f;
+  s.caustics = Caustics::direct;
+  s.environment = Vec3(1e6f, 0, 1e-6f);
+  s.seed = ~0ull;
+  s.randomization = Randomization::exclusiveOr;
+  s.jitter = false;
+  return s;
+}
+
+// One message of every type, with every field different from its default.
+std::vector<Message> oneOfEach() {
+  return {
+      msg::Hello{7, "1.2.3", "host ü/42", 64, "avx512", "0123456789abcdef"},
+      msg::Welcome{5, "1.2.3"},
+      msg::Refuse{"another release"},
+      msg::SceneOffer{3, {{someHash(1), 10, BlobKind::image}, {someHash(2), 20, BlobKind::rest}}},
+      msg::BlobRequest{someHash(3), 1 << 20},
+      msg::BlobChunk{someHash(4), 100, 103, Bytes(3, std::byte{9})},
+      msg::Configure{3, 4, oddSettings()},
+      msg::Ready{3, 4},
+      msg::Progress{Phase::building, 2, 5},
+      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}},
+      msg::Cancel{4, 10},
+      msg::Result{4, 10, 1, 2, 12345, 1, 6, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
+      msg::Ping{1},
+      msg::Pong{1, 2},
+      msg::Goodbye{"done"}};
+}
+
+Peer senderOf(const Message& message) {
+  return maySend(Peer::client, typeOf(message)) ? Peer::client : Peer::master;
+}
+
+TEST(Messages, EveryTypeSurvivesTheRoundTrip) {
+  const std::vector<Message> messages = oneOfEach();
+  ASSERT_EQ(messages.size(), std::variant_size_v<Message>);
+  for (const Message& message : messages) {
+    const Frame sent = encodeMessage(Message(message));
+    const Message received = decodeMessage(Frame(sent), senderOf(message));
+    ASSERT_EQ(received.index(), message.index());
+    // Every field is set: equal bytes on the second way mean equal fields.
+    EXPECT_EQ(encodeMessage(Message(received)), sent) << nameOf(typeOf(message));
+  }
+}
+
+TEST(Messages, FieldsArriveWhereTheyBelong) {
+  const auto decode = [](Message m) {
+    const Peer sender = senderOf(m);
+    return decodeMessage(encodeMessage(std::move(m)), sender);
+  };
+  const auto result = std::get<msg::Result>(decode(oneOfEach()[11]));
+  EXPECT_EQ(result.tile, 1u);
+  EXPECT_EQ(result.rays.compensation, 4u);
+  EXPECT_EQ(result.encoded.size(), 100u);
+  const auto tasks = std::get<msg::Tasks>(decode(oneOfEach()[9]));
+  EXPECT_EQ(tasks.frame.rotation, 12u);
+  EXPECT_EQ(tasks.items[1], (msg::TaskItem{4, 255, 31}));
+  const auto settings = std::get<msg::Configure>(decode(oneOfEach()[6])).settings;
+  EXPECT_EQ(settings.camera, oddSettings().camera);
+  EXPECT_EQ(settings.interleave, oddSettings().interleave);
+  EXPECT_EQ(settings.seed, ~0ull);
+}
+
+TEST(Messages, NobodySpeaksTheOthersLines) {
+  for (const Message& message : oneOfEach()) {
+    const MessageType type = typeOf(message);
+    const bool both =
+        type == MessageType::ping || type == MessageType::pong || type == MessageType::goodbye;
+    EXPECT_EQ(maySend(Peer::client, type) && maySend(Peer::master, type), both) << nameOf(type);
+    if (both) continue;
+    const Peer wrong = senderOf(message) == Peer::client ? Peer::master : Peer::client;
+    EXPECT_THROW(decodeMessage(encodeMessage(Message(message)), wrong), Error) << nameOf(type);
+  }
+}
+
+TEST(Messages, UnknownTypesAreRefused) {
+  for (const uint16_t type : {uint16_t{0}, uint16_t{16}, uint16_t{65535}}) {
+    EXPECT_THROW(decodeMessage(Frame{type, "", {}}, Peer::client), Error);
+    EXPECT_EQ(messageLimit(type).header + messageLimit(type).payload, 0u);
+  }
+}
+
+// The error's text, "" if the message is accepted.
+std::string refusal(Message message) {
+  try {
+    const Peer sender = senderOf(message);
+    decodeMessage(encodeMessage(std::move(message)), sender);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string refusal(const std::function<void(Settings&)>& spoil) {
+  msg::Configure configure;
+  spoil(configure.settings);
+  return refusal(Message(configure));
+}
+
+TEST(Messages, SettingsOutOfRangeAreNamed) {
+  EXPECT_EQ(refusal([](Settings&) {}), "");
+  const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
+      {"width", [](Settings& s) { s.width = 0; }},
+      {"width", [](Settings& s) { s.width = -5; }},
+      {"height", [](Settings& s) { s.height = 16385; }},
+      {"method", [](Settings& s) { s.method = static_cast<Method>(2); }},
+      {"caustics", [](Settings& s) { s.caustics = static_cast<Caustics>(3); }},
+      {"randomization", [](Settings& s) { s.randomization = static_cast<Randomization>(2); }},
+      {"interleave columns", [](Settings& s) { s.interleave.n = 17; }},
+      {"interleave rows", [](Settings& s) { s.interleave.m = 0; }},
+      {"direct-vpls", [](Settings& s) { s.directVpls = 65537; }},
+      {"indirect-vpls", [](Settings& s) { s.indirectVpls = -1; }},
+      {"photons", [](Settings& s) { s.photons = 16777217; }},
+      {"path-length", [](Settings& s) { s.pathLength = -1; }},
+      {"specular-depth", [](Settings& s) { s.specularDepth = 0; }},
+      {"bound", [](Settings& s) { s.bound = NAN; }},
+      {"photon-radius", [](Settings& s) { s.photonRadius = 0; }},
+      {"environment", [](Settings& s) { s.environment.y = -1; }},
+      {"environment", [](Settings& s) { s.environment.x = INFINITY; }},
+      {"camera eye", [](Settings& s) { s.camera.eye.z = NAN; }},
+      {"camera forward", [](Settings& s) { s.camera.forward = Vec3(0); }},
+      {"camera up", [](Settings& s) { s.camera.up = s.camera.forward; }},
+      {"field of view", [](Settings& s) { s.camera.verticalFov = 4; }},
+      {"camera name", [](Settings& s) { s.camera.name = std::string(300, 'x'); }},
+  };
+  for (const auto& [field, spoil] : cases) {
+    const std::string text = refusal(spoil);
+    EXPECT_NE(text.find(field), std::string::npos) << field << ": " << text;
+    EXPECT_NE(text.find("Configure"), std::string::npos) << text;
+  }
+}
+
+TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
+  const std::pair<const char*, Message> cases[] = {
+      {"threads", msg::Hello{1, "r", "n", 0, "i", "p"}},
+      {"threads", msg::Hello{1, "r", "n", 1025, "i", "p"}},
+      {"name", msg::Hello{1, "r", std::string(257, 'n'), 1, "i", "p"}},
+      {"name", msg::Hello{1, "r", "a\x1b[2J", 1, "i", "p"}},
+      {"reason", msg::Goodbye{"two\nlines"}},
+      {"blob size", msg::SceneOffer{1, {{someHash(1), kMaxBlobBytes + 1, BlobKind::rest}}}},
+      {"blob size", msg::SceneOffer{1, {{someHash(1), 0, BlobKind::rest}}}},
+      {"blob kind", msg::SceneOffer{1, {{someHash(1), 1, static_cast<BlobKind>(9)}}}},
+      {"offset", msg::BlobChunk{someHash(1), 11, 10, Bytes(1)}},
+      {"size", msg::BlobChunk{someHash(1), 8, 10, Bytes(3)}},
+      {"size", msg::BlobChunk{someHash(1), 8, 10, {}}},
+      {"total", msg::BlobChunk{someHash(1), 0, kMaxPackedBytes + 1, Bytes(1)}},
+      {"done", msg::Progress{Phase::fetching, 6, 5}},
+      {"phase", msg::Progress{static_cast<Phase>(7), 1, 5}},
+      {"extra mask", msg::Tasks{1, {}, {{0, 0, 32}}}},
+      {"phase", msg::Tasks{1, {}, {{0, 256, 0}}}},
+      {"photon radius", msg::Tasks{1, {0, 0, 0, NAN}, {{0, 0, 0}}}},
+      {"sets made", msg::Result{1, 1, 1, 1, 1, 2, 0, {}, {}}},
+  };
+  for (const auto& [field, message] : cases) {
+    const std::string text = refusal(Message(message));
+    EXPECT_NE(text.find(field), std::string::npos) << field << ": " << text;
+  }
+}
+
+TEST(Messages, GarbledHeadersEndInAnErrorOrAMessage) {
+  std::mt19937 random(7);
+  for (const Message& message : oneOfEach()) {
+    const Frame good = encodeMessage(Message(message));
+    for (int i = 0; i < 500; ++i) {
+      Frame bad = good;
+      if (bad.header.empty()) continue;
+      bad.header[random() % bad.header.size()] = static_cast<char>(random());
+      if (i % 3 == 0) bad.header.resize(random() % bad.header.size());
+      try {
+        encodeMessage(decodeMessage(std::move(bad), senderOf(message)));
+      } catch (const Error&) {
+      }
+    }
+  }
+}
+
+TEST(Messages, LargestListsFitTheirLimits) {
+  msg::SceneOffer offer{~0u, {}};
+  offer.blobs.assign(kMaxBlobs, {someHash(0xff), kMaxBlobBytes, BlobKind::meshes});
+  EXPECT_EQ(refusal(Message(offer)), "");
+  msg::Tasks tasks{~0u, {~0u, ~0u, ~0u, 1e30f}, {}};
+  tasks.items.assign(kMaxTasksPerMessage, {~0u, 255, 31});
+  EXPECT_EQ(refusal(Message(tasks)), "");
+}
+
+}  // namespace
+}  // namespace ninefold
