@@ -23,7 +23,10 @@ float triangleError(Vec3 a, Vec3 b, Vec3 c, Vec3 n, Vec3 p) {
   const float twiceArea = glm::length(glm::cross(c - a, a - b));
   const float edges = 12 * glm::dot(box, glm::abs(n));
   const float cross = twiceArea > 0 ? 4 * glm::dot(box, m) / twiceArea : 0;
-  return storageError(p, n) + kUnitRoundoff * (edges + cross);
+  // An origin that lies exactly in an axis-aligned plane is met again at t = 0: never no distance
+  // at all.
+  const float least = std::max(box.x, std::max(box.y, box.z));
+  return storageError(p, n) + kUnitRoundoff * (edges + cross + least);
 }
 
 }  // namespace ninefold

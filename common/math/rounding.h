@@ -10,10 +10,11 @@
 // The second is what the watertight (Pluecker) ray-triangle test of Embree can err about on which
 // side of the plane its origin lies: rounded corners relative to the origin, their edges, and the
 // cross product, whose component i is a difference of two products and errs by no more than their
-// size m_i. Both terms vanish in axis-aligned planes, where the test is exact. A test whose origin
-// is d away errs by about u d more: kRayRounding. Source: Pharr, Jakob, Humphreys, "Physically
-// Based Rendering" 3.9, for the manner. Proved: tests/tracing (a million rays never meet the
-// triangle that they start from).   Threads: pure.
+// size m_i. Both terms vanish in axis-aligned planes, where the test is exact: there u max_i x_i
+// keeps the origin from lying in the plane itself. A test whose origin is d away errs by about u d
+// more: kRayRounding. Source: Pharr, Jakob, Humphreys, "Physically Based Rendering" 3.9, for the
+// manner. Proved: tests/tracing (a million rays never meet the triangle that they start from).
+// Threads: pure.
 #pragma once
 
 #include "common/math/vec.h"
