@@ -5,9 +5,10 @@
 //   falloff directional  Phi = E0 pi R^2 environment  Phi = L 4 pi pi R^2  (constant radiance from
 //   outside)
 //
-// Power means the largest component of Phi [W]: no channel of a light is ever starved.
-// Each emissive triangle is an entry of its own. Threads: const after construction. Refers to the
-// Scene.
+// Power means the largest component of Phi [W]: no channel of a light is ever starved. A textured
+// triangle counts for at least a hundredth of what its brightest texel would make of it, so that
+// sampling by power misses none that emits at all. Each emissive triangle is an entry of its own.
+// Threads: const after construction. Refers to the Scene.
 #pragma once
 
 #include <vector>
@@ -22,7 +23,7 @@ enum class EmitterKind : uint8_t { triangle, point, spot, directional, environme
 struct Emitter {
   EmitterKind kind = EmitterKind::triangle;
   uint32_t instance = 0, triangle = 0;  // triangle: where
-  Vec3 a{0}, b{0}, c{0};     // triangle: world-space corners, winding as seen from the front
+  Vec3 a{0}, b{0}, c{0};     // triangle: world-space corners in the mesh's order, mirrored or not
   Vec3 normal{0};            // triangle: unit geometric normal of the front
   float area = 0;            // triangle [m^2]
   bool doubleSided = false;  // triangle
@@ -36,6 +37,8 @@ struct EmitterPoint {
   Radiance radiance{0};  // of each emitting side, textured
   float error = 0;       // float error bound of position, as SurfacePoint::error [m]
 };
+
+class TriangleRadiance;  // emitter_power.h
 
 class Emitters {
  public:
@@ -51,15 +54,19 @@ class Emitters {
   EmitterPoint pointAt(uint32_t emitter, Vec2 barycentrics) const;  // barycentrics of b and c
   // Entry of an emissive triangle, or -1.
   int find(uint32_t instance, uint32_t triangle) const;
-  // Radiance that an emissive triangle sends from (uv0, uv1), one side.
+  // Radiance that an emissive triangle sends from (uv0, uv1), one side. The surface's own opacity
+  // (alpha mask, blending) is in it.
   Radiance radianceOf(int material, Vec2 uv0, Vec2 uv1) const;
   // I(omega) of a punctual light towards unit `direction` (from the light) [W/sr].
   static Intensity intensity(const PunctualLight& light, Vec3 direction);
 
  private:
+  void addTriangles(uint32_t instance, TriangleRadiance& radiance, std::vector<float>& power);
+  void append(const Emitter& emitter, float itsPower, std::vector<float>& power);
+
   const Scene* scene_;
-  std::vector<Emitter> emitters_;
-  std::vector<uint32_t> firstOfInstance_;  // see find
+  std::vector<Emitter> emitters_;          // triangles first, by instance, then by triangle
+  std::vector<uint32_t> firstOfInstance_;  // where an instance's triangles begin, and the end
   Distribution byPower_;
   Radiance environment_{0};
 };

@@ -19,7 +19,30 @@ const std::array<float, 256> kSrgbToLinear = makeSrgbTable();
 
 float linear(uint8_t code) { return static_cast<float>(code) * (1.0f / 255.0f); }
 
-Vec4 texel(const TextureImage& image, int x, int y) {
+// Brings u to where `size` texels, or two mirrored copies of them, cover all of it; far away and
+// non-finite coordinates included, so that the conversion to int is safe.
+float fold(float u, Wrap wrap) {
+  if (wrap == Wrap::clamp) return u > 0 ? std::min(u, 1.0f) : 0.0f;
+  const float folded = wrap == Wrap::mirror ? u - 2.0f * std::floor(0.5f * u) : u - std::floor(u);
+  return folded >= 0 && folded <= 2 ? folded : 0.0f;
+}
+
+Vec4 bilinear(const TextureImage& image, const TextureUse& use, float x, float y) {
+  const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
+  const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
+  const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
+  const int left = wrapTexel(ix, image.width, use.wrapS);
+  const int right = wrapTexel(ix + 1, image.width, use.wrapS);
+  const int top = wrapTexel(iy, image.height, use.wrapT);
+  const int bottom = wrapTexel(iy + 1, image.height, use.wrapT);
+  const Vec4 upper = (1 - fx) * texelOf(image, left, top) + fx * texelOf(image, right, top);
+  const Vec4 lower = (1 - fx) * texelOf(image, left, bottom) + fx * texelOf(image, right, bottom);
+  return (1 - fy) * upper + fy * lower;
+}
+
+}  // namespace
+
+Vec4 texelOf(const TextureImage& image, int x, int y) {
   const auto channels = static_cast<size_t>(image.channels);
   const uint8_t* t = &image.texels[(static_cast<size_t>(y) * static_cast<size_t>(image.width) +
                                     static_cast<size_t>(x)) *
@@ -37,36 +60,12 @@ Vec4 texel(const TextureImage& image, int x, int y) {
   }
 }
 
-// Index of texel i of `size` after wrapping.
-int wrapIndex(int i, int size, Wrap wrap) {
+int wrapTexel(int i, int size, Wrap wrap) {
   if (wrap == Wrap::clamp) return std::clamp(i, 0, size - 1);
   const int period = wrap == Wrap::mirror ? 2 * size : size;
   const int r = ((i % period) + period) % period;
   return r < size ? r : period - 1 - r;
 }
-
-// Brings u to where `size` texels, or two mirrored copies of them, cover all of it; far away and
-// non-finite coordinates included, so that the conversion to int is safe.
-float fold(float u, Wrap wrap) {
-  if (wrap == Wrap::clamp) return u > 0 ? std::min(u, 1.0f) : 0.0f;
-  const float folded = wrap == Wrap::mirror ? u - 2.0f * std::floor(0.5f * u) : u - std::floor(u);
-  return folded >= 0 && folded <= 2 ? folded : 0.0f;
-}
-
-Vec4 bilinear(const TextureImage& image, const TextureUse& use, float x, float y) {
-  const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
-  const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
-  const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
-  const int left = wrapIndex(ix, image.width, use.wrapS);
-  const int right = wrapIndex(ix + 1, image.width, use.wrapS);
-  const int top = wrapIndex(iy, image.height, use.wrapT);
-  const int bottom = wrapIndex(iy + 1, image.height, use.wrapT);
-  const Vec4 upper = (1 - fx) * texel(image, left, top) + fx * texel(image, right, top);
-  const Vec4 lower = (1 - fx) * texel(image, left, bottom) + fx * texel(image, right, bottom);
-  return (1 - fy) * upper + fy * lower;
-}
-
-}  // namespace
 
 Vec2 textureCoordinates(const TextureUse& use, Vec2 uv) {
   const Vec2 s = use.scale * uv;
@@ -81,8 +80,8 @@ Vec4 lookUp(const Scene& scene, const TextureUse& use, Vec2 uv0, Vec2 uv1) {
   const float x = fold(uv.x, use.wrapS) * static_cast<float>(image.width);
   const float y = fold(uv.y, use.wrapT) * static_cast<float>(image.height);
   if (!use.nearest) return bilinear(image, use, x, y);
-  return texel(image, wrapIndex(static_cast<int>(x), image.width, use.wrapS),
-               wrapIndex(static_cast<int>(y), image.height, use.wrapT));
+  return texelOf(image, wrapTexel(static_cast<int>(x), image.width, use.wrapS),
+                 wrapTexel(static_cast<int>(y), image.height, use.wrapT));
 }
 
 }  // namespace ninefold

@@ -14,4 +14,8 @@ Vec4 lookUp(const Scene& scene, const TextureUse& use, Vec2 uv0, Vec2 uv1);
 // the image (v points down), then shift.
 Vec2 textureCoordinates(const TextureUse& use, Vec2 uv);
 
+// One texel, linear. Index of texel i of a row or column of `size` after wrapping.
+Vec4 texelOf(const TextureImage& image, int x, int y);
+int wrapTexel(int i, int size, Wrap wrap);
+
 }  // namespace ninefold

@@ -1,0 +1,42 @@
+// emitter_power.h: how much the lights of a scene emit; what Emitters builds its table from.
+// Threads: TriangleRadiance is used by one thread; the functions are pure.   Refers to the scene.
+#pragma once
+
+#include <map>
+
+#include "common/scene/emitters.h"
+#include "common/scene/texture_peaks.h"
+
+namespace ninefold {
+
+struct TextureCoordinates {
+  Vec2 uv0{0}, uv1{0};
+};
+TextureCoordinates coordinatesAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
+
+// Flux of a punctual light in a scene of radius R [W].
+Flux punctualFlux(const PunctualLight& light, float R);
+
+// The radiance of emissive triangles, one side.
+class TriangleRadiance {
+ public:
+  struct Value {
+    Radiance mean{0};  // over a fixed set of points
+    float least =
+        0;  // a hundredth of the brightest that it may have between them; 0 = surely black
+  };
+
+  TriangleRadiance(const Emitters& emitters, const Scene& scene)
+      : emitters_(&emitters), scene_(&scene) {}
+  Value of(const Mesh& mesh, uint32_t triangle);
+
+ private:
+  Radiance mean(const Mesh& mesh, uint32_t triangle) const;
+  float peak(const Material& material, const Mesh& mesh, uint32_t triangle);
+
+  const Emitters* emitters_;
+  const Scene* scene_;
+  std::map<int, TexturePeaks> peaks_;  // by image
+};
+
+}  // namespace ninefold
