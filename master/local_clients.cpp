@@ -1,7 +1,5 @@
 #include "master/local_clients.h"
 
-#include <unistd.h>
-
 #include "common/base/error.h"
 #include "common/base/log.h"
 
@@ -29,16 +27,11 @@ void LocalClients::start(Time now) {
 }
 
 void LocalClients::startOne(Slot& slot, Time now) {
-  Pipe pipe = makePipe();
-  // 32 bytes into an empty pipe: never blocks, never partial.
-  if (::write(pipe.writeEnd.get(), plan_.key.data(), plan_.key.size()) !=
-      static_cast<ssize_t>(plan_.key.size()))
-    fail("cannot hand the key to a local client");
+  const UniqueFd key(keyPipe(*plan_.key));
   std::vector<std::string> arguments = plan_.arguments;
   arguments.push_back(fmt::format("--name=local{}", slot.number));
   arguments.push_back(fmt::format("--key-descriptor={}", kInheritedDescriptor));
-  slot.process = ChildProcess::start(plan_.program, arguments, pipe.readEnd);
-  slot.leash = std::move(pipe.writeEnd);
+  slot.process = ChildProcess::start(plan_.program, arguments, key);
   slot.started = now;
   slot.startAt.reset();
 }
@@ -66,7 +59,6 @@ void LocalClients::restart(Slot& slot, Time now) {
 
 void LocalClients::ended(Slot& slot, const std::string& how, Time now) {
   slot.process.reset();
-  slot.leash.reset();
   if (killAt_) return;
   ++crashes_;
   slot.startAt = slot.policy.crashed(slot.started, now);

@@ -9,12 +9,14 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/clock.h"
 #include "common/base/process.h"
+#include "proto/key.h"
 
 namespace ninefold {
 
@@ -33,7 +35,7 @@ class LocalClients {
   struct Plan {
     std::filesystem::path program;       // ninefold-client
     std::vector<std::string> arguments;  // without the key descriptor
-    std::string key;                     // bytes; goes through the pipe only
+    std::shared_ptr<const Key> key;      // never among the arguments
     int count = 0;
   };
 
@@ -54,7 +56,6 @@ class LocalClients {
   struct Slot {
     int number = 0;
     std::optional<ChildProcess> process;
-    UniqueFd leash;  // write end of the key's pipe; closing it ends the client
     Time started;
     std::optional<Time> startAt;
     RestartPolicy policy;

@@ -1,0 +1,135 @@
+#include "master/cluster.h"
+
+#include <signal.h>
+
+#include <cstdlib>
+
+#include "common/base/log.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kTick = milliseconds(20);
+constexpr Duration kTimeToEnd = milliseconds(900);
+
+LocalClients::Plan withMaster(LocalClients::Plan plan, const Endpoint& master) {
+  const bool v6 = master.host.find(':') != std::string::npos;
+  plan.arguments.push_back(v6 ? fmt::format("--master=[{}]:{}", master.host, master.port)
+                              : fmt::format("--master={}:{}", master.host, master.port));
+  return plan;
+}
+
+// The part of a summary for clients in one state: "2 ready".
+void append(std::string& text, int count, const char* what) {
+  if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, what);
+}
+
+}  // namespace
+
+Cluster::Cluster(ClusterSetup setup, const JobOffer& offer, ServerDuty duty)
+    : remoteMayJoin_(setup.remoteMayJoin),
+      server_(loop_, std::move(setup.server), offer, std::move(duty)),
+      local_(withMaster(std::move(setup.local), server_.endpoint())) {}
+
+Cluster::~Cluster() {
+  stop("the master ends");
+  join();
+}
+
+void Cluster::start() {
+  watchSignals();
+  thread_ = std::thread([this] { run(); });
+}
+
+void Cluster::watchSignals() {
+  loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
+    int none = 0;
+    // Local clients follow: the kernel kills them with us.
+    if (!signal_.compare_exchange_strong(none, signal)) std::_Exit(128 + signal);
+  });
+}
+
+void Cluster::run() {
+  try {
+    local_.start(Clock::now());
+    tick();
+    loop_.run();
+  } catch (const Error& error) {
+    fail(error.what());
+  }
+}
+
+void Cluster::tick() {
+  const Time now = Clock::now();
+  local_.poll(now);
+  server_.tick(now);
+  if (isOver(now)) return loop_.stop();
+  if (local_.exhausted() && !remoteMayJoin_ && server_.readyClients() == 0)
+    fail("all local clients ended and none can be started; see the lines above");
+  {
+    const std::lock_guard lock(mutex_);
+    summary_ = describeClients(now);
+  }
+  timer_ = loop_.after(kTick, [this] { tick(); });
+}
+
+bool Cluster::isOver(Time now) const {
+  return endBy_ && ((local_.running() == 0 && !server_.isConnected()) || now >= *endBy_);
+}
+
+void Cluster::fail(const std::string& line) {
+  const std::lock_guard lock(mutex_);
+  if (!failure_) failure_ = line;
+}
+
+std::optional<std::string> Cluster::failure() const {
+  const std::lock_guard lock(mutex_);
+  return failure_;
+}
+
+std::string Cluster::summary() const {
+  const std::lock_guard lock(mutex_);
+  return summary_;
+}
+
+std::string Cluster::describeClients(Time now) const {
+  int connecting = 0, building = 0, ready = 0, lost = 0;
+  std::string syncing;
+  for (const ClientInfo& client : server_.clients(now)) {
+    connecting += client.status.state == ClientState::connecting ? 1 : 0;
+    building += client.status.state == ClientState::building ? 1 : 0;
+    ready += client.status.state == ClientState::ready ? 1 : 0;
+    lost += client.status.state == ClientState::lost ? 1 : 0;
+    if (client.status.state == ClientState::syncing)
+      syncing += fmt::format(", {} syncing {:.0f}%", client.name, 100 * client.status.synced);
+  }
+  std::string text;
+  append(text, ready, "ready");
+  append(text, building, "building the scene");
+  append(text, connecting, "connecting");
+  append(text, lost, "lost");
+  text += syncing;
+  return text.empty() ? "no client yet" : text;
+}
+
+void Cluster::decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed) {
+  loop_.post([this, tile = std::move(tile), malformed] {
+    server_.decoded(tile, malformed, Clock::now());
+  });
+}
+
+void Cluster::stop(const std::string& reason) {
+  loop_.post([this, reason] {
+    if (endBy_) return;
+    const Time now = Clock::now();
+    endBy_ = now + kTimeToEnd;
+    server_.close(reason);
+    local_.stop(now);
+  });
+}
+
+void Cluster::join() {
+  if (thread_.joinable()) thread_.join();
+}
+
+}  // namespace ninefold

@@ -1,0 +1,76 @@
+// cluster.h: the network thread with all that lives in it: event loop, server, local clients,
+// signals, and the ticking of their deadlines.
+//
+// Threads: the constructor listens, start() begins the thread; everything else from any thread, but
+// the server's tally and clients only after join(). Owner: main; ends and joins when destroyed.
+// Errors: the constructor throws Error (cannot listen). What ends the run later is told by
+// failure().
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "master/local_clients.h"
+#include "master/server.h"
+
+namespace ninefold {
+
+struct ClusterSetup {
+  ServerSetup server;
+  LocalClients::Plan local;    // without the master's address, which only listening tells
+  bool remoteMayJoin = false;  // a cluster key exists
+};
+
+class Cluster {
+ public:
+  Cluster(ClusterSetup setup, const JobOffer& offer, ServerDuty duty);
+  ~Cluster();
+
+  const Endpoint& endpoint() const { return server_.endpoint(); }
+  void start();
+
+  // A tile was placed, or could not be.
+  void decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed);
+
+  // The first SIGINT or SIGTERM, 0 if none came. A second one ends the program at once.
+  int signal() const { return signal_; }
+  // Why the run cannot go on, if it cannot.
+  std::optional<std::string> failure() const;
+  // What the clients are doing, for people: "2 ready, 1 syncing 63%".
+  std::string summary() const;
+
+  // Begins to end: goodbye to all, no process left within a second. Does not wait.
+  void stop(const std::string& reason);
+  void join();
+
+  // After join().
+  const Server& server() const { return server_; }
+
+ private:
+  void run();
+  void tick();
+  void watchSignals();
+  bool isOver(Time now) const;
+  void fail(const std::string& line);
+  std::string describeClients(Time now) const;
+
+  EventLoop loop_;
+  const bool remoteMayJoin_;
+  Server server_;
+  LocalClients local_;
+  std::unique_ptr<EventLoop::Timer> timer_;
+  std::optional<Time> endBy_;  // set by stop
+  std::atomic<int> signal_ = 0;
+
+  mutable std::mutex mutex_;
+  std::optional<std::string> failure_;  // guarded by mutex_
+  std::string summary_;                 // guarded by mutex_
+
+  std::thread thread_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,38 @@
+// frame_plan.h: the keys of a run's frames while the picture rests. Pure.
+//
+// Frame i (counted from 1) has randomization and rotation i - 1, so that every pixel meets every
+// light set and frames are independent, and
+//
+//     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 1/2       photon radius [m]
+//     w(i) = 1 / i                                                       weight of neighbours
+//
+// so that the bias of both falls faster than the noise, and the film's mean tends to the true
+// picture. The paper's own pipeline keeps r and w = 1 fixed.
+//
+// Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011 (r).
+// Proved: tests/master/frame_plan_test.cpp.   Threads: plain value.
+#pragma once
+
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+class FramePlan {
+ public:
+  FramePlan(Metres firstRadius, bool converging) : radius_(firstRadius), converging_(converging) {}
+
+  // The next frame's key; indices are given out in order, from 0.
+  FrameKey next();
+
+  // w of a frame, by its index from 0.
+  float neighbourWeight(uint32_t frame) const {
+    return converging_ ? 1.0f / static_cast<float>(frame + 1) : 1.0f;
+  }
+
+ private:
+  uint32_t next_ = 0;
+  double radius_;
+  bool converging_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,221 @@
+#include "master/server.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "common/base/log.h"
+
+namespace ninefold {
+namespace {
+
+// Frames that may be open at once: one being finished, one being worked on, one to start.
+constexpr int kMaxOpenFrames = 3;
+
+TaskId taskOf(const msg::Result& result) {
+  return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
+}
+
+std::string describe(const ClientSession& session) {
+  const msg::Hello& hello = session.hello();
+  return hello.name == session.peer() ? session.peer()
+                                      : fmt::format("{} ({})", hello.name, session.peer());
+}
+
+}  // namespace
+
+Server::Server(EventLoop& loop, ServerSetup setup, const JobOffer& offer, ServerDuty duty)
+    : loop_(loop), setup_(std::move(setup)), offer_(offer), duty_(std::move(duty)) {
+  Listener::Events events;
+  events.onConnection = [this](std::shared_ptr<Connection> c) { accept(std::move(c)); };
+  events.onRefused = [](const std::string& line) { warn("{}", line); };
+  listener_ = Listener::open(loop_, setup_.listen, setup_.keys, std::move(events));
+}
+
+Server::~Server() = default;
+
+void Server::accept(std::shared_ptr<Connection> connection) {
+  const ClientId id = nextId_++;
+  Peer& peer = peers_[id];
+  peer.connection = std::move(connection);
+  peer.session = std::make_unique<ClientSession>(id, peer.connection->peer(), offer_, admission_,
+                                                 Clock::now());
+  Connection::Events events;
+  events.onMessage = [this, id](Message&& message) {
+    withPeer(id, [&](ClientSession& s, Time now) { s.received(std::move(message), now); });
+  };
+  events.onClosed = [this, id](const std::string& reason) {
+    const auto found = peers_.find(id);
+    if (!found->second.session->over()) {
+      found->second.session->disconnected();
+      lost(*found, reason, Clock::now());
+    }
+    found->second.connection.reset();
+  };
+  peer.connection->start(std::move(events));
+}
+
+template <typename Event>
+void Server::withPeer(ClientId id, Event event) {
+  const auto found = peers_.find(id);
+  const Time now = Clock::now();
+  event(*found->second.session, now);
+  carryOut(*found, now);
+  dispatch(now);
+}
+
+void Server::carryOut(Handle& peer, Time now) {
+  for (todo::Action& action : peer.second.session->takeActions())
+    std::visit([&](auto&& a) { on(peer, std::move(a), now); }, std::move(action));
+}
+
+void Server::on(Handle& peer, todo::Send&& a, Time) {
+  if (peer.second.connection) peer.second.connection->send(std::move(a.message));
+}
+
+void Server::on(Handle&, todo::Warn&& a, Time) { warn("{}", a.line); }
+
+void Server::on(Handle& peer, todo::Join&&, Time now) {
+  peer.second.wasReady = true;
+  const ClientSession& session = *peer.second.session;
+  log("client {} is ready: {}, {} thread(s), {}", peer.first, describe(session),
+      session.hello().threads, session.hello().isa);
+  scheduler_.clientJoined(peer.first, static_cast<int>(session.hello().threads), now);
+}
+
+void Server::on(Handle& peer, todo::Heard&&, Time now) { scheduler_.clientHeard(peer.first, now); }
+
+void Server::on(Handle& peer, todo::RoundTrip&& a, Time) {
+  scheduler_.roundTripMeasured(peer.first, a.time);
+}
+
+void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
+  const TaskId task = taskOf(a.result);
+  const Duration cost = std::chrono::nanoseconds(a.result.busyNs);
+  if (!isAccepted(scheduler_.verdictOn(peer.first, task))) {
+    scheduler_.resultArrived(peer.first, task, cost, now);  // counts why it is dropped
+    return;
+  }
+  ReceivedTile tile{peer.first, std::move(a.result)};
+  if (!duty_.take(tile)) peer.second.session->expel("more results than were asked for");
+}
+
+void Server::on(Handle& peer, todo::Finish&& a, Time now) {
+  if (peer.second.connection) peer.second.connection->finish(a.reason);
+  lost(peer, a.reason, now);
+}
+
+void Server::lost(Handle& peer, const std::string& reason, Time now) {
+  log("client {} is lost: {}: {}", peer.first, describe(*peer.second.session), reason);
+  if (peer.second.connection) peer.second.bytesReceived = peer.second.connection->bytesReceived();
+  scheduler_.clientLost(peer.first, now);
+}
+
+void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>& malformed,
+                     Time now) {
+  const auto peer = peers_.find(tile.client);
+  if (malformed) {
+    ++tally_.malformed;
+    peer->second.session->expel(*malformed);
+    carryOut(*peer, now);
+    return dispatch(now);
+  }
+  const Duration cost = std::chrono::nanoseconds(tile.result.busyNs);
+  const Verdict verdict = scheduler_.resultArrived(tile.client, taskOf(tile.result), cost, now);
+  if (isAccepted(verdict)) tally_.rays += tile.result.rays, tally_.replaced += tile.result.replaced;
+  if (verdict == Verdict::completedFrame) {
+    tally_.lastCompletion = now;
+    keys_.erase(tile.result.frame);
+  }
+  dispatch(now);
+}
+
+void Server::supersede(uint32_t firstWanted, Time now) {
+  scheduler_.viewChanged(firstWanted);
+  std::erase_if(keys_, [&](const auto& key) { return key.first < firstWanted; });
+  dispatch(now);
+}
+
+void Server::tick(Time now) {
+  std::erase_if(peers_, [](const Handle& peer) {  // those that were never ready leave no trace
+    return peer.second.connection == nullptr && !peer.second.wasReady;
+  });
+  for (Handle& peer : peers_) {
+    if (peer.second.session->over()) continue;
+    peer.second.session->tick(now);
+    carryOut(peer, now);
+  }
+  dispatch(now);
+}
+
+void Server::dispatch(Time now) {
+  if (listener_ == nullptr) return;  // closed
+  started_ = started_ || scheduler_.clients() >= setup_.waitClients;
+  if (!started_) return;
+  Actions actions = scheduler_.poll(now);
+  openFrames(now);
+  for (const Cancellation& cancel : actions.cancel)
+    if (const auto& connection = peers_.at(cancel.client).connection)
+      connection->send(msg::Cancel{JobOffer::kJob, cancel.firstWanted});
+  sendTasks(actions.assign);
+  sendTasks(scheduler_.poll(now).assign);  // of the frames just opened
+}
+
+void Server::openFrames(Time) {
+  while (scheduler_.wantsFrame() && scheduler_.openFrames() < kMaxOpenFrames) {
+    const std::optional<FrameKey> key = duty_.nextFrame();
+    if (!key) return;
+    keys_[key->frame] = *key;
+    scheduler_.openFrame(*key, setup_.grid);
+  }
+}
+
+void Server::sendTasks(const std::vector<Assignment>& assignments) {
+  std::map<std::pair<ClientId, uint32_t>, std::vector<msg::TaskItem>> bundles;
+  for (const Assignment& a : assignments)
+    bundles[{a.client, a.task.frame}].push_back({static_cast<uint32_t>(a.task.tile),
+                                                 static_cast<uint32_t>(a.task.phase),
+                                                 setup_.extraMask});
+  if (!bundles.empty() && !tally_.firstDispatch) tally_.firstDispatch = Clock::now();
+  for (auto& [to, items] : bundles)
+    if (const auto& connection = peers_.at(to.first).connection)
+      connection->send(msg::Tasks{JobOffer::kJob, keys_.at(to.second), std::move(items)});
+}
+
+void Server::close(const std::string& reason) {
+  listener_.reset();
+  for (auto& [id, peer] : peers_) {
+    if (!peer.connection) continue;
+    peer.bytesReceived = peer.connection->bytesReceived();
+    peer.connection->send(msg::Goodbye{reason.substr(0, kMaxText)});
+    peer.connection->finish(reason);
+  }
+}
+
+bool Server::isConnected() const {
+  return std::ranges::any_of(peers_, [](const auto& p) { return p.second.connection != nullptr; });
+}
+
+ServerTally Server::tally() const {
+  ServerTally tally = tally_;
+  tally.tasks = scheduler_.counts();
+  tally.reproducible = admission_.reproducible();
+  for (const auto& [id, peer] : peers_)
+    tally.bytesReceived += peer.connection ? peer.connection->bytesReceived() : peer.bytesReceived;
+  return tally;
+}
+
+std::vector<ClientInfo> Server::clients(Time now) const {
+  std::map<ClientId, ClientReport> work;
+  for (const ClientReport& report : scheduler_.report(now)) work[report.client] = report;
+  std::vector<ClientInfo> infos;
+  for (const auto& [id, peer] : peers_) {
+    const ClientSession& session = *peer.session;
+    ClientInfo info{id, session.hello().name, session.hello().isa, session.peer(), session.status(),
+                    {}};
+    if (const auto found = work.find(id); found != work.end()) info.work = found->second;
+    infos.push_back(std::move(info));
+  }
+  return infos;
+}
+
+}  // namespace ninefold

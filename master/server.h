@@ -1,0 +1,126 @@
+// server.h: the master's network thread: it accepts clients, runs their sessions, asks the
+// scheduler who gets what, and passes results on. It decodes nothing and never waits.
+//
+//   listener -> sessions -> scheduler -> tasks out          results -> Duty::take -> ... ->
+//   decoded()
+//
+// Threads: everything in the loop's thread, but for the constructor and what is said below.
+// Owner: main; refers to the loop, the offer and the duty, which outlive it.
+// Errors: the constructor throws Error (address in use, ...). Clients' errors end their connection,
+// with one line in the log, and nothing else.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "master/admission.h"
+#include "master/client_session.h"
+#include "master/job_offer.h"
+#include "master/received_tile.h"
+#include "master/scheduler.h"
+#include "proto/connection.h"
+
+namespace ninefold {
+
+struct ServerSetup {
+  Endpoint listen;
+  Listener::Keys keys;
+  TileGrid grid;
+  uint8_t extraMask = 0;
+  int waitClients = 1;  // no frame before that many are ready
+};
+
+// What the server is there for; called in the loop's thread, must not wait.
+struct ServerDuty {
+  // The next frame to render; nothing when there is none or no room for it now.
+  std::function<std::optional<FrameKey>()> nextFrame;
+  // Takes a tile that is wanted, answered by decoded(); false when there is no room.
+  std::function<bool(ReceivedTile&)> take;
+};
+
+// What the server counts; a value.
+struct ServerTally {
+  SchedulerCounts tasks;
+  RayCounts rays;  // of accepted results
+  uint64_t malformed = 0;
+  uint64_t replaced = 0;  // values that were not finite
+  uint64_t bytesReceived = 0;
+  std::optional<Time> firstDispatch, lastCompletion;
+  bool reproducible = true;
+};
+
+// One client, present or lost, for people and stats.
+struct ClientInfo {
+  ClientId id = 0;
+  std::string name, isa, peer;
+  ClientStatus status;
+  std::optional<ClientReport> work;  // once it was ready
+};
+
+class Server {
+ public:
+  Server(EventLoop& loop, ServerSetup setup, const JobOffer& offer, ServerDuty duty);
+  ~Server();
+
+  const Endpoint& endpoint() const { return listener_->endpoint(); }
+
+  // Deadlines, heartbeats and work that is due. Every few tens of milliseconds.
+  void tick(Time now);
+  // A tile that was taken is placed in its frame; `malformed`: or could not be, for this reason.
+  void decoded(const ReceivedTile& tile, const std::optional<std::string>& malformed, Time now);
+  // No frame before `firstWanted` is wanted any more.
+  void supersede(uint32_t firstWanted, Time now);
+  // Says goodbye to all clients and accepts no more.
+  void close(const std::string& reason);
+
+  ServerTally tally() const;
+  std::vector<ClientInfo> clients(Time now) const;
+  int readyClients() const { return scheduler_.clients(); }
+  bool isConnected() const;  // to anybody
+  const Scheduler& scheduler() const { return scheduler_; }
+
+ private:
+  struct Peer {
+    std::unique_ptr<ClientSession> session;
+    std::shared_ptr<Connection> connection;  // null once it is over
+    uint64_t bytesReceived = 0;              // of a connection that is over
+    bool wasReady = false;
+  };
+  using Handle = std::pair<const ClientId, Peer>;
+
+  void accept(std::shared_ptr<Connection> connection);
+  template <typename Event>
+  void withPeer(ClientId id, Event event);  // event(session), then what follows from it
+  void carryOut(Handle& peer, Time now);
+  void on(Handle& peer, todo::Send&& a, Time now);
+  void on(Handle& peer, todo::Warn&& a, Time now);
+  void on(Handle& peer, todo::Join&& a, Time now);
+  void on(Handle& peer, todo::Heard&& a, Time now);
+  void on(Handle& peer, todo::RoundTrip&& a, Time now);
+  void on(Handle& peer, todo::TakeResult&& a, Time now);
+  void on(Handle& peer, todo::Finish&& a, Time now);
+  void lost(Handle& peer, const std::string& reason, Time now);
+
+  void dispatch(Time now);
+  void openFrames(Time now);
+  void sendTasks(const std::vector<Assignment>& assignments);
+
+  EventLoop& loop_;
+  const ServerSetup setup_;
+  const JobOffer& offer_;
+  const ServerDuty duty_;
+  Admission admission_;
+  Scheduler scheduler_;
+  std::map<ClientId, Peer> peers_;     // all of the run
+  std::map<uint32_t, FrameKey> keys_;  // of open frames
+  ClientId nextId_ = 1;
+  bool started_ = false;  // waitClients were ready once
+  ServerTally tally_;
+  std::unique_ptr<Listener> listener_;
+};
+
+}  // namespace ninefold
