@@ -11,12 +11,12 @@ from .shapes import box, rectangle, slab
 
 X, Z, HEIGHT = 6.5, 4.0, 3.2
 TABLE = (8.0, 1.9, 0.74)  # length along x, width, height
-CARPET = textured("carpet", textures.carpet((92, 34, 36), (146, 66, 58), 15), 0.8, 0.8)
-LEATHER = matte("leather", 0.1, 0.075, 0.06)
-PANEL = matte("cloth panel", 0.2, 0.34, 0.44)
+CARPET = textured("carpet", textures.carpet((126, 116, 110), (176, 164, 152), 15), 0.8, 0.8)
+LEATHER = matte("leather", 0.34, 0.075, 0.05)
+PANEL = matte("cloth panel", 0.26, 0.44, 0.52)
 END_PANEL = matte("warm cloth panel", 0.66, 0.38, 0.14)
 SLIDE = picture("slide", pictures.landscape(23, 256, 160))
-DOWNLIGHT = light("ceiling light", 62, 56, 46)
+DOWNLIGHT = light("ceiling light", 80, 73, 62)
 SCONCE_LIGHT = light("wall light", 60, 46, 30)
 
 WAINSCOT = 0.95
@@ -47,13 +47,13 @@ def panel(width, cloth):
     top = HEIGHT - 0.3
     model = Model("wall panel").add(p.WALNUT, box((-w, -0.002, -0.01), (w, WAINSCOT, 0.03)))
     model.add(p.WALNUT, rounded_box((2 * w - 0.3, 0.6, 0.04), 0.015, 2, (0, 0.2, 0.028)))
-    model.add(p.WALNUT, rounded_box((2 * w, 0.05, 0.07), 0.02, 2, (0, WAINSCOT - 0.012, 0.02)))
+    model.add(p.WALNUT, rounded_box((2 * w, 0.05, 0.07), 0.02, 1, (0, WAINSCOT - 0.012, 0.02)))
     middle = (WAINSCOT + top) / 2
-    model.add(cloth, rounded_box((2 * w - 0.2, top - WAINSCOT - 0.24, 0.06), 0.02, 3, (0, WAINSCOT + 0.12, 0.01)))
+    model.add(cloth, rounded_box((2 * w - 0.2, top - WAINSCOT - 0.24, 0.06), 0.02, 2, (0, WAINSCOT + 0.12, 0.01)))
     for y in (WAINSCOT + 0.06, top - 0.09):
-        model.add(p.WALNUT, rounded_box((2 * w - 0.06, 0.04, 0.05), 0.012, 2, (0, y, 0.01)))
+        model.add(p.WALNUT, rounded_box((2 * w - 0.06, 0.04, 0.05), 0.012, 1, (0, y, 0.01)))
     for x in (-w + 0.06, w - 0.06):
-        bar = rounded_box((0.04, top - WAINSCOT - 0.16, 0.046), 0.012, 2, (x, 0, 0.01))
+        bar = rounded_box((0.04, top - WAINSCOT - 0.16, 0.046), 0.012, 1, (x, 0, 0.01))
         model.add(p.WALNUT, bar.moved(vec.move(0, middle - (top - WAINSCOT - 0.16) / 2)))
     return model
 
@@ -61,8 +61,8 @@ def panel(width, cloth):
 def table():
     length, width, height = TABLE
     model = Model("conference table")
-    model.add(p.WALNUT, table_top(length, width, 0.05, 160, 3.2, 4, height - 0.05))
-    model.add(p.BLACK, table_top(length - 1.2, 0.32, 0.006, 96, 6, 1, height - 0.002))
+    model.add(p.OAK, table_top(length, width, 0.05, 160, 3.2, 4, height - 0.05))
+    model.add(p.BLACK, table_top(length - 1.2, 0.32, 0.006, 96, 4, 1, height - 0.002))
     for x in (-length / 2 + 1.3, 0, length / 2 - 1.3):
         model.add(p.WALNUT, rounded_box((0.5, height - 0.1, 0.7), 0.04, 3, (x, 0.03, 0)))
         model.add(p.STEEL, rounded_box((0.7, 0.04, 1.1), 0.015, 2, (x, -0.002, 0)))
@@ -159,7 +159,7 @@ def build():
             at = (-X + 13 / 12 * (i + 0.5), HEIGHT, -Z + 8 / 7 * (j + 0.5))
             scene.place(ceiling_light, at, 0, f"ceiling light {j * 12 + i + 1}")
     scene.place(screen(), (-X + 0.075, 1.95, 0), 90, "slide")
-    plant = decor.plant(p.WHITE, p.SOIL, p.LEAVES, p.STEM, 60, 1.35, 8)
+    plant = decor.plant(p.WHITE, p.SOIL, p.LEAVES, p.STEM, 44, 1.35, 8)
     for k, (x, z) in enumerate(((-X + 0.7, -Z + 0.7), (-X + 0.7, Z - 0.7), (X - 0.7, -Z + 0.7))):
         scene.place(plant, (x, 0, z), 77 * k, f"plant {k + 1}")
     scene.camera("from the end", (5.7, 1.85, 2.7), (-0.6, 0.95, -0.7), 52)

@@ -12,7 +12,7 @@ from .scene import Scene
 WHITE = matte("white", 0.725, 0.71, 0.68)
 RED = matte("red", 0.63, 0.065, 0.05)
 GREEN = matte("green", 0.14, 0.45, 0.091)
-LAMP = light("lamp", 17, 12, 4)
+LAMP = light("lamp", 34, 24, 8)
 
 SHORT_BLOCK = ((130, 65), (82, 225), (240, 272), (290, 114)), 165
 TALL_BLOCK = ((423, 247), (265, 296), (314, 456), (472, 406)), 330

@@ -23,7 +23,7 @@ CHAIR = textured("chair cloth", textures.weave((112, 28, 36), (186, 70, 66)), 0.
 LINEN = matte("linen", 0.8, 0.78, 0.72)
 CHINA = matte("china", 0.82, 0.82, 0.8)
 WAX = matte("wax", 0.82, 0.74, 0.58)
-LAMP = light("lamp", 330, 290, 225)
+LAMP = light("lamp", 150, 134, 106)
 
 TABLE_TOP = 0.75
 
@@ -62,11 +62,11 @@ def build():
     scene.place(lamp, (2.2, 0, -1.9), 0, "right lamp")
     scene.place(seating.sofa(SOFA, PILLOW, p.DARK_WOOD), (0.25, 0, -1.98))
     scene.place(decor.framed_picture(p.LANDSCAPE, p.DARK_WOOD, 1.3, 0.86), (0.25, 1.58, -Z))
-    laid_table(scene, 0.1, -0.25)
+    laid_table(scene, 0.1, 0.1)
     sphere = Model("glass sphere").add(p.GLASS, ball(0.13, 8))
     sphere.add(p.BLACK, tube([(0, 0.131, 0), (0, 0.302, 0)], 0.003, 6, ends=False))
     scene.place(sphere, (-1.75, HEIGHT - 0.3, -1.3))
     scene.place(decor.vase(p.TEAL, 24), (2.3, 0, -0.9), 0, "vase", 0, 1.5)
-    scene.camera("from the window", (0.35, 1.5, 2.4), (0.0, 1.24, -0.9), 62)
-    scene.camera("table", (1.3, 1.35, 1.0), (0.05, 0.85, -0.3), 42)
+    scene.camera("from the window", (0.45, 1.5, 2.3), (-0.02, 1.17, -0.6), 58)
+    scene.camera("table", (1.3, 1.4, 1.45), (0.05, 0.85, 0.05), 42)
     return scene

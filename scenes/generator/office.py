@@ -19,8 +19,8 @@ CORK = textured("cork", textures.carpet((150, 108, 68), (206, 164, 112), 12), 0.
 SLAT = matte("slat", 0.72, 0.68, 0.6)
 EDITOR = picture("editor", pictures.screen(5))
 NOTES = (p.LETTER, p.PAGES, matte("yellow note", 0.85, 0.7, 0.16), matte("rose note", 0.8, 0.36, 0.36))
-CEILING_LIGHT = light("ceiling light", 13, 12.4, 11)
-DESK_LIGHT = light("desk light", 150, 118, 74)
+CEILING_LIGHT = light("ceiling light", 21, 20, 17.5)
+DESK_LIGHT = light("desk light", 190, 150, 96)
 
 WINDOWS = (0.75, 3.1)  # left edges, from the left end of the west wall
 WINDOW_WIDTH, WINDOW_HEIGHT, SILL = 1.35, 1.4, 0.95
@@ -102,9 +102,9 @@ def second_desk(scene, chair):
 
 
 def loose_things(scene):
-    green = decor.plant(p.TERRACOTTA, p.SOIL, p.LEAVES, p.STEM, 40, 1.15)
+    green = decor.plant(p.TERRACOTTA, p.SOIL, p.LEAVES, p.STEM, 32, 1.15)
     scene.place(green, (-2.75, 0, -1.6), 30, "plant")
-    small = decor.plant(p.WHITE, p.SOIL, p.LEAVES, p.STEM, 26, 0.7, 5)
+    small = decor.plant(p.WHITE, p.SOIL, p.LEAVES, p.STEM, 18, 0.7, 5)
     scene.place(small, (1.32, 0.821, -Z + 0.22), 0, "plant on the cabinet", 0, 0.5)
     scene.place(workplace.bin_(p.BLACK), (0.42, 0, -1.1))
     visitor = seating.upholstered_chair(VISITOR_FABRIC, p.DARK_WOOD, 2)

@@ -23,7 +23,7 @@ def wooden_chair(seat, frame):
 def _star_base(model, material, wheel, detail):
     """Five arms with castors under a gas spring."""
     arm = rounded_box((0.035, 0.03, 0.3), 0.012, 1, (0, 0.075, 0.16))
-    castor = ball(0.028, 2 + detail, (0, 0.026, 0.3))
+    castor = ball(0.028, 1 + detail, (0, 0.026, 0.3))
     for k in range(5):
         around = vec.turn("y", 72 * k)
         model.add(material, arm.moved(around))
@@ -43,10 +43,10 @@ def office_chair(fabric, base, plastic, detail=1, name="office chair"):
     back = cushion((0.46, 0.085, 0.58), segments, rings, 0.5, (0, -0.042, 0))
     upright = vec.chain(vec.move(0, 0.86, -0.24), vec.turn("x", 82))
     model.add(fabric, back.moved(upright))
-    spine = [(0, 0.42, -0.1), (0, 0.42, -0.22), (0, 0.47, -0.275), (0, 0.8, -0.3)]
+    spine = [(0, 0.415, -0.04), (0, 0.425, -0.2), (0, 0.53, -0.29), (0, 0.82, -0.3)]
     model.add(plastic, tube(smooth(spine, 4 * detail), 0.022, 8 * detail))
     for x in (-0.27, 0.27):
-        path = [(x * 0.8, 0.425, 0.02), (x * 1.02, 0.43, 0.02), (x, 0.5, 0.02), (x, 0.64, 0.02)]
+        path = [(x * 0.7, 0.425, 0.02), (x * 0.95, 0.427, 0.02), (x * 1.03, 0.5, 0.02), (x, 0.64, 0.02)]
         model.add(plastic, tube(smooth(path, 4 * detail), 0.016, 8 * detail))
         model.add(plastic, rounded_box((0.07, 0.03, 0.28), 0.013, 1 + detail, (x, 0.64, 0.03)))
     return model
@@ -77,7 +77,7 @@ def smooth(points, steps):
 def upholstered_chair(fabric, wood, detail=1):
     """For a dining table: a thick seat, a curved padded back, four legs."""
     model = Model("upholstered chair")
-    segments, rings = 20 * detail, 8 * detail
+    segments, rings = 12 + 8 * detail, 6 + 2 * detail
     model.add(fabric, cushion((0.47, 0.11, 0.46), segments, rings, 0.42, (0, 0.38, 0)))
     back = cushion((0.43, 0.07, 0.5), segments, rings, 0.42, (0, -0.035, 0))
     model.add(fabric, back.moved(vec.move(0, 0.74, -0.225), vec.turn("x", 80)))
@@ -90,8 +90,8 @@ def upholstered_chair(fabric, wood, detail=1):
 def sofa(fabric, pillow, feet, width=1.9):
     model = Model("sofa")
     inner = width - 0.36
-    model.add(fabric, rounded_box((width - 0.06, 0.2, 0.84), 0.03, 2, (0, 0.09, 0)))
-    model.add(fabric, rounded_box((inner + 0.1, 0.5, 0.2), 0.06, 2, (0, 0.3, -0.32)))
+    model.add(fabric, rounded_box((width - 0.06, 0.2, 0.84), 0.03, 1, (0, 0.09, 0)))
+    model.add(fabric, rounded_box((inner + 0.1, 0.5, 0.2), 0.06, 1, (0, 0.3, -0.32)))
     for x in (-1, 1):
         arm = (x * (width / 2 - 0.1), 0.1, 0)
         model.add(fabric, rounded_box((0.2, 0.5, 0.88), 0.07, 2, arm))

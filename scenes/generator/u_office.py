@@ -13,12 +13,12 @@ from .workplace import DESK_TOP
 INNER, OUTER, Z, HEIGHT = 0.12, 4.3, 2.2, 2.6  # each room: |x| from INNER to OUTER, z from -Z to Z
 CORRIDOR = (-3.4, -2.38)  # z
 DOOR = (0.95, 2.05)  # width, height
-DOOR_X = 1.5  # |x| of the middle of both doors
+DOOR_X = 1.25  # |x| of the middle of both doors
 CARPET = textured("carpet", textures.carpet((96, 84, 72), (150, 136, 118), 18), 0.7, 0.7)
 FABRIC = textured("chair fabric", textures.weave((30, 60, 110), (76, 120, 172)), 0.05, 0.05)
 CORAL = matte("coral wall", 0.7, 0.3, 0.2)
 MINT = matte("mint wall", 0.42, 0.66, 0.5)
-LAMP = light("ceiling light", 260, 246, 220)
+LAMP = light("ceiling light", 1400, 1330, 1200)
 
 
 def shells(scene):
@@ -64,7 +64,7 @@ def dark_room(scene, chair, shelf, rows):
     for j, y in enumerate(levels):
         scene.place(rows[j % len(rows)], (-4.05, y, -Z + 0.27), 0, f"books {j + 1}")
     green = decor.plant(p.TERRACOTTA, p.SOIL, p.LEAVES, p.STEM, 30, 1.0)
-    scene.place(green, (-0.55, 0, -1.65), 40)
+    scene.place(green, (-0.5, 0, -1.1), 40)
     scene.place(decor.framed_picture(p.ABSTRACT, p.DARK_WOOD, 0.7, 0.7), (-INNER, 1.55, -0.4), -90)
     scene.place(decor.framed_picture(p.LANDSCAPE, p.DARK_WOOD, 0.8, 0.6), (-OUTER, 1.5, -0.6), 90, "second picture")
 
@@ -77,7 +77,7 @@ def bright_room(scene, chair, shelf, rows):
     for j, y in enumerate(levels[:4]):
         scene.place(rows[(j + 1) % len(rows)], (3.85, y, Z - 0.27), 180, f"more books {j + 1}")
     lamp = rooms.ceiling_panel(1.5, 0.6, p.WHITE, LAMP)
-    scene.place(lamp, (1.9, HEIGHT, -0.3), 90, "ceiling lamp")
+    scene.place(lamp, (1.7, HEIGHT, -1.2), 0, "ceiling lamp")
 
 
 def build():
