@@ -29,11 +29,27 @@ struct ImagePlane {
 // See surface_test.h. n is turned towards the eye, so n . v < 0.
 SurfaceGuide guideOf(const ImagePlane& plane, Vec3 v, Vec3 n, float d) {
   const float length = std::sqrt(glm::dot(v, v));
-  const float u = d > 0 ? length / d : 0.0f;
+  const float hit = static_cast<float>(d > 0);  // arithmetic instead of a branch: vectorised
+  const float u = hit * length / (d + (1 - hit));
   const float slope = u / std::min(glm::dot(n, v), -kGrazingCosine * length);
   const float gradX = slope * glm::dot(n, plane.stepX), gradY = slope * glm::dot(n, plane.stepY);
   const float slack = std::abs(gradX) + std::abs(gradY) + kFootprints * plane.footprint * u;
   return {u, gradX, gradY, slack};
+}
+
+// Guides of a row whose pixels look along v0, v0 + step, ...
+void guideRow(const ImagePlane& plane, Vec3 v0, Vec3 step, int width, size_t first,
+              const LayerPlanes& layer, GuidePlanes& guides) {
+  const float *nx = layer.normal.r.data() + first, *ny = layer.normal.g.data() + first,
+              *nz = layer.normal.b.data() + first, *distance = layer.distance.data() + first;
+  float *u = guides.u.data() + first, *gradX = guides.gradX.data() + first,
+        *gradY = guides.gradY.data() + first, *slack = guides.slack.data() + first;
+#pragma GCC ivdep
+  for (int i = 0; i < width; ++i) {
+    const Vec3 v = v0 + static_cast<float>(i) * step;
+    const SurfaceGuide guide = guideOf(plane, v, Vec3(nx[i], ny[i], nz[i]), distance[i]);
+    u[i] = guide.u, gradX[i] = guide.gradX, gradY[i] = guide.gradY, slack[i] = guide.slack;
+  }
 }
 
 // A position of the window as seen from one phase: which phase lies there, and where its sub-pixels
@@ -172,19 +188,14 @@ void DiscontinuityBuffer::guideRows(const FrameBuffer& frame, const Camera& came
   const TileGrid& grid = frame.grid();
   const ImagePlane plane(camera, grid.width(), grid.height());
   const TileResult& sub = frame.phase(phase);
-  const LayerPlanes& layer = sub.layers[kDiffuse];
   GuidePlanes& guides = guides_[static_cast<size_t>(phase)];
-  NINEFOLD_CHECK(guides.u.size() == layer.distance.size());
+  NINEFOLD_CHECK(guides.u.size() == sub.layers[kDiffuse].distance.size());
+  const Vec3 step = static_cast<float>(grid.interleave().n) * plane.stepX;
   for (int j = j0; j < j1; ++j) {
+    const float px = static_cast<float>(grid.pixelX(phase, 0)) + 0.5f;
     const float py = static_cast<float>(grid.pixelY(phase, j)) + 0.5f;
-    const size_t row = static_cast<size_t>(j * sub.width);
-    for (int i = 0; i < sub.width; ++i) {
-      const size_t at = row + static_cast<size_t>(i);
-      const float px = static_cast<float>(grid.pixelX(phase, i)) + 0.5f;
-      const Vec3 n(layer.normal.r[at], layer.normal.g[at], layer.normal.b[at]);
-      guides.set(at, guideOf(plane, plane.corner + px * plane.stepX + py * plane.stepY, n,
-                             layer.distance[at]));
-    }
+    guideRow(plane, plane.corner + px * plane.stepX + py * plane.stepY, step, sub.width,
+             static_cast<size_t>(j * sub.width), sub.layers[kDiffuse], guides);
   }
 }
 

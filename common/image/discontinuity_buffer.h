@@ -30,9 +30,6 @@ struct GuidePlanes {
   std::vector<float> u, gradX, gradY, slack;
 
   void resize(size_t n) { u.resize(n), gradX.resize(n), gradY.resize(n), slack.resize(n); }
-  void set(size_t i, const SurfaceGuide& guide) {
-    u[i] = guide.u, gradX[i] = guide.gradX, gradY[i] = guide.gradY, slack[i] = guide.slack;
-  }
 };
 
 class DiscontinuityBuffer {

@@ -1,5 +1,7 @@
 #include "common/image/frame_filter.h"
 
+#include <algorithm>
+
 #include "common/base/error.h"
 
 namespace ninefold {
@@ -22,12 +24,12 @@ void composeRow(const float* reflectance, const float* irradiance, const float* 
 
 void composeLayerRow(const LayerPlanes& layer, const RgbPlane& irradiance, size_t row, int width,
                      bool add, Pixels pixels, RgbPlane& beauty) {
-  composeRow(&layer.reflectance.r[row], &irradiance.r[row], &layer.unfiltered.r[row], width, add,
-             pixels, beauty.r.data());
-  composeRow(&layer.reflectance.g[row], &irradiance.g[row], &layer.unfiltered.g[row], width, add,
-             pixels, beauty.g.data());
-  composeRow(&layer.reflectance.b[row], &irradiance.b[row], &layer.unfiltered.b[row], width, add,
-             pixels, beauty.b.data());
+  composeRow(layer.reflectance.r.data() + row, irradiance.r.data() + row,
+             layer.unfiltered.r.data() + row, width, add, pixels, beauty.r.data());
+  composeRow(layer.reflectance.g.data() + row, irradiance.g.data() + row,
+             layer.unfiltered.g.data() + row, width, add, pixels, beauty.g.data());
+  composeRow(layer.reflectance.b.data() + row, irradiance.b.data() + row,
+             layer.unfiltered.b.data() + row, width, add, pixels, beauty.b.data());
 }
 
 }  // namespace
@@ -75,8 +77,10 @@ void FrameFilter::compose(const FrameBuffer& frame, const Camera& camera, float 
   beauty.reset(grid.width(), grid.height());
   const int phases = grid.interleave().sets();
   for (int p = 0; p < phases; ++p) guideRows(frame, camera, p, 0, grid.subHeight(p));
-  for (int p = 0; p < phases; ++p)
-    composeRows(frame, p, 0, grid.subHeight(p), neighbourWeight, beauty);
+  // All phases of a row in turn: they read the same neighbours, which then are still in the cache.
+  for (int j = 0; j < grid.subHeight(0); ++j)
+    for (int p = 0; p < phases; ++p)
+      composeRows(frame, p, j, std::min(j + 1, grid.subHeight(p)), neighbourWeight, beauty);
 }
 
 }  // namespace ninefold
