@@ -1,5 +1,6 @@
 #include "common/base/command_line.h"
 
+#include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -34,7 +35,7 @@ std::string variableOfFlag(std::string_view flag) {
 std::pair<int, int> parsePair(std::string_view flag, std::string_view text, int low, int high) {
   const size_t x = text.find('x');
   const auto first = number<int>(text.substr(0, x));
-  const auto second = x == std::string_view::npos ? std::nullopt : number<int>(text.substr(x + 1));
+  const auto second = number<int>(x == std::string_view::npos ? "" : text.substr(x + 1));
   if (!first || !second || *first < low || *first > high || *second < low || *second > high)
     failUsage("--{} {}: write two numbers of {} to {} with an x between them", flag, text, low,
               high);
