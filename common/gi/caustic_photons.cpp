@@ -11,31 +11,34 @@ constexpr uint32_t kWalkDimension = 8;  // after the joint four of the start and
 int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
 
 // Follows a photon through S vertices and stores it at the first D vertex behind one.
-void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media, int diffuseBefore,
-                 float share, const LightSampler& sampler, uint32_t i, RayCounts& rays,
-                 std::vector<Photon>& out) {
-  walkLightPath(t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays, [&](const Arrival& a) {
-    const ShadingPoint& p = *a.point;
-    if (a.fromSpecular && !isBlack(p.bsdf.diffuse)) {
-      const Flux flux = share * shadingFactor(p, p.wo) * a.flux;
-      if (!isBlack(flux)) out.push_back({p.surface.position, p.ng, flux});
-    }
-    return false;  // what scatters diffusely here is the VPLs' part
-  });
+void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media,
+                 int diffuseBefore, float share, const LightSampler& sampler, uint32_t i,
+                 RayCounts& rays, std::vector<Photon>& out) {
+  walkLightPath(t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays,
+                [&](const Arrival& a) {
+                  const ShadingPoint& p = *a.point;
+                  if (a.fromSpecular && !isBlack(p.bsdf.diffuse)) {
+                    const Flux flux = share * shadingFactor(p, p.wo) * a.flux;
+                    if (!isBlack(flux)) out.push_back({p.surface.position, p.ng, flux});
+                  }
+                  return false;  // what scatters diffusely here is the VPLs' part
+                });
 }
 
-void photonsFromEmitters(const Transport& t, const FrameKey& frame, int k, int count, RayCounts& rays,
-                         std::vector<Photon>& out) {
+void photonsFromEmitters(const Transport& t, const FrameKey& frame, int k, int count,
+                         RayCounts& rays, std::vector<Photon>& out) {
   const LightSampler sampler(t.settings.seed, SampleUse::photon, frame.randomization,
                              static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
-    const Particle start = emitAimed(t, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
+    const Particle start =
+        emitAimed(t, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
     tracePhoton(t, start, {}, 0, 1.0f / static_cast<float>(count), sampler, i, rays, out);
   }
 }
 
 void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count,
-                     const std::vector<const Vpl*>& sources, RayCounts& rays, std::vector<Photon>& out) {
+                     const std::vector<const Vpl*>& sources, RayCounts& rays,
+                     std::vector<Photon>& out) {
   std::vector<float> weights;
   for (const Vpl* vpl : sources) weights.push_back(maxComponent(vpl->power));
   const Distribution byFlux(weights);
@@ -45,10 +48,11 @@ void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Distribution::Choice choice = byFlux.choose(sampler.get1D(i, 0));
     const Vpl& vpl = *sources[choice.index];
-    const LambertSource source{vpl.position, vpl.normal, vpl.error, kPi / choice.probability * vpl.power};
+    const LambertSource source{vpl.position, vpl.normal, vpl.error,
+                               kPi / choice.probability * vpl.power};
     const Particle start = emitAimed(t, source, sampler.get2D(i, 2), sampler.get1D(i, 1));
-    tracePhoton(t, start, vpl.media, vpl.diffuseCount, 1.0f / static_cast<float>(count), sampler, i, rays,
-                out);
+    tracePhoton(t, start, vpl.media, vpl.diffuseCount, 1.0f / static_cast<float>(count), sampler, i,
+                rays, out);
   }
 }
 
@@ -64,7 +68,8 @@ std::vector<Photon> makeCausticPhotons(const Transport& t, const FrameKey& frame
   if (s.caustics == Caustics::all)
     for (const Vpl& vpl : vpls)
       if (vpl.diffuseCount > 0) sources.push_back(&vpl);
-  // The split does not depend on what this set's walks happened to find: that would bias both halves.
+  // The split does not depend on what this set's walks happened to find: that would bias both
+  // halves.
   const int fromVpls = s.caustics == Caustics::all && t.allows(2) ? s.photons / 2 : 0;
   photonsFromEmitters(t, frame, k, s.photons - fromVpls, rays, photons);
   if (fromVpls > 0) photonsFromVpls(t, frame, k, fromVpls, sources, rays, photons);

@@ -1,16 +1,18 @@
 // caustic_photons.h: photons for the last leg from an S vertex, L S+ D and ...D S+ D.
 //
-//   E(x) = 1/(pi r^2) sum Phi_i    over photons within r, landed on x's side, normals within 60 degrees   [W/m^2]
+//   E(x) = 1/(pi r^2) sum Phi_i    over photons within r, landed on x's side, normals within 60
+//   degrees   [W/m^2]
 //
-// Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are stored at
-// the first D vertex if there was an S before it. With `all`, half of them leave the set's indirect VPLs
-// instead (chosen in proportion to flux), aimed in the same way: those are D vertices with every prefix, so
+// Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are
+// stored at the first D vertex if there was an S before it. With `all`, half of them leave the
+// set's indirect VPLs instead (chosen in proportion to flux), aimed in the same way: those are D
+// vertices with every prefix, so
 // ...D S+ D is whole.
 // Each half of n photons is divided by n: emission counts, not landings.
 //
 // Source:  Jensen 1996.   Proved: tests/gi (caustic energy balance; no photon in a diffuse scene).
-// Fails:   flux is blurred over r; at edges of small surfaces part of the disk is empty (both go with r).
-// Threads: pure functions.
+// Fails:   flux is blurred over r; at edges of small surfaces part of the disk is empty (both go
+// with r). Threads: pure functions.
 #pragma once
 
 #include "common/gi/light_set.h"

@@ -17,19 +17,20 @@ struct Source {
 
 Source chooseSource(const Transport& t, Vec2 u01) {
   const Distribution::Choice choice = t.emitters.byPower().choose(u01.x);
-  return {&t.emitters[choice.index], choice.index, choice.probability, Vec2(choice.remapped, u01.y)};
+  return {&t.emitters[choice.index], choice.index, choice.probability,
+          Vec2(choice.remapped, u01.y)};
 }
 
 // Local sources: light that spreads from one point.
 struct LocalSource {
   Vec3 position{0};
-  Vec3 normal{0};            // Lambertian: emitting side; spot: axis; point: unused
+  Vec3 normal{0};  // Lambertian: emitting side; spot: axis; point: unused
   float error = 0;
   enum class Kind { lambert, sphere, cone } kind = Kind::lambert;
-  float oneMinusCos = 2;     // cone
-  Flux flux{0};              // lambert: whole flux over P
+  float oneMinusCos = 2;  // cone
+  Flux flux{0};           // lambert: whole flux over P
   const PunctualLight* light = nullptr;
-  float probability = 1;     // punctual: P
+  float probability = 1;  // punctual: P
 
   // Emitted intensity divided by P [W/sr].
   Vec3 intensity(Vec3 w) const {
@@ -87,7 +88,8 @@ Aim aimAt(const AimTarget& target, const LocalSource& source) {
   const Vec3 towards = target.centre - source.position;
   const float d2 = glm::dot(towards, towards), r2 = target.radius * target.radius;
   if (d2 <= r2 * 1.02f) return {};  // inside: the ordinary emission reaches it
-  if (source.kind == LocalSource::Kind::lambert && glm::dot(towards, source.normal) < -target.radius)
+  if (source.kind == LocalSource::Kind::lambert &&
+      glm::dot(towards, source.normal) < -target.radius)
     return {};
   const float sin2 = r2 / d2;
   const float oneMinusCos = sin2 / (1 + std::sqrt(1 - sin2));
@@ -98,7 +100,8 @@ using Aims = std::array<Aim, Transport::kMaxTargets>;
 
 float prepareAims(const Transport& t, const LocalSource& source, Aims& aims) {
   float total = 0;
-  for (size_t i = 0; i < t.targets.size(); ++i) total += (aims[i] = aimAt(t.targets[i], source)).weight;
+  for (size_t i = 0; i < t.targets.size(); ++i)
+    total += (aims[i] = aimAt(t.targets[i], source)).weight;
   return total;
 }
 
@@ -134,9 +137,10 @@ Particle aimFrom(const Transport& t, const LocalSource& source, Vec2 u, float uT
   Aims aims;
   const float total = prepareAims(t, source, aims);
   const int chosen = chooseAim(aims, t.targets.size(), total, uTarget);
-  const Vec3 w = chosen < 0 ? source.ordinarySample(u)
-                            : Frame(aims[static_cast<size_t>(chosen)].axis)
-                                  .toWorld(squareToCone(u, aims[static_cast<size_t>(chosen)].oneMinusCos));
+  const Vec3 w = chosen < 0
+                     ? source.ordinarySample(u)
+                     : Frame(aims[static_cast<size_t>(chosen)].axis)
+                           .toWorld(squareToCone(u, aims[static_cast<size_t>(chosen)].oneMinusCos));
   const float pdf = mixturePdf(source, aims, t.targets.size(), total, w);
   const Vec3 intensity = source.intensity(w);
   return {source.origin(w), w, pdf > 0 ? intensity / pdf : Vec3(0)};
@@ -190,7 +194,8 @@ Particle aimBeam(const Transport& t, const Beam& beam, Vec2 u, float uTarget) {
   const Vec2 disk = spread * squareToDisk(u);
   const Vec3 across = centre + disk.x * frame.tangent + disk.y * frame.bitangent;
   float pdf = 0;  // per m^2 across the beam
-  if (glm::dot(across, across) <= radius * radius) pdf += kOrdinaryShare * kInvPi / (radius * radius);
+  if (glm::dot(across, across) <= radius * radius)
+    pdf += kOrdinaryShare * kInvPi / (radius * radius);
   for (const AimTarget& target : t.targets) {
     const Vec3 off = across - acrossBeam(t, beam, target);
     if (glm::dot(off, off) <= target.radius * target.radius)

@@ -1,16 +1,19 @@
 // emission.h: particles leave the lights, in the ordinary way or aimed at specular objects.
 //
-// Ordinary: emitter by power (probability P), then position and direction in proportion to what it emits:
+// Ordinary: emitter by power (probability P), then position and direction in proportion to what it
+// emits:
 //   triangle     A uniform, cos/pi         flux = sides pi A L / P
 //   point        uniform directions        flux = 4 pi I / P
 //   spot         uniform in the cone       flux = 2 pi (1-cos outer) I(omega) / P
 //   directional  disk of the scene's R     flux = pi R^2 E0 / P
 //   environment  directions, then disk     flux = 4 pi pi R^2 L / P
 //
-// Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q of the ordinary
-// density, with share kOrdinaryShare, and of the cones (disks) that the targets' bounds subtend:
+// Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q of the
+// ordinary density, with share kOrdinaryShare, and of the cones (disks) that the targets' bounds
+// subtend:
 //   flux = J(omega) / q(omega),  J = emitted W/sr (parallel light: W/m^2) divided by P.
-// So every direction that emits has density > 0, and no flux exceeds 1/kOrdinaryShare of the ordinary one.
+// So every direction that emits has density > 0, and no flux exceeds 1/kOrdinaryShare of the
+// ordinary one.
 //
 // Units: flux [W], not yet divided by the number of particles.
 // Source:  Jensen 1996 (projection maps, here as cones with a mixture density).
@@ -36,8 +39,8 @@ Particle emitParticle(const Transport& transport, Vec2 u01, Vec2 u23);
 // uTarget chooses between the ordinary emission and a target.
 Particle emitAimed(const Transport& transport, Vec2 u01, Vec2 u23, float uTarget);
 
-// A Lambertian source point, e.g. a D vertex of a light path: radiates `flux` with density cos/pi about
-// `normal`; the particle is aimed by the same mixture.
+// A Lambertian source point, e.g. a D vertex of a light path: radiates `flux` with density cos/pi
+// about `normal`; the particle is aimed by the same mixture.
 struct LambertSource {
   Vec3 position{0};
   Vec3 normal{0};

@@ -54,8 +54,8 @@ Radiance metEnvironment(const Transport& t, const Chain& c) {
 bool step(const Transport& t, Chain& c, Lobe lobe, const PixelSampler& sampler, uint32_t dimension,
           RayCounts& rays, Radiance& unfiltered) {
   const ShadingPoint& p = c.point;
-  const auto sample = sampleLobe(p.bsdf, lobe, p.localWo(), sampler.get2D(dimension),
-                                 sampler.get1D(dimension + 3));
+  const auto sample =
+      sampleLobe(p.bsdf, lobe, p.localWo(), sampler.get2D(dimension), sampler.get1D(dimension + 3));
   if (!sample) return false;
   const Vec3 wi = glm::normalize(p.frame.toWorld(sample->wi));
   // A direction on the wrong side of the real surface would leak light through it.
@@ -80,15 +80,15 @@ bool step(const Transport& t, Chain& c, Lobe lobe, const PixelSampler& sampler, 
 }
 
 void addToHash(Chain& c, Lobe lobe) {
-  c.hash = hashWords(c.hash, (static_cast<uint64_t>(c.point.surface.instance) << 1) |
-                                 static_cast<uint64_t>(lobe));
+  c.hash = hashWords(
+      c.hash, (static_cast<uint64_t>(c.point.surface.instance) << 1) | static_cast<uint64_t>(lobe));
 }
 
 }  // namespace
 
 EyePathEnd followLobe(const Transport& t, const ShadingPoint& first, Lobe lobe, float distance,
-                      const MediumStack& media, const PixelSampler& sampler, uint32_t firstDimension,
-                      RayCounts& rays) {
+                      const MediumStack& media, const PixelSampler& sampler,
+                      uint32_t firstDimension, RayCounts& rays) {
   Chain c;
   c.point = first, c.media = media, c.distance = distance;
   EyePathEnd end;

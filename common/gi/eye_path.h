@@ -1,17 +1,17 @@
-// eye_path.h: paths from the eye, E S* D. They split once, at the first hit, into one path for each lobe that
-// is there; later vertices pick one lobe at random.
+// eye_path.h: paths from the eye, E S* D. They split once, at the first hit, into one path for each
+// lobe that is there; later vertices pick one lobe at random.
 //
 //   layer radiance = throughput (rho/pi) E(x) gain + U
 //
-// throughput is the product of the lobes' weights, each in [0, 1]; gain = 1 / product of the probabilities of the
-// random choices, and goes into E and U, so that reflectance stays <= 1.
-// U gathers emission met along E S*, and at S vertices of non-zero roughness the lights sampled directly
-// (balance heuristic against meeting them by the lobe).
-// Chains longer than specular-depth end black.
+// throughput is the product of the lobes' weights, each in [0, 1]; gain = 1 / product of the
+// probabilities of the random choices, and goes into E and U, so that reflectance stays <= 1. U
+// gathers emission met along E S*, and at S vertices of non-zero roughness the lights sampled
+// directly (balance heuristic against meeting them by the lobe). Chains longer than specular-depth
+// end black.
 //
-// Dimensions of vertex j of a layer: 8j direction; 8j+2 choice of lobe; 8j+3 inside the lobe; 8j+4, 5 light.
-// Source:  Wald et al. 2002; DESIGN section 2.   Proved: tests/gi (glass in a furnace is invisible; mirrors).
-// Threads: pure functions.   Errors: none.
+// Dimensions of vertex j of a layer: 8j direction; 8j+2 choice of lobe; 8j+3 inside the lobe; 8j+4,
+// 5 light. Source:  Wald et al. 2002; DESIGN section 2.   Proved: tests/gi (glass in a furnace is
+// invisible; mirrors). Threads: pure functions.   Errors: none.
 #pragma once
 
 #include "common/base/counters.h"
@@ -23,20 +23,20 @@ namespace ninefold {
 
 // Where the path of one layer ended.
 struct EyePathEnd {
-  bool arrived = false;         // at a diffuse point x
-  ShadingPoint x;               // valid if arrived
-  Reflectance throughput{0};    // up to x
+  bool arrived = false;       // at a diffuse point x
+  ShadingPoint x;             // valid if arrived
+  Reflectance throughput{0};  // up to x
   float gain = 1;
-  float distance = 0;           // from the eye to x along the path [m]
-  uint16_t chain = 0;           // hash of first object and specular chain, never 0
-  Radiance unfiltered{0};       // U
+  float distance = 0;      // from the eye to x along the path [m]
+  uint16_t chain = 0;      // hash of first object and specular chain, never 0
+  Radiance unfiltered{0};  // U
 };
 
 // Follows `lobe` of the first hit, which lies `distance` from the eye, to the end of its chain.
 // firstDimension: 0 mod 8, apart from the other layers' dimensions by eyePathDimensions(settings).
-EyePathEnd followLobe(const Transport& transport, const ShadingPoint& first, Lobe lobe, float distance,
-                      const MediumStack& media, const PixelSampler& sampler, uint32_t firstDimension,
-                      RayCounts& rays);
+EyePathEnd followLobe(const Transport& transport, const ShadingPoint& first, Lobe lobe,
+                      float distance, const MediumStack& media, const PixelSampler& sampler,
+                      uint32_t firstDimension, RayCounts& rays);
 
 inline uint32_t eyePathDimensions(const Settings& settings) {
   return 8 * static_cast<uint32_t>(settings.specularDepth + 1);

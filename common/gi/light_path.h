@@ -1,14 +1,17 @@
-// light_path.h: the random walk of particles from the lights, written once. Visitors say what becomes of it.
+// light_path.h: the random walk of particles from the lights, written once. Visitors say what
+// becomes of it.
 //
-// At each hit the visitor is told; then one lobe is chosen, D or S, with probability in proportion to its
-// albedo, and the walk survives with the albedos' sum (largest channel, at most kMaxSurvival):
+// At each hit the visitor is told; then one lobe is chosen, D or S, with probability in proportion
+// to its albedo, and the walk survives with the albedos' sum (largest channel, at most
+// kMaxSurvival):
 //   flux *= lobe weight / probability
-// so flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's factor (see
-// shading.h); S lobes carry it for both directions.
+// so flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's
+// factor (see shading.h); S lobes carry it for both directions.
 //
-// Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival; 4j+3 inside the lobe.
-// Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
-// Threads: reentrant.   Errors: none. Walks end after kMaxVertices at the latest (survival 0.99^k is nil).
+// Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival; 4j+3
+// inside the lobe. Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
+// Threads: reentrant.   Errors: none. Walks end after kMaxVertices at the latest (survival 0.99^k
+// is nil).
 #pragma once
 
 #include "common/base/counters.h"
@@ -40,11 +43,13 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
   LobeChoice c;
   c.diffuse = maxComponent(bsdf.diffuse);
   if (bsdf.reflects) c.reflection = maxComponent(lobeAlbedo(bsdf, Lobe::reflection, cosThetaO));
-  if (bsdf.transmits()) c.transmission = maxComponent(lobeAlbedo(bsdf, Lobe::transmission, cosThetaO));
+  if (bsdf.transmits())
+    c.transmission = maxComponent(lobeAlbedo(bsdf, Lobe::transmission, cosThetaO));
   return c;
 }
 
-// Veach's factor of an S lobe for particles: |wo.ns wi.ng| / (|wo.ng wi.ns|), 0 if a normal disagrees.
+// Veach's factor of an S lobe for particles: |wo.ns wi.ng| / (|wo.ng wi.ns|), 0 if a normal
+// disagrees.
 inline float specularShadingFactor(const ShadingPoint& p, Vec3 wi, bool transmitted) {
   const float in = shadingFactor(p, p.wo);
   const float g = glm::dot(wi, p.ng), s = glm::dot(wi, p.frame.normal);
@@ -52,12 +57,12 @@ inline float specularShadingFactor(const ShadingPoint& p, Vec3 wi, bool transmit
   return agrees ? in * g / s : 0.0f;
 }
 
-// visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes on after S.
-// onlySpecular: the walk ends at its first D vertex.
+// visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes
+// on after S. onlySpecular: the walk ends at its first D vertex.
 template <typename Visit>
 void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
-                   const LightSampler& sampler, uint32_t index, uint32_t firstDimension, RayCounts& rays,
-                   Visit&& visit) {
+                   const LightSampler& sampler, uint32_t index, uint32_t firstDimension,
+                   RayCounts& rays, Visit&& visit) {
   bool fromSpecular = false;
   int specularRun = 0;
   for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
@@ -90,8 +95,10 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     u -= choice.diffuse;
     const Lobe lobe = u < choice.reflection ? Lobe::reflection : Lobe::transmission;
     const float probability = lobe == Lobe::reflection ? choice.reflection : choice.transmission;
-    if (u >= choice.reflection + choice.transmission || ++specularRun > t.settings.specularDepth) return;
-    const auto sample = sampleLobe(p.bsdf, lobe, p.localWo(), uDirection, sampler.get1D(index, d + 3));
+    if (u >= choice.reflection + choice.transmission || ++specularRun > t.settings.specularDepth)
+      return;
+    const auto sample =
+        sampleLobe(p.bsdf, lobe, p.localWo(), uDirection, sampler.get1D(index, d + 3));
     if (!sample) return;
     const Vec3 wi = glm::normalize(p.frame.toWorld(sample->wi));
     const bool transmitted = lobe == Lobe::transmission;

@@ -79,8 +79,8 @@ void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector
 template <typename Deposit>
 void walkIndirect(const Transport& t, SampleUse use, uint32_t randomization, int k, int pathsLog2,
                   RayCounts& rays, Deposit&& deposit) {
-  const LightSampler sampler(t.settings.seed, use, randomization, static_cast<uint32_t>(k), pathsLog2,
-                             t.settings.randomization);
+  const LightSampler sampler(t.settings.seed, use, randomization, static_cast<uint32_t>(k),
+                             pathsLog2, t.settings.randomization);
   for (uint32_t i = 0; i < 1u << pathsLog2; ++i) {
     const Particle start = emitParticle(t, sampler.get2D(i, 0), sampler.get2D(i, 2));
     walkLightPath(t, start, {}, 0, sampler, i, 4, rays, [&](const Arrival& a) {

@@ -1,18 +1,19 @@
-// light_set.h: the light of one interleaved set k: virtual point lights and caustic photons, a pure function
-// of (scene, settings, frame's randomization, k).
+// light_set.h: the light of one interleaved set k: virtual point lights and caustic photons, a pure
+// function of (scene, settings, frame's randomization, k).
 //
 // VPL kinds and their part of the irradiance at x, w = unit direction from x to the VPL:
-//   surface      V (Phi/pi) min(cos_x cos_y / d^2, b)      area emitters and D vertices of light paths
-//   point, spot  V I(w) cos_x / d^2                        never bounded
-//   directional  V E0 cos_x                                sun, and samples of the environment
+//   surface      V (Phi/pi) min(cos_x cos_y / d^2, b)      area emitters and D vertices of light
+//   paths point, spot  V I(w) cos_x / d^2                        never bounded directional  V E0
+//   cos_x                                sun, and samples of the environment
 //
-// Direct VPLs: N samples of the emitters in proportion to power; equal punctual ones are merged into one.
-// Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / 2^m. m is such that the
-// mean number of VPLs is nearest (in ratio) to the wanted one; walks are never cut to a count.
-// Caustic photons: see caustic_photons.h.
+// Direct VPLs: N samples of the emitters in proportion to power; equal punctual ones are merged
+// into one. Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / 2^m. m is
+// such that the mean number of VPLs is nearest (in ratio) to the wanted one; walks are never cut to
+// a count. Caustic photons: see caustic_photons.h.
 //
-// Source:  Keller 1997; Wald et al. 2002, section 4.   Proved: tests/gi (furnace, energy, order independence).
-// Threads: plain data once made; making is reentrant.   Owner: shared by the tasks of a set.
+// Source:  Keller 1997; Wald et al. 2002, section 4.   Proved: tests/gi (furnace, energy, order
+// independence). Threads: plain data once made; making is reentrant.   Owner: shared by the tasks
+// of a set.
 #pragma once
 
 #include <vector>
@@ -24,14 +25,15 @@ namespace ninefold {
 
 struct Vpl {
   enum class Kind : uint8_t { surface, point, spot, directional } kind = Kind::surface;
-  bool emits = false;       // surface: on an emitter (path length 1 at x)
-  Vec3 position{0};         // directional: unused
-  Vec3 normal{0};           // surface: of the emitting side; spot: axis; directional: where the light comes from
-  Vec3 power{0};            // surface: Phi/pi [W/sr]; point, spot: I [W/sr]; directional: E0 [W/m^2]
-  float error = 0;          // of position, see SurfacePoint
+  bool emits = false;  // surface: on an emitter (path length 1 at x)
+  Vec3 position{0};    // directional: unused
+  Vec3 normal{
+      0};  // surface: of the emitting side; spot: axis; directional: where the light comes from
+  Vec3 power{0};    // surface: Phi/pi [W/sr]; point, spot: I [W/sr]; directional: E0 [W/m^2]
+  float error = 0;  // of position, see SurfacePoint
   float coneScale = 0, coneOffset = 0;  // spot: falloff = clamp(cos * scale + offset)^2
-  int diffuseCount = 0;     // surface: D vertices of the light path up to here; 0 on an emitter
-  MediumStack media;        // surface: around the VPL
+  int diffuseCount = 0;  // surface: D vertices of the light path up to here; 0 on an emitter
+  MediumStack media;     // surface: around the VPL
 };
 
 struct LightSet {

@@ -1,10 +1,9 @@
 // media.h: which solid transmitting materials a path is inside of, innermost last, so that nested
 // dielectrics (a glass ball in water) meet with the right relative index of refraction.
 //
-// Air (index 1) is around everything. Entering pushes a material, leaving removes its innermost entry;
-// leaving what was never entered (a light or a camera inside glass) changes nothing. Deeper nests than
-// kMaxNested forget the outermost entry.
-// Threads: plain value.
+// Air (index 1) is around everything. Entering pushes a material, leaving removes its innermost
+// entry; leaving what was never entered (a light or a camera inside glass) changes nothing. Deeper
+// nests than kMaxNested forget the outermost entry. Threads: plain value.
 #pragma once
 
 namespace ninefold {

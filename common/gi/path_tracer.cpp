@@ -15,7 +15,7 @@ struct Path {
   Vec3 origin{0}, direction{0};
   MediumStack media;
   Vec3 throughput{1};
-  float lobePdf = 0;    // density of `direction`, 0 if it was the eye's or a smooth lobe's
+  float lobePdf = 0;  // density of `direction`, 0 if it was the eye's or a smooth lobe's
   int diffuseCount = 0;
   int specularRun = 0;
 };
@@ -31,7 +31,8 @@ LobeValue evaluateWay(const ShadingPoint& p, Way way, Vec3 w) {
   return {cosine * kInvPi * p.bsdf.diffuse, cosineHemispherePdf(cosine)};
 }
 
-Radiance directAtVertex(const Transport& t, const ShadingPoint& p, Way way, Vec2 u, RayCounts& rays) {
+Radiance directAtVertex(const Transport& t, const ShadingPoint& p, Way way, Vec2 u,
+                        RayCounts& rays) {
   if (way != Way::diffuse && p.bsdf.alpha == 0) return Radiance(0);
   const auto light = sampleLight(t, p, u);
   if (!light) return Radiance(0);
@@ -56,14 +57,15 @@ Radiance escaped(const Transport& t, const Path& path) {
 }
 
 // Chooses a way at p; its probability goes into the throughput. False: absorbed, or over a limit.
-bool chooseWay(const Transport& t, const ShadingPoint& p, float u, int vertex, Path& path, Way& way) {
+bool chooseWay(const Transport& t, const ShadingPoint& p, float u, int vertex, Path& path,
+               Way& way) {
   const LobeChoice albedo = albedoChoice(p.bsdf, p.localWo().z);
   const float sum = albedo.sum();
   if (sum <= 0) return false;
   const float survival = vertex <= kSureVertices ? 1.0f : std::min(sum, kMaxSurvival);
   if (u >= survival) return false;
   u *= sum / survival;
-  way = u < albedo.diffuse                      ? Way::diffuse
+  way = u < albedo.diffuse                       ? Way::diffuse
         : u < albedo.diffuse + albedo.reflection ? Way::reflection
                                                  : Way::transmission;
   const float share = way == Way::diffuse      ? albedo.diffuse
@@ -86,8 +88,9 @@ bool scatter(const Transport& t, const ShadingPoint& p, Way way, Vec2 u, float u
     path.throughput *= p.bsdf.diffuse;
     path.lobePdf = cosineHemispherePdf(local.z);
   } else {
-    const auto sample = sampleLobe(p.bsdf, way == Way::reflection ? Lobe::reflection : Lobe::transmission,
-                                   p.localWo(), u, uLobe);
+    const auto sample =
+        sampleLobe(p.bsdf, way == Way::reflection ? Lobe::reflection : Lobe::transmission,
+                   p.localWo(), u, uLobe);
     if (!sample) return false;
     w = p.frame.toWorld(sample->wi);
     path.throughput *= sample->weight;
@@ -109,7 +112,8 @@ Radiance tracePath(const Transport& t, Vec3 eye, Vec3 direction, const MediumSta
   Radiance sum(0);
   for (int vertex = 1; vertex < kMaxVertices; ++vertex) {
     ++rays.eye;
-    const Hit hit = t.tracer.closest(path.origin, path.direction, std::numeric_limits<float>::infinity());
+    const Hit hit =
+        t.tracer.closest(path.origin, path.direction, std::numeric_limits<float>::infinity());
     if (!hit) return sum + path.throughput * escaped(t, path);
     const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -path.direction, path.media);
     path.throughput *= t.shader.attenuation(p, path.media, hit.t);

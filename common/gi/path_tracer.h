@@ -1,16 +1,19 @@
-// path_tracer.h: the reference. One pixel's radiance by unbiased path tracing: lights sampled at each vertex
-// with multiple importance sampling, roulette, no bound on any term, no depth limit unless asked.
+// path_tracer.h: the reference. One pixel's radiance by unbiased path tracing: lights sampled at
+// each vertex with multiple importance sampling, roulette, no bound on any term, no depth limit
+// unless asked.
 //
-//   L = sum over vertices of  T (L_e weighted + lights sampled directly weighted),   T *= lobe weight / probability
+//   L = sum over vertices of  T (L_e weighted + lights sampled directly weighted),   T *= lobe
+//   weight / probability
 //
-// At each vertex one lobe, D or S, is chosen first, and both techniques work for that lobe alone: so D
-// vertices are counted exactly as by the virtual point lights, and path-length cuts both methods alike.
-// The first kSureVertices vertices survive for sure; later ones with the probability of the lobes' albedo.
-// It cannot find a caustic of a punctual light (L is a point, S is smooth): those paths are missing.
+// At each vertex one lobe, D or S, is chosen first, and both techniques work for that lobe alone:
+// so D vertices are counted exactly as by the virtual point lights, and path-length cuts both
+// methods alike. The first kSureVertices vertices survive for sure; later ones with the probability
+// of the lobes' albedo. It cannot find a caustic of a punctual light (L is a point, S is smooth):
+// those paths are missing.
 //
-// Dimensions of vertex j: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light. j starts at 1.
-// Source:  Kajiya 1986; Veach 1997.   Proved: tests/gi (furnace, polygon light, agreement with photons and VPLs).
-// Threads: pure functions.   Errors: none.
+// Dimensions of vertex j: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light. j starts
+// at 1. Source:  Kajiya 1986; Veach 1997.   Proved: tests/gi (furnace, polygon light, agreement
+// with photons and VPLs). Threads: pure functions.   Errors: none.
 #pragma once
 
 #include "common/base/counters.h"
@@ -19,7 +22,8 @@
 
 namespace ninefold {
 
-inline constexpr uint32_t kPathsPerPixel = 4;  // paths a pixel and frame, so that a task is worth its message
+inline constexpr uint32_t kPathsPerPixel =
+    4;  // paths a pixel and frame, so that a task is worth its message
 
 // Radiance that arrives at `eye` from unit `direction`.
 Radiance tracePath(const Transport& transport, Vec3 eye, Vec3 direction, const MediumStack& media,

@@ -1,10 +1,11 @@
-// photon_grid.h: photons in a hashed grid of cell size 2r: a sphere of radius r meets at most eight cells,
-// and a cell's photons lie side by side. Knows nothing of light: items are (position, index).
+// photon_grid.h: photons in a hashed grid of cell size 2r: a sphere of radius r meets at most eight
+// cells, and a cell's photons lie side by side. Knows nothing of light: items are (position,
+// index).
 //
-// Cells are hashed into a table of twice the photon count (a power of two). Two cells that collide share a
-// slot; a query visits each slot once, so nothing is met twice, and the distance test rejects strangers.
-// Coordinates: cells are numbered by 64-bit integers from floor(position / 2r), so negative and huge
-// coordinates are safe as long as |position| / 2r < 2^62.
+// Cells are hashed into a table of twice the photon count (a power of two). Two cells that collide
+// share a slot; a query visits each slot once, so nothing is met twice, and the distance test
+// rejects strangers. Coordinates: cells are numbered by 64-bit integers from floor(position / 2r),
+// so negative and huge coordinates are safe as long as |position| / 2r < 2^62.
 //
 // Source:  Teschner et al. 2003 (spatial hashing).   Proved: tests/gi (against brute force).
 // Threads: const after build.   Errors: none; an empty grid finds nothing.
@@ -53,7 +54,8 @@ class PhotonGrid {
   }
 
  private:
-  int slotsAround(Vec3 x, std::array<uint32_t, 8>& slots) const;  // distinct, sorted; returns how many
+  int slotsAround(Vec3 x,
+                  std::array<uint32_t, 8>& slots) const;  // distinct, sorted; returns how many
   uint32_t slotOf(int64_t cx, int64_t cy, int64_t cz) const;
   int64_t cell(float coordinate) const;
 

@@ -1,6 +1,5 @@
-// receivers.h: the points x of a task that gather irradiance, planar, so that sixteen go to one VPL at once.
-// One array a component; capacity is kept between tasks.
-// Threads: one thread's scratch.
+// receivers.h: the points x of a task that gather irradiance, planar, so that sixteen go to one VPL
+// at once. One array a component; capacity is kept between tasks. Threads: one thread's scratch.
 #pragma once
 
 #include <array>
@@ -27,10 +26,9 @@ class Receivers {
     pixel.clear();
   }
   void add(const Receiver& r) {
-    const float values[] = {r.position.x, r.position.y, r.position.z, r.ng.x,     r.ng.y,
-                            r.ng.z,       r.ns.x,       r.ns.y,       r.ns.z,     r.origin.x,
-                            r.origin.y,   r.origin.z,   r.gain,       0.0f,       0.0f,
-                            0.0f};
+    const float values[] = {
+        r.position.x, r.position.y, r.position.z, r.ng.x,     r.ng.y, r.ng.z, r.ns.x, r.ns.y,
+        r.ns.z,       r.origin.x,   r.origin.y,   r.origin.z, r.gain, 0.0f,   0.0f,   0.0f};
     size_t i = 0;
     for (auto* plane : planes()) plane->push_back(values[i++]);
     pixel.push_back(r.pixel);
@@ -46,12 +44,12 @@ class Receivers {
     for (auto* plane : planes()) plane->resize(wanted, plane->back());
   }
 
-  std::vector<float> px, py, pz;      // position [m]
-  std::vector<float> gx, gy, gz;      // geometric normal
-  std::vector<float> sx, sy, sz;      // shading normal
-  std::vector<float> ox, oy, oz;      // origin of shadow rays [m]
+  std::vector<float> px, py, pz;  // position [m]
+  std::vector<float> gx, gy, gz;  // geometric normal
+  std::vector<float> sx, sy, sz;  // shading normal
+  std::vector<float> ox, oy, oz;  // origin of shadow rays [m]
   std::vector<float> gain;
-  std::vector<float> er, eg, eb;      // gathered irradiance [W/m^2], without gain
+  std::vector<float> er, eg, eb;  // gathered irradiance [W/m^2], without gain
   std::vector<uint32_t> pixel;
 
  private:

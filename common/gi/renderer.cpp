@@ -5,7 +5,8 @@
 namespace ninefold {
 namespace {
 
-// Solids around the eye: those whose back face a ray to the outside meets first, from the inside out.
+// Solids around the eye: those whose back face a ray to the outside meets first, from the inside
+// out.
 MediumStack mediaAround(const Transport& t, Vec3 eye) {
   std::vector<int> outwards;
   MediumStack entered;
@@ -51,11 +52,14 @@ Renderer::Renderer(const Tracer& tracer, const Settings& settings)
 Renderer::~Renderer() = default;
 
 std::shared_ptr<const LightSet> Renderer::lightSet(const FrameKey& frame, int k) const {
-  if (impl_->transport.settings.method == Method::pathTrace) return std::make_shared<const LightSet>();
-  return std::make_shared<const LightSet>(makeLightSet(impl_->transport, frame, k, impl_->pathsLog2));
+  if (impl_->transport.settings.method == Method::pathTrace)
+    return std::make_shared<const LightSet>();
+  return std::make_shared<const LightSet>(
+      makeLightSet(impl_->transport, frame, k, impl_->pathsLog2));
 }
 
-void Renderer::render(const Task& task, const LightSet& lights, Scratch& scratch, TileResult& out) const {
+void Renderer::render(const Task& task, const LightSet& lights, Scratch& scratch,
+                      TileResult& out) const {
   renderTask(impl_->transport, impl_->eyeMedia, task, lights, scratch, out);
 }
 

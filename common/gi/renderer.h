@@ -2,8 +2,8 @@
 //
 // A Renderer is made once per scene and settings; after that everything is a pure function of its
 // arguments: any client makes the same light set and the same tile, bit for bit.
-// Threads: const functions are reentrant; each thread has its own Scratch. Owner: refers to the Tracer.
-// Errors: constructor throws Error for settings that the scene cannot serve.
+// Threads: const functions are reentrant; each thread has its own Scratch. Owner: refers to the
+// Tracer. Errors: constructor throws Error for settings that the scene cannot serve.
 #pragma once
 
 #include <memory>
@@ -32,7 +32,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Light set k of a frame. Costs 0.1 to some ms; share it among the tasks that use it (lightSetOfPhase).
+  // Light set k of a frame. Costs 0.1 to some ms; share it among the tasks that use it
+  // (lightSetOfPhase).
   std::shared_ptr<const LightSet> lightSet(const FrameKey& frame, int k) const;
 
   // Renders one task into `out`; lights = lightSet(task.frame, lightSetOfPhase(task.phase, ...)).
@@ -45,8 +46,8 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-// The pixel class of this process: a hash of a small probe scene rendered with `isa`, as 16 hex digits.
-// Clients with equal probes give equal bytes.
+// The pixel class of this process: a hash of a small probe scene rendered with `isa`, as 16 hex
+// digits. Clients with equal probes give equal bytes.
 std::string probeClass(Isa isa);
 
 }  // namespace ninefold

@@ -1,5 +1,5 @@
-// scratch.h: the working memory of one thread; nothing is allocated per pixel or ray once it has grown.
-// Threads: one owner at a time.
+// scratch.h: the working memory of one thread; nothing is allocated per pixel or ray once it has
+// grown. Threads: one owner at a time.
 #pragma once
 
 #include <array>

@@ -13,7 +13,8 @@ Vec3 attenuationCoefficient(const Material& m) {
   const auto sigma = [&](float colour) {
     return -std::log(std::clamp(colour, 1e-6f, 1.0f)) / m.attenuationDistance;
   };
-  return Vec3(sigma(m.attenuationColor.x), sigma(m.attenuationColor.y), sigma(m.attenuationColor.z));
+  return Vec3(sigma(m.attenuationColor.x), sigma(m.attenuationColor.y),
+              sigma(m.attenuationColor.z));
 }
 
 }  // namespace
@@ -22,7 +23,8 @@ MeanReflection::MeanReflection() {
   for (int i = 0; i <= kSteps; ++i) {
     const float roughness = static_cast<float>(i) / kSteps;
     const float alpha = roughness * roughness;
-    ends_[static_cast<size_t>(i)] = {meanReflection(Vec3(0), alpha).x, meanReflection(Vec3(1), alpha).x};
+    ends_[static_cast<size_t>(i)] = {meanReflection(Vec3(0), alpha).x,
+                                     meanReflection(Vec3(1), alpha).x};
   }
 }
 
@@ -48,7 +50,8 @@ Shader::Shader(const Scene& scene) : scene_(&scene) {
 }
 
 float Shader::indexOf(int material) const {
-  return material == MediumStack::kAir ? 1.0f : scene_->materials[static_cast<size_t>(material)].ior;
+  return material == MediumStack::kAir ? 1.0f
+                                       : scene_->materials[static_cast<size_t>(material)].ior;
 }
 
 Frame Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
@@ -62,7 +65,8 @@ Frame Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
     if (glm::dot(bent, bent) > 0) n = glm::normalize(bent);
   }
   if (glm::dot(s.geometricNormal, ng) < 0) n = -n;
-  // A shading normal that turns away from the viewer cannot carry a BSDF: the geometric one takes over.
+  // A shading normal that turns away from the viewer cannot carry a BSDF: the geometric one takes
+  // over.
   const bool usable = glm::dot(n, wo) > 1e-4f && glm::dot(n, ng) > 0;
   return Frame(usable ? n : ng);
 }
@@ -151,7 +155,8 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
 
 Vec3 Shader::attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const {
   const Material& m = scene_->materials[static_cast<size_t>(end.surface.material)];
-  const int inside = !end.front && m.solid && m.transmission > 0 ? end.surface.material : media.innermost();
+  const int inside =
+      !end.front && m.solid && m.transmission > 0 ? end.surface.material : media.innermost();
   if (inside == MediumStack::kAir) return Vec3(1);
   const Vec3 sigma = materials_[static_cast<size_t>(inside)].sigma;
   if (isBlack(sigma)) return Vec3(1);

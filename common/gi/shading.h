@@ -2,11 +2,12 @@
 //
 // Opaque      f0 = mix(((n-1)/(n+1))^2 specular, baseColor, metallic)
 //             D  = baseColor (1-metallic) (1 - mean reflection of the dielectric part)
-//             The mean, not the directional, albedo couples D to the lobe: D's weight stays free of directions.
-// Transmitting (KHR_materials_transmission): exact Fresnel; (1-F) T baseColor goes through, D keeps (1-T).
-// Folded      a lobe for which foldsIntoDiffuse holds adds its mean reflection to D and is gone.
-// Blended     every part times the opacity; the rest passes straight on.
-// Attenuation exp(-sigma t), sigma = -ln(attenuationColor)/attenuationDistance [1/m], inside solids.
+//             The mean, not the directional, albedo couples D to the lobe: D's weight stays free of
+//             directions.
+// Transmitting (KHR_materials_transmission): exact Fresnel; (1-F) T baseColor goes through, D keeps
+// (1-T). Folded      a lobe for which foldsIntoDiffuse holds adds its mean reflection to D and is
+// gone. Blended     every part times the opacity; the rest passes straight on. Attenuation
+// exp(-sigma t), sigma = -ln(attenuationColor)/attenuationDistance [1/m], inside solids.
 //
 // Source:  glTF 2.0, appendix B, and the KHR_materials extensions.
 // Threads: const, reentrant. Refers to the Scene.   Errors: none for valid scenes.
@@ -26,16 +27,17 @@ namespace ninefold {
 // A surface point seen from direction wo; normals are turned to wo's side.
 struct ShadingPoint {
   SurfacePoint surface;
-  Vec3 wo{0};                // unit, towards where the path came from
-  Vec3 ng{0};                // geometric normal on wo's side
+  Vec3 wo{0};                  // unit, towards where the path came from
+  Vec3 ng{0};                  // geometric normal on wo's side
   Frame frame{Vec3(0, 0, 1)};  // shading frame on wo's side: local wo.z > 0
   Bsdf bsdf;
-  bool front = true;         // wo is on the front side of the surface
+  bool front = true;  // wo is on the front side of the surface
 
   Vec3 localWo() const { return frame.toLocal(wo); }
 };
 
-// Mean reflection of the opaque lobe, linear in f0 for each roughness: a table, because every hit asks.
+// Mean reflection of the opaque lobe, linear in f0 for each roughness: a table, because every hit
+// asks.
 class MeanReflection {
  public:
   MeanReflection();
@@ -44,7 +46,7 @@ class MeanReflection {
  private:
   static constexpr int kSteps = 64;  // over sqrt(alpha), i.e. perceptual roughness
   struct Ends {
-    float black, white;              // for f0 = 0 and f0 = 1
+    float black, white;  // for f0 = 0 and f0 = 1
   };
   std::array<Ends, kSteps + 1> ends_;
 };
@@ -53,10 +55,12 @@ class Shader {
  public:
   explicit Shader(const Scene& scene);
 
-  // wo: unit, not in the surface's plane (dot(wo, geometricNormal) != 0). media: where wo's side is.
+  // wo: unit, not in the surface's plane (dot(wo, geometricNormal) != 0). media: where wo's side
+  // is.
   ShadingPoint shade(const SurfacePoint& surface, Vec3 wo, const MediumStack& media) const;
 
-  // Share of radiance left after `distance` metres inside the medium of a ray that ended on this point.
+  // Share of radiance left after `distance` metres inside the medium of a ray that ended on this
+  // point.
   Vec3 attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const;
 
   // The media after passing through the surface away from wo.
@@ -67,11 +71,11 @@ class Shader {
 
  private:
   struct Prepared {
-    bool folds = false;       // opaque reflection lobe goes into D
-    bool transmits = false;   // dielectric interface
-    bool specular = false;    // keeps any S lobe
-    Vec3 sigma{0};            // attenuation inside [1/m]
-    float meanFresnel = 0;    // of a transmitting material's interface
+    bool folds = false;      // opaque reflection lobe goes into D
+    bool transmits = false;  // dielectric interface
+    bool specular = false;   // keeps any S lobe
+    Vec3 sigma{0};           // attenuation inside [1/m]
+    float meanFresnel = 0;   // of a transmitting material's interface
   };
   float indexOf(int material) const;
   Frame shadingFrame(const SurfacePoint& surface, Vec3 ng, Vec3 wo) const;
@@ -86,8 +90,9 @@ class Shader {
   MeanReflection meanReflection_;
 };
 
-// The factor that a particle's flux takes for interpolated normals on arrival from unit direction w (away
-// from the surface): |w.ns| / |w.ng|, 0 where the two normals see w on different sides. Veach 1997, 5.3.
+// The factor that a particle's flux takes for interpolated normals on arrival from unit direction w
+// (away from the surface): |w.ns| / |w.ng|, 0 where the two normals see w on different sides. Veach
+// 1997, 5.3.
 inline float shadingFactor(const ShadingPoint& p, Vec3 w) {
   const float g = glm::dot(w, p.ng), s = glm::dot(w, p.frame.normal);
   return g * s <= 0 ? 0.0f : s / g;

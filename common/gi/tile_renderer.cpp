@@ -11,9 +11,13 @@ namespace {
 
 constexpr int kBlock = 4;  // a packet is a 4 x 4 block of the sub-plane
 
-void put(RgbPlane& plane, size_t i, Vec3 v) { plane.r[i] = v.x, plane.g[i] = v.y, plane.b[i] = v.z; }
+void put(RgbPlane& plane, size_t i, Vec3 v) {
+  plane.r[i] = v.x, plane.g[i] = v.y, plane.b[i] = v.z;
+}
 
-void add(RgbPlane& plane, size_t i, Vec3 v) { plane.r[i] += v.x, plane.g[i] += v.y, plane.b[i] += v.z; }
+void add(RgbPlane& plane, size_t i, Vec3 v) {
+  plane.r[i] += v.x, plane.g[i] += v.y, plane.b[i] += v.z;
+}
 
 // One task's constants, so that the functions below stay short.
 struct TaskContext {
@@ -29,14 +33,15 @@ struct TaskContext {
 
   PixelSampler sampler(int x, int y) const {
     return PixelSampler(t.settings.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
-                        static_cast<uint32_t>(y), task.frame.randomization, t.settings.randomization);
+                        static_cast<uint32_t>(y), task.frame.randomization,
+                        t.settings.randomization);
   }
   int pixelX(int i) const { return grid.pixelX(task.phase, rect.i0 + i); }
   int pixelY(int j) const { return grid.pixelY(task.phase, rect.j0 + j); }
 };
 
-void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel, Reflectance throughput,
-                 float gain, float distance, uint16_t chain) {
+void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
+                 Reflectance throughput, float gain, float distance, uint16_t chain) {
   Receiver r;
   r.position = x.surface.position, r.ng = x.ng, r.ns = x.frame.normal;
   r.origin = offsetOrigin(x.surface, x.ng);
@@ -128,7 +133,8 @@ void gatherLayer(TaskContext& c, int layer) {
     const size_t pixel = receivers.pixel[i];
     Irradiance e(receivers.er[i], receivers.eg[i], receivers.eb[i]);
     if (!c.lights.photons.empty()) {
-      const Irradiance caustic = gatherPhotons(c.lights.photons, receivers.position(i), receivers.ng(i));
+      const Irradiance caustic =
+          gatherPhotons(c.lights.photons, receivers.position(i), receivers.ng(i));
       if (wantsCaustic) add(c.out.extras.caustic, pixel, caustic);
       e += caustic;
     }
@@ -143,8 +149,8 @@ void pathTracePixel(TaskContext& c, int i, int j) {
   Radiance sum(0);
   for (uint32_t path = 0; path < kPathsPerPixel; ++path) {
     const PixelSampler sampler(s.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
-                               static_cast<uint32_t>(y), c.task.frame.randomization * kPathsPerPixel + path,
-                               s.randomization);
+                               static_cast<uint32_t>(y),
+                               c.task.frame.randomization * kPathsPerPixel + path, s.randomization);
     const Vec2 offset = s.jitter ? sampler.get2D(0) : Vec2(0.5f);
     const Vec3 direction =
         c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
@@ -165,14 +171,14 @@ void radiosityTask(TaskContext& c) {
 
 }  // namespace
 
-void renderTask(const Transport& t, const MediumStack& eyeMedia, const Task& task, const LightSet& lights,
-                Scratch& scratch, TileResult& out) {
+void renderTask(const Transport& t, const MediumStack& eyeMedia, const Task& task,
+                const LightSet& lights, Scratch& scratch, TileResult& out) {
   const Settings& s = t.settings;
   const TileGrid grid(s.width, s.height, s.interleave);
   const TaskRect rect = grid.rect(task.tile, task.phase);
   out.reset(rect.width, rect.height, layerMaskOf(t.needs, s.method), task.extraMask);
-  TaskContext c{t,    eyeMedia, task, lights, rect, grid, CameraRays(s.camera, s.width, s.height),
-                scratch, out};
+  TaskContext c{
+      t, eyeMedia, task, lights, rect, grid, CameraRays(s.camera, s.width, s.height), scratch, out};
   if (s.method == Method::instantRadiosity) return radiosityTask(c);
   for (int j = 0; j < rect.height; ++j)
     for (int i = 0; i < rect.width; ++i) pathTracePixel(c, i, j);

@@ -30,12 +30,13 @@ Bounds joined(Bounds a, const Bounds& b) {
   return a;
 }
 
-// Joins the two boxes whose union grows least, until few enough are left. Candidates are thinned first by
-// joining neighbours in file order, so that thousands of objects cost no cubic time.
+// Joins the two boxes whose union grows least, until few enough are left. Candidates are thinned
+// first by joining neighbours in file order, so that thousands of objects cost no cubic time.
 void mergeTo(std::vector<Bounds>& boxes, size_t limit) {
   while (boxes.size() > 8 * limit) {
     std::vector<Bounds> halved;
-    for (size_t i = 0; i + 1 < boxes.size(); i += 2) halved.push_back(joined(boxes[i], boxes[i + 1]));
+    for (size_t i = 0; i + 1 < boxes.size(); i += 2)
+      halved.push_back(joined(boxes[i], boxes[i + 1]));
     if (boxes.size() % 2 == 1) halved.push_back(boxes.back());
     boxes = std::move(halved);
   }

@@ -1,6 +1,6 @@
-// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters, the bound of
-// the geometry term, and the targets that caustic photons aim at.
-// Threads: const after construction. Refers to the Tracer and its Scene.
+// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters, the
+// bound of the geometry term, and the targets that caustic photons aim at. Threads: const after
+// construction. Refers to the Tracer and its Scene.
 #pragma once
 
 #include <vector>
@@ -28,9 +28,9 @@ struct Transport {
   Shader shader;
   Emitters emitters;
   Needs needs;
-  float bound;                       // b = c/R^2 [1/m^2]
-  Metres farRounding;                // how far a ray across the scene may err at its end, see math/rounding.h
-  std::vector<AimTarget> targets;    // empty if nothing is specular; at most kMaxTargets
+  float bound;         // b = c/R^2 [1/m^2]
+  Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
+  std::vector<AimTarget> targets;  // empty if nothing is specular; at most kMaxTargets
 
   static constexpr size_t kMaxTargets = 16;
 

@@ -1,18 +1,18 @@
 // vpl_gather.h: irradiance at many receivers from the virtual point lights of one light set.
 //
-//     E(x) = sum_i V(x, y_i) (Phi_i/pi) min(G, b) cos_s/cos_x        surface VPLs              [W/m^2]
+//     E(x) = sum_i V(x, y_i) (Phi_i/pi) min(G, b) cos_s/cos_x        surface VPLs [W/m^2]
 //            + sum_i V I_i(w) cos_s / d^2                            point and spot lights
 //            + sum_i V E0_i cos_s                                    directional lights
 //
-//   G       cos_x cos_y / d^2 with geometric normals                                          [1/m^2]
-//   b       bound of G: the energy above it is missing here (compensation gives it back)      [1/m^2]
-//   cos_s   cosine at x with the shading normal; both cosines at x must be positive
-//   V       1 if the segment is free (one shadow ray), between origins moved off the two surfaces
+//   G       cos_x cos_y / d^2 with geometric normals [1/m^2] b       bound of G: the energy above
+//   it is missing here (compensation gives it back)      [1/m^2] cos_s   cosine at x with the
+//   shading normal; both cosines at x must be positive V       1 if the segment is free (one shadow
+//   ray), between origins moved off the two surfaces
 //
-// VPL-major, sixteen receivers to one VPL a packet; lanes without contribution cast no ray. Sums run in
-// the VPLs' order for each receiver.
-// Source:  Keller 1997; Wald et al. 2002.   Proved: tests/gi (plates, polygon light, bound only takes away).
-// Threads: reentrant.   Errors: none; a receiver on a VPL (d = 0) gets nothing from it.
+// VPL-major, sixteen receivers to one VPL a packet; lanes without contribution cast no ray. Sums
+// run in the VPLs' order for each receiver. Source:  Keller 1997; Wald et al. 2002.   Proved:
+// tests/gi (plates, polygon light, bound only takes away). Threads: reentrant.   Errors: none; a
+// receiver on a VPL (d = 0) gets nothing from it.
 #pragma once
 
 #include "common/gi/light_set.h"
@@ -20,7 +20,8 @@
 
 namespace ninefold {
 
-// Adds to receivers.er/eg/eb; receivers must be padded to kPacket. `shadowRays` counts active lanes.
+// Adds to receivers.er/eg/eb; receivers must be padded to kPacket. `shadowRays` counts active
+// lanes.
 void gatherVpls(const Transport& transport, const std::vector<Vpl>& vpls, Receivers& receivers,
                 uint64_t& shadowRays);
 

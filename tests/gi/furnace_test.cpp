@@ -1,6 +1,7 @@
-// The white furnace: in a closed room whose walls have albedo a and emit radiance 1, every point sees
-//     L = 1 + a + a^2 + ... = 1/(1-a)      and, with at most n diffuse vertices a path, the partial sum
-//     L_n = 1 + a + ... + a^n.
+// The white furnace: in a closed room whose walls have albedo a and emit radiance 1, every point
+// sees
+//     L = 1 + a + a^2 + ... = 1/(1-a)      and, with at most n diffuse vertices a path, the partial
+//     sum L_n = 1 + a + ... + a^n.
 #include <gtest/gtest.h>
 
 #include "tests/gi/make_scene.h"
@@ -29,7 +30,8 @@ TEST(Furnace, PathTracerMeetsTheGeometricSeries) {
     const Scene scene = furnace(a);
     const Tracer tracer(scene, Isa::automatic);
     const auto image = testing::render(tracer, testing::small(Method::pathTrace), 16);
-    EXPECT_NEAR(image.grey(), 1 / (1 - static_cast<double>(a)), 4 * image.error() + 1e-5) << "albedo " << a;
+    EXPECT_NEAR(image.grey(), 1 / (1 - static_cast<double>(a)), 4 * image.error() + 1e-5)
+        << "albedo " << a;
   }
 }
 
@@ -57,7 +59,8 @@ TEST(Furnace, VirtualPointLightsMeetTheGeometricSeries) {
     s.bound = 1e5f;
     s.directVpls = 64, s.indirectVpls = 256;
     const auto image = testing::render(tracer, s, 24);
-    EXPECT_NEAR(image.grey(), 1 / (1 - static_cast<double>(a)), 4 * image.error() + 1e-5) << "albedo " << a;
+    EXPECT_NEAR(image.grey(), 1 / (1 - static_cast<double>(a)), 4 * image.error() + 1e-5)
+        << "albedo " << a;
     EXPECT_LT(image.error(), 0.02 * image.grey());
   }
 }
@@ -77,7 +80,8 @@ TEST(Furnace, VirtualPointLightsStopAtThePathLength) {
   }
 }
 
-// Basic radiance: a clear dielectric in a furnace changes nothing, seen from outside or from inside.
+// Basic radiance: a clear dielectric in a furnace changes nothing, seen from outside or from
+// inside.
 TEST(Furnace, GlassBallIsInvisible) {
   for (const bool inside : {false, true}) {
     for (const Method method : {Method::pathTrace, Method::instantRadiosity}) {

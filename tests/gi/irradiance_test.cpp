@@ -1,5 +1,5 @@
-// Irradiance against closed forms, gathered by the product's own code: emitters become VPLs of many sets,
-// a single receiver gathers them.
+// Irradiance against closed forms, gathered by the product's own code: emitters become VPLs of many
+// sets, a single receiver gathers them.
 #include <gtest/gtest.h>
 
 #include "common/gi/light_set.h"
@@ -24,7 +24,8 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
   const Transport transport(tracer, settings);
   double sum = 0, squares = 0;
   for (int i = 0; i < sets; ++i) {
-    const LightSet lights = makeLightSet(transport, FrameKey{0, static_cast<uint32_t>(i), 0, 0.1f}, i % 9, -1);
+    const LightSet lights =
+        makeLightSet(transport, FrameKey{0, static_cast<uint32_t>(i), 0, 0.1f}, i % 9, -1);
     Receivers receivers;
     receivers.add(Receiver{x, n, n, x + 1e-5f * n, 0, 1});
     receivers.pad(kPacket);
@@ -39,7 +40,8 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
 
 // A far, tiny triangle gives the scene geometry and the bounds some size without blocking anything.
 void addSpeck(SceneBuilder& b) {
-  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-5, -5, -5), Vec3(0.01f, 0, 0), Vec3(0, 0, 0.01f));
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-5, -5, -5), Vec3(0.01f, 0, 0),
+         Vec3(0, 0, 0.01f));
 }
 
 // Lambert's formula for a polygon: E = L/2 sum gamma_i cos_i over its edges.
@@ -79,7 +81,8 @@ TEST(Irradiance, FrontOnlyUnlessDoubleSided) {
     b.quad(b.material(lamp), Vec3(-1, 0, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));  // front looks down
     addSpeck(b);
     const Scene scene = b.build();
-    const double full = 2 * lambert({{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, {0, 1, 0}, {0, 1, 0});
+    const double full =
+        2 * lambert({{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, {0, 1, 0}, {0, 1, 0});
     const Measured below = irradianceAt(scene, Vec3(0, -1, 0), Vec3(0, 1, 0));
     const Measured above = irradianceAt(scene, Vec3(0, 1, 0), Vec3(0, -1, 0));
     EXPECT_NEAR(below.mean, full, 4 * below.error + 1e-5);
@@ -103,7 +106,8 @@ TEST(Irradiance, PunctualLightsAreExact) {
   // glTF's spot: falloff ((cos - cos outer) / (cos inner - cos outer))^2.
   lamp.kind = LightKind::spot, lamp.innerCone = 0.2f, lamp.outerCone = 0.7f;
   const double ramp = (cosine - std::cos(0.7)) / (std::cos(0.2) - std::cos(0.7));
-  EXPECT_NEAR(irradianceAt(withLight(), x, Vec3(0, 1, 0)).mean, 5 * cosine / d2 * ramp * ramp, 1e-5);
+  EXPECT_NEAR(irradianceAt(withLight(), x, Vec3(0, 1, 0)).mean, 5 * cosine / d2 * ramp * ramp,
+              1e-5);
   EXPECT_EQ(irradianceAt(withLight(), Vec3(3, 0, 0), Vec3(0, 1, 0)).mean, 0);
 
   lamp.kind = LightKind::directional, lamp.direction = glm::normalize(Vec3(1, -1, 0));

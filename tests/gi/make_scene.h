@@ -31,7 +31,8 @@ class SceneBuilder {
     scene_.materials.push_back(m);
     return static_cast<int>(scene_.materials.size()) - 1;
   }
-  // Quadrilateral origin, origin + u, origin + u + v, origin + v; the front looks along cross(u, v).
+  // Quadrilateral origin, origin + u, origin + u + v, origin + v; the front looks along cross(u,
+  // v).
   SceneBuilder& quad(int material, Vec3 origin, Vec3 u, Vec3 v) {
     Mesh mesh;
     mesh.positions = {origin, origin + u, origin + u + v, origin + v};
@@ -61,7 +62,8 @@ class SceneBuilder {
       for (int c = 0; c <= columns; ++c) {
         const float theta = kPi * static_cast<float>(r) / static_cast<float>(rings);
         const float phi = 2 * kPi * static_cast<float>(c) / static_cast<float>(columns);
-        const Vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta), -std::sin(theta) * std::sin(phi));
+        const Vec3 n(std::sin(theta) * std::cos(phi), std::cos(theta),
+                     -std::sin(theta) * std::sin(phi));
         mesh.positions.push_back(centre + radius * n);
         mesh.normals.push_back(inwards ? -n : n);
       }
@@ -86,7 +88,8 @@ class SceneBuilder {
   }
   SceneBuilder& camera(Vec3 eye, Vec3 target, float fov = 0.8f, Vec3 up = Vec3(0, 1, 0)) {
     Camera c;
-    c.name = "test", c.eye = eye, c.forward = glm::normalize(target - eye), c.up = up, c.verticalFov = fov;
+    c.name = "test", c.eye = eye, c.forward = glm::normalize(target - eye), c.up = up,
+    c.verticalFov = fov;
     scene_.cameras = {c};
     return *this;
   }

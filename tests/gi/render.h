@@ -10,8 +10,8 @@ namespace ninefold::testing {
 
 struct Rendered {
   int width = 0, height = 0;
-  std::vector<Vec3> pixels;      // mean over frames, row-major
-  std::vector<double> means;     // mean of each frame's image, average of the channels
+  std::vector<Vec3> pixels;   // mean over frames, row-major
+  std::vector<double> means;  // mean of each frame's image, average of the channels
   RayCounts rays;
 
   Vec3 mean() const {
@@ -33,7 +33,9 @@ struct Rendered {
   }
 };
 
-inline Vec3 pixelAt(const RgbPlane& plane, size_t i) { return Vec3(plane.r[i], plane.g[i], plane.b[i]); }
+inline Vec3 pixelAt(const RgbPlane& plane, size_t i) {
+  return Vec3(plane.r[i], plane.g[i], plane.b[i]);
+}
 
 // Unfiltered: layers composed as reflectance * E + U.
 inline Rendered render(const Tracer& tracer, Settings settings, int frames) {
@@ -49,7 +51,8 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames) {
     const FrameKey key{frame, frame, frame, settings.photonRadius * tracer.scene().bounds.radius()};
     double sum = 0;
     for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
-      const auto lights = renderer.lightSet(key, lightSetOfPhase(phase, frame, settings.interleave.sets()));
+      const auto lights =
+          renderer.lightSet(key, lightSetOfPhase(phase, frame, settings.interleave.sets()));
       for (int t = 0; t < grid.tiles(); ++t) {
         renderer.render(Task{key, t, phase, 0}, *lights, *scratch, tile);
         out.rays += tile.rays;
@@ -60,7 +63,8 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames) {
           for (int layer = 0; layer < kLayers; ++layer) {
             if (!hasLayer(tile.layerMask, layer)) continue;
             const LayerPlanes& planes = tile.layers[static_cast<size_t>(layer)];
-            l += pixelAt(planes.reflectance, i) * pixelAt(planes.irradiance, i) + pixelAt(planes.unfiltered, i);
+            l += pixelAt(planes.reflectance, i) * pixelAt(planes.irradiance, i) +
+                 pixelAt(planes.unfiltered, i);
           }
           const int x = grid.pixelX(phase, rect.i0 + p % rect.width);
           const int y = grid.pixelY(phase, rect.j0 + p / rect.width);

@@ -151,5 +151,14 @@ TEST(RobustOrigin, MovesByLessThanAHundredthOfAMillimetreInARoom) {
   }
 }
 
+// Coordinates that are exactly zero round by nothing, and still the origin must leave the plane.
+TEST(RobustOrigin, LeavesAPlaneWhoseCoordinateIsZero) {
+  const Scene flat = sceneOf({square()});
+  const Tracer tracer(flat, Isa::automatic);
+  const SurfacePoint p = tracer.surface({0, 0, 0.25f, 0.25f, 0});
+  for (const Vec3 d : {Vec3(0, 0, 1), Vec3(0.6f, 0, 0.8f), Vec3(0, 0.6f, -0.8f)})
+    EXPECT_FALSE(tracer.occluded(offsetOrigin(p, d), d, 1e6f)) << d.x << " " << d.y << " " << d.z;
+}
+
 }  // namespace
 }  // namespace ninefold
