@@ -29,8 +29,9 @@ struct ImagePlane {
 // See surface_test.h. n is turned towards the eye, so n . v < 0.
 SurfaceGuide guideOf(const ImagePlane& plane, Vec3 v, Vec3 n, float d) {
   const float length = std::sqrt(glm::dot(v, v));
-  const float hit = static_cast<float>(d > 0);  // arithmetic instead of a branch: vectorised
-  const float u = hit * length / (d + (1 - hit));
+  // No test of d itself: the compiler would make it a branch and not vectorise.
+  const float inverse = length / std::max(d, 1e-30f);
+  const float u = inverse < 1e20f ? inverse : 0.0f;
   const float slope = u / std::min(glm::dot(n, v), -kGrazingCosine * length);
   const float gradX = slope * glm::dot(n, plane.stepX), gradY = slope * glm::dot(n, plane.stepY);
   const float slack = std::abs(gradX) + std::abs(gradY) + kFootprints * plane.footprint * u;
