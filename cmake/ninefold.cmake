@@ -3,6 +3,13 @@
 # docs/architecture.md, held by scripts/check_layers.
 
 find_package(Threads REQUIRED)
+find_program(NINEFOLD_CCACHE ccache)
+if(NINEFOLD_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${NINEFOLD_CCACHE})
+endif()
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
 
 # x86-64-v3 for our own code everywhere; Embree picks AVX-512 at run time. No fast-math, and no
 # contraction: the same source expression must give the same bits in every function it is inlined to.

@@ -1,5 +1,6 @@
 #include "common/tracing/packet.h"
 
+#include <bit>
 #include <cstddef>
 #include <cstring>
 
@@ -28,6 +29,11 @@ struct alignas(64) LaneMask {
   }
 };
 
+// Without their sign, floats are ordered as their bits are, and NaN comes after infinity.
+uint32_t magnitude(float x) { return std::bit_cast<uint32_t>(x) & 0x7fffffffu; }
+constexpr uint32_t kMaxMagnitude = std::bit_cast<uint32_t>(kMaxCoordinate);
+constexpr uint32_t kInfinity = 0x7f800000u;
+
 // Copies `fields` planes of eight lanes between a packet of 8 and a half of a packet of 16.
 void copyHalf(void* eight, const void* sixteen, int half, size_t fields) {
   for (size_t field = 0; field < fields; ++field)
@@ -51,23 +57,25 @@ void intersectHalf(RTCScene scene, const int* valid, int half, RTCRayHit16& quer
 
 }  // namespace
 
-bool traceable(Vec3 origin, Vec3 direction, float tFar) {
-  const auto small = [](float x) { return std::abs(x) < kMaxCoordinate; };
-  return small(origin.x) && small(origin.y) && small(origin.z) && small(direction.x) &&
-         small(direction.y) && small(direction.z) && !std::isnan(tFar);
-}
-
 uint32_t traceable(const RayPacket& rays, uint32_t active) {
-  uint32_t good[kPacket];
+  uint32_t bits[kPacket];
   for (int i = 0; i < kPacket; ++i) {
-    const auto small = [](float x) { return uint32_t(std::abs(x) < kMaxCoordinate); };
-    good[i] = small(rays.originX[i]) & small(rays.originY[i]) & small(rays.originZ[i]) &
-              small(rays.directionX[i]) & small(rays.directionY[i]) & small(rays.directionZ[i]) &
-              uint32_t(rays.nearT[i] == rays.nearT[i]) & uint32_t(rays.farT[i] == rays.farT[i]);
+    const uint32_t largest =
+        std::max({magnitude(rays.originX[i]), magnitude(rays.originY[i]),
+                  magnitude(rays.originZ[i]), magnitude(rays.directionX[i]),
+                  magnitude(rays.directionY[i]), magnitude(rays.directionZ[i])});
+    const uint32_t ends = std::max(magnitude(rays.nearT[i]), magnitude(rays.farT[i]));
+    bits[i] = largest < kMaxMagnitude && ends <= kInfinity ? 1u << i : 0u;
   }
   uint32_t lanes = 0;
-  for (int i = 0; i < kPacket; ++i) lanes |= good[i] << i;
+  for (int i = 0; i < kPacket; ++i) lanes |= bits[i];
   return lanes & active;
+}
+
+bool traceable(Vec3 origin, Vec3 direction, float tFar) {
+  const auto small = [](float x) { return magnitude(x) < kMaxMagnitude; };
+  return small(origin.x) && small(origin.y) && small(origin.z) && small(direction.x) &&
+         small(direction.y) && small(direction.z) && magnitude(tFar) <= kInfinity;
 }
 
 void intersectPacket(RTCScene scene, bool wide, const RayPacket& rays, uint32_t active,
