@@ -96,7 +96,7 @@ Albedo mirrorAlbedo(float cosThetaO, float alpha) {
 
 // Mean weight over a few fixed samples; the straight pass is added by itself.
 Reflectance meanWeight(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
-  constexpr int kGrid = 4;
+  constexpr int kGrid = 2;
   Bsdf interface = bsdf;
   interface.passThrough = 0;
   Vec3 sum(0.0f);

@@ -63,8 +63,8 @@ struct LobeValue {
 };
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi);
 
-// Directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1], within
-// 0.05. Exact for smooth lobes, a table for opaque ones, 16 fixed samples for rough dielectrics.
+// Directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1]. Exact for
+// smooth lobes, a table within 0.04 for opaque ones, four samples within 0.1 for rough dielectrics.
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO);
 
 // Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what folding a lobe that

@@ -17,7 +17,7 @@ struct Case {
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (const float cosine : {0.05f, 0.2f, 0.95f}) {
+  for (const float cosine : {0.05f, 0.95f}) {
     for (const float alpha : {0.1f, 0.35f, 1.0f}) {
       const std::string at = " alpha " + std::to_string(alpha) + " cos " + std::to_string(cosine);
       // A direction off the axes, so that a swapped x and y shows.
@@ -39,8 +39,7 @@ std::vector<Case> cases() {
 // Cells of equal size in height and azimuth around an axis across the plane of incidence: there the
 // lobes lie on the equator, where cells are square, and the surface, where densities end, lies on
 // cell borders.
-constexpr size_t kRows = 48, kColumns = 48;
-constexpr int kFine = 12;  // quadrature points per cell and axis
+constexpr size_t kRows = 40, kColumns = 40;
 const Vec3 kAxis(0.8f, -0.6f, 0), kForward(0.6f, 0.8f, 0);
 
 Vec3 sphere(double u, double v) {
@@ -57,35 +56,47 @@ size_t cellOf(Vec3 w) {
 }
 
 struct Integral {
-  std::vector<double> mass;  // of the density in each cell
-  DVec3 value{0};            // of f |cos|
+  double mass = 0;  // of the density
+  DVec3 value{0};   // of f |cos|
+  double least = 1e30, most = 0;
 };
 
-Integral integrate(const Case& c) {
+Integral integrateCell(const Case& c, size_t k, int fine) {
   Integral result;
-  const double cell = 4 * M_PI / (kRows * kColumns * kFine * kFine);
-  for (size_t k = 0; k < kRows * kColumns; ++k) {
-    double mass = 0;
-    for (int q = 0; q < kFine * kFine; ++q) {
-      const double u = (double(k / kColumns) + (q / kFine + 0.5) / kFine) / kRows;
-      const double v = (double(k % kColumns) + (q % kFine + 0.5) / kFine) / kColumns;
-      const LobeValue value = evaluateLobe(c.bsdf, c.lobe, c.wo, sphere(u, v));
-      mass += value.pdf * cell;
-      result.value += DVec3(value.value) * cell;
-    }
-    result.mass.push_back(mass);
+  const double area = 4 * M_PI / double(kRows * kColumns) / (fine * fine);
+  for (int q = 0; q < fine * fine; ++q) {
+    const double u = (double(k / kColumns) + (q / fine + 0.5) / fine) / kRows;
+    const double v = (double(k % kColumns) + (q % fine + 0.5) / fine) / kColumns;
+    const LobeValue value = evaluateLobe(c.bsdf, c.lobe, c.wo, sphere(u, v));
+    result.mass += value.pdf * area;
+    result.value += DVec3(value.value) * area;
+    result.least = std::min<double>(result.least, value.pdf);
+    result.most = std::max<double>(result.most, value.pdf);
   }
   return result;
+}
+
+// Densities of refraction end abruptly where normals would point below the surface, and narrow
+// lobes vary inside a cell: such cells get a finer rule.
+Integral integrateCell(const Case& c, size_t k) {
+  const Integral coarse = integrateCell(c, k, 6);
+  const bool flat = coarse.least > 0.7 * coarse.most || coarse.mass < 1e-5;
+  return flat ? coarse : integrateCell(c, k, 32);
 }
 
 TEST(LobeDensity, SamplesFollowTheirDensityAndWeightsIntegrateToTheValue) {
   const std::vector<Case> all = cases();
   constexpr uint32_t kSamples = 40000;
   for (const Case& c : all) {
-    const Integral integral = integrate(c);
     std::vector<double> observed(kRows * kColumns + 1), expected;
     double inside = 0;
-    for (const double mass : integral.mass) expected.push_back(mass * kSamples), inside += mass;
+    DVec3 value(0);
+    for (size_t k = 0; k < kRows * kColumns; ++k) {
+      const Integral cell = integrateCell(c, k);
+      expected.push_back(cell.mass * kSamples);
+      inside += cell.mass;
+      value += cell.value;
+    }
     // Samples below the surface, at total reflection, or of the straight pass have no density here.
     expected.push_back(std::max(0.0, 1 - inside) * kSamples);
     EXPECT_LT(inside, 1.01) << c.name;
@@ -97,7 +108,7 @@ TEST(LobeDensity, SamplesFollowTheirDensityAndWeightsIntegrateToTheValue) {
       if (counts) weights += DVec3(s->weight) / double(kSamples);
     }
     EXPECT_GT(chiSquareP(observed, expected), sidak(0.01, int(all.size()))) << c.name;
-    EXPECT_LT(glm::length(weights - integral.value), 0.02) << c.name;
+    EXPECT_LT(glm::length(weights - value), 0.02) << c.name;
   }
 }
 

@@ -98,15 +98,16 @@ double correlation(uint32_t n, const std::function<Vec2(uint32_t)>& pair) {
 // share a sixteenth of dimension `a` meet by chance only, once in 16 times, in a dimension of
 // another replication.
 double meetings(const LightSampler& sampler, uint32_t a, uint32_t b) {
-  const auto cell = [&](uint32_t i, uint32_t d) {
-    return static_cast<int>(16 * sampler.get1D(i, d));
-  };
-  int pairs = 0, met = 0;
+  std::vector<std::pair<int, int>> cells;
   for (uint32_t i = 0; i < 256; ++i) {
-    for (uint32_t k = i + 1; k < 256; ++k) {
-      if (cell(i, a) != cell(k, a)) continue;
+    cells.emplace_back(16 * sampler.get1D(i, a), 16 * sampler.get1D(i, b));
+  }
+  int pairs = 0, met = 0;
+  for (size_t i = 0; i < cells.size(); ++i) {
+    for (size_t k = i + 1; k < cells.size(); ++k) {
+      if (cells[i].first != cells[k].first) continue;
       ++pairs;
-      met += cell(i, b) == cell(k, b);
+      met += cells[i].second == cells[k].second;
     }
   }
   return double(met) / pairs;
