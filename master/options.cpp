@@ -1,0 +1,177 @@
+#include "master/options.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/scene/camera_choice.h"
+#include "master/options_flags.h"
+#include "proto/connection.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kMaxSide = 16384;
+constexpr uint64_t kMaxClients = 4096;
+constexpr double kForever = 1e9;  // [s]; also the largest number of frames
+
+// What the interface names and this release does not have. Take a line out when its work is done.
+void refuseWhatIsMissing(const RawOptions& raw) {
+  for (const char* flag : {"window", "animate"})
+    if (raw.has(flag) && raw.text(flag) != "0")
+      failUsage("--{} is not available in this release", flag);
+  for (const auto& [flag, only] : {std::pair("method", "instant-radiosity"), {"view", "beauty"}})
+    if (const auto name = raw.text(flag); name && *name != only)
+      failUsage("--{} {} is not available in this release, only {}", flag, *name, only);
+}
+
+// One of the names, as its place in the list.
+template <size_t n>
+std::optional<size_t> choice(const RawOptions& raw, const char* flag,
+                             const std::array<const char*, n>& names) {
+  const auto text = raw.text(flag);
+  if (!text) return std::nullopt;
+  std::string list;
+  for (size_t i = 0; i < n; ++i) {
+    if (*text == names[i]) return i;
+    list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
+  }
+  failUsage("--{} {}: must be {}", flag, *text, list);
+}
+
+template <typename T, typename Value>
+void assign(T& to, const std::optional<Value>& value) {
+  if (value) to = static_cast<T>(*value);
+}
+
+void applyPreset(Options& o) {
+  if (o.preset == Preset::final) {
+    o.settings.directVpls = 16, o.settings.indirectVpls = 72;
+    o.settings.photons = 10000;
+  }
+  if (o.preset == Preset::paper) {  // Wald et al. 2002: 22 VPLs, 1000 photons from the lights
+    o.settings.pathLength = 4;
+    o.settings.caustics = Caustics::direct;
+    o.settings.randomization = Randomization::exclusiveOr;
+    o.surfaceTest = SurfaceTest::paper;
+    o.converging = false;
+  }
+}
+
+void readSampling(const RawOptions& raw, Settings& s) {
+  if (const auto interleave = raw.text("interleave")) {
+    const auto [n, m] = parsePair("interleave", *interleave, 1, 16);
+    s.interleave = {.n = n, .m = m};
+  }
+  assign(s.directVpls, raw.whole("direct-vpls", 0, 65536));
+  assign(s.indirectVpls, raw.whole("indirect-vpls", 0, 65536));
+  assign(s.photons, raw.whole("photons", 0, 16777216));
+  assign(s.pathLength, raw.whole("path-length", 0, 1 << 20));
+  assign(s.specularDepth, raw.whole("specular-depth", 1, 1024));
+  assign(s.bound, raw.real("bound", 1e-6, 1e12));
+  assign(s.photonRadius, raw.real("photon-radius", 1e-6, 1));
+  assign(s.caustics, choice(raw, "caustics", std::array{"off", "direct", "all"}));
+  if (const auto seed = raw.text("seed"))
+    s.seed = parseWhole("seed", *seed, 0, std::numeric_limits<uint64_t>::max());
+}
+
+std::optional<Radiance> readEnvironment(const RawOptions& raw) {
+  const auto text = raw.text("environment");
+  if (!text) return std::nullopt;
+  if (*text == "none") return Radiance(0);
+  std::vector<double> c = parseNumbers("environment", *text);
+  if (c.size() == 1) c = {c[0], c[0], c[0]};
+  if (c.size() != 3) failUsage("--environment {}: write none, R,G,B or one number", *text);
+  for (const double x : c) checkRange("environment", x, 0.0, 1e6);
+  return Radiance(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
+}
+
+void readPicture(const RawOptions& raw, Options& o) {
+  if (const auto size = raw.text("size"))
+    std::tie(o.settings.width, o.settings.height) = parsePair("size", *size, 1, kMaxSide);
+  o.camera = raw.text("camera").value_or("");
+  o.environment = readEnvironment(raw);
+  assign(o.exposure, raw.real("exposure", -50, 50));
+  o.aovs = raw.isOn("aovs");
+}
+
+bool isLoopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
+void readCluster(const RawOptions& raw, int cores, Options& o) {
+  o.localClients = std::max(1, cores);
+  assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
+  assign(o.clientThreads, raw.whole("client-threads", 1, 1024));
+  assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
+  o.keyFile = raw.text("key-file");
+  constexpr std::array kIsas{"auto", "avx2", "avx512"};
+  if (const auto isa = choice(raw, "isa", kIsas)) o.isa = kIsas[*isa];
+  o.listen = raw.text("listen").value_or(o.listen);
+  try {
+    if (!isLoopback(parseEndpoint(o.listen, "--listen").host) && !o.keyFile)
+      failUsage(
+          "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
+          "ninefold-master --new-key FILE",
+          o.listen);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+void readRun(const RawOptions& raw, Options& o) {
+  o.frames = raw.whole("frames", 1, static_cast<uint64_t>(kForever));
+  o.seconds = raw.real("seconds", 1e-3, kForever);
+  o.untilError = raw.real("until-error", 1e-9, 1);
+  if (!o.frames && !o.seconds && !o.untilError) o.frames = kDefaultFrames;
+}
+
+void readFiles(const RawOptions& raw, Options& o) {
+  o.output = raw.text("output");
+  o.stats = raw.text("stats");
+  if (!o.output && !o.stats)
+    failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
+  if (!o.output) return;
+  const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
+  if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
+    failUsage("--output {}: the name must end in .exr, .png or .hdr", *o.output);
+  if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
+}
+
+}  // namespace
+
+const char* nameOf(Preset preset) {
+  constexpr std::array kNames{"interactive", "final", "paper"};
+  return kNames[static_cast<size_t>(preset)];
+}
+
+Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores) {
+  const RawOptions raw(argc, argv, variable);
+  Options o;
+  o.help = raw.isOn("help");
+  o.newKey = raw.text("new-key");
+  if (o.help || o.newKey) return o;
+
+  refuseWhatIsMissing(raw);
+  o.scene = raw.text("scene").value_or("");
+  if (o.scene.empty()) failUsage("no scene is given; see ninefold-master --help");
+  assign(o.preset, choice(raw, "preset", std::array{"interactive", "final", "paper"}));
+  applyPreset(o);
+  readPicture(raw, o);
+  readSampling(raw, o.settings);
+  readCluster(raw, cores, o);
+  readRun(raw, o);
+  readFiles(raw, o);
+  return o;
+}
+
+Settings makeSettings(const Options& options, const Scene& scene) {
+  Settings settings = options.settings;
+  settings.camera = chooseCamera(scene, options.camera);
+  settings.environment = options.environment.value_or(scene.environment);
+  return settings;
+}
+
+}  // namespace ninefold

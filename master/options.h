@@ -1,0 +1,68 @@
+// options.h: the command line of ninefold-master. Flags, then environment (NINEFOLD_*), then the
+// preset's defaults.
+//
+//   options_flags   which flags there are, the text of --help, raw values from flags and variables
+//   options         what they mean: checked values, presets, what this release does not have
+//   makeSettings    with a scene: the settings of a job
+//
+// Errors: UsageError with one line that names the flag; main ends with status 2.
+// Threads: pure functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/base/command_line.h"
+#include "common/image/surface_test.h"
+#include "common/scene/scene.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+enum class Preset : uint8_t { interactive, final, paper };
+
+struct Options {
+  bool help = false;                  // print helpText() and end; nothing else counts
+  std::optional<std::string> newKey;  // make this key file and end; nothing else counts
+
+  std::string scene;   // file
+  std::string camera;  // see scene/camera_choice.h; empty: the scene's first
+  Preset preset = Preset::interactive;
+  Settings settings;                    // camera and environment are the scene's: makeSettings
+  std::optional<Radiance> environment;  // nothing: the scene's
+  SurfaceTest surfaceTest = SurfaceTest::surface;
+  bool converging = true;  // radius and neighbours' weight shrink from frame to frame
+
+  int localClients = 1;  // 0 = only remote ones
+  int clientThreads = 1;
+  std::string listen = "127.0.0.1:0";  // ADDR:PORT
+  std::optional<std::string> keyFile;
+  int waitClients = 1;
+  std::string isa = "auto";  // for local clients: auto, avx2, avx512
+
+  // A run stops at the first of these that is given; at 64 frames if none is.
+  std::optional<int64_t> frames;
+  std::optional<double> seconds;     // [s]
+  std::optional<double> untilError;  // relative standard error; looked at for 16, 32, 64... frames
+
+  std::optional<std::string> output;  // .exr, .png or .hdr
+  bool aovs = false;
+  float exposure = 0;  // [EV]
+  std::optional<std::string> stats;
+};
+
+inline constexpr int64_t kDefaultFrames = 64;
+
+// `cores`: of this machine; one local client for each is the default.
+Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores);
+
+// The whole text of --help.
+std::string helpText();
+
+// Settings of the job: the options', with the scene's camera and light. Error: no such camera.
+Settings makeSettings(const Options& options, const Scene& scene);
+
+const char* nameOf(Preset preset);
+
+}  // namespace ninefold

@@ -1,0 +1,223 @@
+#include "master/options.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+namespace ninefold {
+namespace {
+
+using Variables = std::map<std::string, std::string>;
+
+// Words as a shell would hand them over; without an output there would be nothing to do.
+Options parse(const std::string& line, const Variables& variables = {}, bool output = true) {
+  std::vector<std::string> words{"ninefold-master"};
+  std::istringstream in(line);
+  for (std::string word; in >> word;) words.push_back(word);
+  if (output) words.insert(words.end(), {"--output", "out.exr"});
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  const auto variable = [&](const std::string& name) {
+    const auto found = variables.find(name);
+    return found == variables.end() ? std::nullopt : std::optional(found->second);
+  };
+  return parseOptions(static_cast<int>(argv.size()), argv.data(), variable, 6);
+}
+
+// The one line that a wrong command line ends in; "" if it was right.
+std::string complaint(const std::string& line, const Variables& variables = {},
+                      bool output = true) {
+  try {
+    parse(line, variables, output);
+    return "";
+  } catch (const UsageError& error) {
+    return error.what();
+  }
+}
+
+TEST(Options, DefaultsAreTheDocumentedOnes) {
+  const Options o = parse("room.glb");
+  EXPECT_EQ(o.scene, "room.glb");
+  EXPECT_EQ(o.settings.width, 640);
+  EXPECT_EQ(o.settings.height, 480);
+  EXPECT_EQ(o.settings.interleave, (Interleave{3, 3}));
+  EXPECT_EQ(o.settings.directVpls, 4);
+  EXPECT_EQ(o.settings.indirectVpls, 18);
+  EXPECT_EQ(o.settings.photons, 1000);
+  EXPECT_EQ(o.settings.pathLength, 0);
+  EXPECT_EQ(o.settings.specularDepth, 32);
+  EXPECT_EQ(o.settings.caustics, Caustics::all);
+  EXPECT_EQ(o.settings.seed, 1u);
+  EXPECT_EQ(o.settings.randomization, Randomization::owen);
+  EXPECT_EQ(o.surfaceTest, SurfaceTest::surface);
+  EXPECT_EQ(o.localClients, 6);
+  EXPECT_EQ(o.clientThreads, 1);
+  EXPECT_EQ(o.listen, "127.0.0.1:0");
+  EXPECT_EQ(o.waitClients, 1);
+  EXPECT_EQ(o.frames, kDefaultFrames);
+  EXPECT_FALSE(o.seconds || o.untilError || o.stats || o.keyFile || o.environment || o.aovs);
+}
+
+TEST(Options, EveryFlagIsRead) {
+  const Options o = parse(
+      "--size 320x200 --camera 0,1,5:0,1,0:50 --local-clients 0 --client-threads 3 --listen "
+      "0.0.0.0:4700 --key-file k --wait-clients 2 --method instant-radiosity --preset final "
+      "--interleave 2x4 --direct-vpls 5 --indirect-vpls 6 --photons 7 --path-length 8 "
+      "--specular-depth 9 --bound 10.5 --photon-radius 0.25 --caustics off --environment 1,2,3.5 "
+      "--frames 11 --seconds 1.5 --until-error 0.01 --aovs --exposure -1.5 --view beauty "
+      "--headless --seed 18446744073709551615 --isa avx2 --stats s.json room.glb");
+  EXPECT_EQ(o.scene, "room.glb");
+  EXPECT_EQ(o.settings.width, 320);
+  EXPECT_EQ(o.settings.height, 200);
+  EXPECT_EQ(o.camera, "0,1,5:0,1,0:50");
+  EXPECT_EQ(o.localClients, 0);
+  EXPECT_EQ(o.clientThreads, 3);
+  EXPECT_EQ(o.listen, "0.0.0.0:4700");
+  EXPECT_EQ(o.keyFile, "k");
+  EXPECT_EQ(o.waitClients, 2);
+  EXPECT_EQ(o.preset, Preset::final);
+  EXPECT_EQ(o.settings.interleave, (Interleave{2, 4}));
+  EXPECT_EQ(o.settings.directVpls, 5);
+  EXPECT_EQ(o.settings.indirectVpls, 6);
+  EXPECT_EQ(o.settings.photons, 7);
+  EXPECT_EQ(o.settings.pathLength, 8);
+  EXPECT_EQ(o.settings.specularDepth, 9);
+  EXPECT_FLOAT_EQ(o.settings.bound, 10.5f);
+  EXPECT_FLOAT_EQ(o.settings.photonRadius, 0.25f);
+  EXPECT_EQ(o.settings.caustics, Caustics::off);
+  EXPECT_EQ(*o.environment, Radiance(1, 2, 3.5f));
+  EXPECT_EQ(o.frames, 11);
+  EXPECT_EQ(o.seconds, 1.5);
+  EXPECT_EQ(o.untilError, 0.01);
+  EXPECT_TRUE(o.aovs);
+  EXPECT_FLOAT_EQ(o.exposure, -1.5f);
+  EXPECT_EQ(o.settings.seed, UINT64_MAX);
+  EXPECT_EQ(o.isa, "avx2");
+  EXPECT_EQ(o.stats, "s.json");
+  EXPECT_EQ(o.output, "out.exr");
+}
+
+TEST(Options, EqualSignsWorkToo) {
+  EXPECT_EQ(parse("room.glb --size=20x10 --exposure=-2").settings.width, 20);
+}
+
+TEST(Options, FlagsWinOverVariablesAndVariablesOverDefaults) {
+  const Variables v{{"NINEFOLD_PHOTONS", "5"}, {"NINEFOLD_SEED", "9"}, {"NINEFOLD_AOVS", "1"}};
+  const Options o = parse("room.glb --seed 3", v);
+  EXPECT_EQ(o.settings.photons, 5);
+  EXPECT_EQ(o.settings.seed, 3u);
+  EXPECT_TRUE(o.aovs);
+  EXPECT_NE(complaint("room.glb", {{"NINEFOLD_AOVS", "yes"}}).find("NINEFOLD_AOVS"),
+            std::string::npos);
+  EXPECT_NE(complaint("room.glb", {{"NINEFOLD_SIZE", "huge"}}), "");
+}
+
+TEST(Options, PresetsSetDefaultsThatFlagsOverride) {
+  const Options paper = parse("room.glb --preset paper --photons 500");
+  EXPECT_EQ(paper.settings.randomization, Randomization::exclusiveOr);
+  EXPECT_EQ(paper.settings.interleave, (Interleave{3, 3}));
+  EXPECT_EQ(paper.settings.pathLength, 4);
+  EXPECT_EQ(paper.settings.directVpls + paper.settings.indirectVpls, 22);
+  EXPECT_EQ(paper.settings.photons, 500);
+  EXPECT_EQ(paper.settings.caustics, Caustics::direct);
+  EXPECT_EQ(paper.surfaceTest, SurfaceTest::paper);
+  EXPECT_FALSE(paper.converging);
+  const Options final = parse("--preset final --direct-vpls 2 room.glb");
+  EXPECT_EQ(final.settings.directVpls, 2);
+  EXPECT_GT(final.settings.indirectVpls, 18);
+}
+
+TEST(Options, OneStopIsEnough) {
+  EXPECT_FALSE(parse("room.glb --seconds 3").frames);
+  EXPECT_FALSE(parse("room.glb --until-error 0.02").frames);
+}
+
+TEST(Options, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--size", "0x480"},      {"--size", "16385x1"},     {"--size", "640"},
+      {"--interleave", "17x1"}, {"--interleave", "0x3"},   {"--direct-vpls", "65537"},
+      {"--direct-vpls", "-1"},  {"--indirect-vpls", "x"},  {"--photons", "16777217"},
+      {"--path-length", "1.5"}, {"--specular-depth", "0"}, {"--bound", "0"},
+      {"--bound", "nan"},       {"--photon-radius", "2"},  {"--caustics", "some"},
+      {"--environment", "1,2"}, {"--environment", "-1"},   {"--environment", "blue"},
+      {"--frames", "0"},        {"--seconds", "0"},        {"--until-error", "0"},
+      {"--until-error", "2"},   {"--exposure", "1000"},    {"--seed", "-1"},
+      {"--isa", "sse"},         {"--local-clients", "-1"}, {"--client-threads", "0"},
+      {"--wait-clients", "0"},  {"--listen", "4700"},      {"--listen", "0.0.0.0:99999"},
+      {"--preset", "fast"},     {"--method", "voodoo"},
+  };
+  for (const auto& [flag, value] : cases) {
+    const std::string line = complaint(std::string("room.glb ") + flag + " " + value);
+    EXPECT_NE(line.find(flag), std::string::npos) << flag << " " << value << ": " << line;
+    EXPECT_NE(line.find(value), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+}
+
+TEST(Options, WrongUsageIsRefused) {
+  EXPECT_NE(complaint("").find("no scene"), std::string::npos);
+  EXPECT_NE(complaint("a.glb b.glb").find("more than one scene"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --colour 3").find("colour"), std::string::npos);
+  EXPECT_NE(complaint("a.glb -x").find("-x is no option"), std::string::npos);
+  EXPECT_NE(complaint("-x").find("-x is no option"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --size 3x3 --size 4x4").find("size"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --siz 3x3").find("siz"), std::string::npos) << "no guessing";
+  EXPECT_NE(complaint("a.glb --seed").find("seed"), std::string::npos);
+}
+
+TEST(Options, AFileForThePictureOrTheStatsIsNeeded) {
+  EXPECT_NE(complaint("a.glb", {}, false).find("--output"), std::string::npos);
+  EXPECT_EQ(complaint("a.glb --stats s.json", {}, false), "");
+  EXPECT_NE(complaint("a.glb --output a.jpg", {}, false).find(".exr"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --aovs --output a.png", {}, false).find("--aovs"), std::string::npos);
+}
+
+TEST(Options, ListeningBeyondThisMachineNeedsAKey) {
+  EXPECT_NE(complaint("a.glb --listen 0.0.0.0:4700").find("--key-file"), std::string::npos);
+  EXPECT_EQ(complaint("a.glb --listen [::1]:4700"), "");
+  EXPECT_EQ(complaint("a.glb --listen localhost:0"), "");
+}
+
+TEST(Options, WhatThisReleaseDoesNotHaveSaysSo) {
+  for (const char* flags : {"--window", "--animate 0:1:25", "--method path-trace", "--view depth"})
+    EXPECT_NE(complaint(std::string("a.glb ") + flags).find("not available in this release"),
+              std::string::npos)
+        << flags;
+}
+
+TEST(Options, HelpAndNewKeyNeedNothingElse) {
+  EXPECT_TRUE(parse("--help", {}, false).help);
+  EXPECT_EQ(parse("--new-key cluster.key", {}, false).newKey, "cluster.key");
+}
+
+TEST(Options, HelpNamesEveryFlagOfTheInterface) {
+  const std::string help = helpText();
+  for (const char* flag : {"size",          "camera",        "local-clients", "client-threads",
+                           "listen",        "key-file",      "new-key",       "wait-clients",
+                           "method",        "preset",        "interleave",    "direct-vpls",
+                           "indirect-vpls", "photons",       "path-length",   "specular-depth",
+                           "bound",         "photon-radius", "caustics",      "environment",
+                           "frames",        "seconds",       "until-error",   "animate",
+                           "output",        "aovs",          "exposure",      "view",
+                           "window",        "headless",      "seed",          "isa",
+                           "stats",         "help"})
+    EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
+  std::istringstream lines(help);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Options, SettingsTakeCameraAndLightFromTheScene) {
+  Scene scene;
+  scene.cameras = {Camera{.name = "door"}, Camera{.name = "desk", .verticalFov = 0.5f}};
+  scene.environment = Radiance(0.25f);
+  EXPECT_EQ(makeSettings(parse("a.glb --camera desk"), scene).camera, scene.cameras[1]);
+  EXPECT_EQ(makeSettings(parse("a.glb"), scene).camera, scene.cameras[0]);
+  EXPECT_EQ(makeSettings(parse("a.glb"), scene).environment, Radiance(0.25f));
+  EXPECT_EQ(makeSettings(parse("a.glb --environment none"), scene).environment, Radiance(0));
+  EXPECT_EQ(makeSettings(parse("a.glb --environment 2"), scene).environment, Radiance(2));
+  EXPECT_THROW(makeSettings(parse("a.glb --camera attic"), scene), Error);
+}
+
+}  // namespace
+}  // namespace ninefold
