@@ -50,6 +50,7 @@ struct ConnectionOptions {
 class Connection {
  public:
   struct Events {
+    // An Error thrown here is the peer's fault: it closes this connection, with its text as reason.
     std::function<void(Message&&)> onMessage;
     // Exactly once, last, whoever closed: one line for people. May destroy the owner's pointer.
     std::function<void(const std::string& reason)> onClosed;

@@ -34,7 +34,10 @@ void awaitSignal(asio::signal_set& set, std::function<void(int)> work) {
 EventLoop::EventLoop() : impl_(std::make_unique<Impl>()) {}
 EventLoop::~EventLoop() = default;
 
-void EventLoop::run() { impl_->io.run(); }
+void EventLoop::run() {
+  impl_->io.run();
+  impl_->io.restart();  // a stop() is used up
+}
 void EventLoop::stop() { impl_->io.stop(); }
 void EventLoop::post(std::function<void()> work) { asio::post(impl_->io, std::move(work)); }
 

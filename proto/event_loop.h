@@ -22,7 +22,7 @@ class EventLoop {
   EventLoop(const EventLoop&) = delete;
   EventLoop& operator=(const EventLoop&) = delete;
 
-  void run();   // until stop()
+  void run();   // until stop(); may be called again
   void stop();  // run() returns after the callback that is running now
   void post(std::function<void()> work);
 

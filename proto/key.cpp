@@ -107,7 +107,7 @@ Key Key::receive(int descriptor) {
   Key key;
   pollfd ready{in.get(), POLLIN, 0};
   // The launcher has put the whole key into the pipe before it passes it on: one wait is enough.
-  if (::poll(&ready, 1, kReceiveDeadlineMs) != 1 ||
+  if (!in || ::poll(&ready, 1, kReceiveDeadlineMs) != 1 ||
       readUpTo(in.get(), key.bytes_) != static_cast<ssize_t>(kBytes))
     fail("no key came over descriptor {}; local clients are started by ninefold-master",
          descriptor);

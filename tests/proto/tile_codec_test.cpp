@@ -1,0 +1,220 @@
+// Whole tiles: what comes back, what is refused, what it costs.
+#include "proto/tile_codec.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "proto/messages.h"
+#include "proto/quantize.h"
+#include "tests/proto/random_tile.h"
+
+namespace ninefold {
+namespace {
+
+constexpr uint8_t kAllLayers = kDiffuseBit | kReflectionBit | kTransmissionBit;
+
+TileShape shapeOf(const TileResult& tile) {
+  return {tile.width, tile.height, tile.layerMask, tile.extraMask};
+}
+
+TileResult decode(ByteView bytes, const TileShape& shape) {
+  TileResult out;
+  TileDecoder().decode(bytes, shape, out);
+  return out;
+}
+
+Bytes encode(const TileResult& tile, uint64_t dither = 1, int level = 1) {
+  return TileEncoder().encode(tile, dither, level).bytes;
+}
+
+Vec3 at(const RgbPlane& plane, size_t i) { return Vec3(plane.r[i], plane.g[i], plane.b[i]); }
+
+void expectLight(const RgbPlane& sent, const RgbPlane& got) {
+  for (size_t i = 0; i < sent.r.size(); ++i)
+    ASSERT_LE(maxComponent(glm::abs(at(sent, i) - at(got, i))), maxComponent(at(sent, i)) / 127.5f);
+}
+
+void expectFractions(const RgbPlane& sent, const RgbPlane& got, float top) {
+  for (size_t i = 0; i < sent.r.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float v = at(sent, i)[c];
+      ASSERT_LE(std::abs(at(got, i)[c] - v),
+                top * (2 * std::sqrt(v / top) + 1 / 255.0f) / 255 * 1.0001f);
+    }
+}
+
+void expectNormals(const RgbPlane& sent, const RgbPlane& got) {
+  for (size_t i = 0; i < sent.r.size(); ++i)
+    ASSERT_LE(glm::length(at(sent, i) - at(got, i)), 5e-5f);
+}
+
+void expectLengths(const std::vector<float>& sent, const std::vector<float>& got) {
+  // Five decades are 16.7 octaves.
+  for (size_t i = 0; i < sent.size(); ++i) ASSERT_LE(std::abs(sent[i] - got[i]), sent[i] * 2.6e-4f);
+}
+
+TEST(TileCodec, RoundTripStaysWithinTheStatedBounds) {
+  TileMaker make(1);
+  for (const int level : {0, 1, 3, -5}) {
+    const TileResult sent = make.make(32, 32, kAllLayers, kAllExtraPlanes);
+    const TileResult got = decode(encode(sent, 5, level), shapeOf(sent));
+    for (size_t k = 0; k < kLayers; ++k) {
+      const LayerPlanes &a = sent.layers[k], &b = got.layers[k];
+      expectFractions(a.reflectance, b.reflectance, kInvPi);
+      expectLight(a.irradiance, b.irradiance);
+      expectLight(a.unfiltered, b.unfiltered);
+      expectLengths(a.distance, b.distance);
+      expectNormals(a.normal, b.normal);
+      EXPECT_EQ(a.chain, b.chain);
+    }
+    expectFractions(sent.extras.albedo, got.extras.albedo, 1);
+    expectNormals(sent.extras.normal, got.extras.normal);
+    expectLengths(sent.extras.depth, got.extras.depth);
+    expectLight(sent.extras.caustic, got.extras.caustic);
+    EXPECT_EQ(sent.extras.object, got.extras.object);
+  }
+}
+
+TEST(TileCodec, EveryShapeAndMaskComesBack) {
+  TileMaker make(2);
+  for (const auto& [w, h] :
+       {std::pair(1, 1), std::pair(32, 1), std::pair(1, 32), std::pair(17, 5), std::pair(128, 128)})
+    for (uint8_t layers = 1; layers < 8; layers = static_cast<uint8_t>(layers + 2))
+      for (const uint8_t extras : {uint8_t{0}, uint8_t{1}, uint8_t{14}, kAllExtraPlanes}) {
+        const TileResult sent = make.make(w, h, layers, extras);
+        const Bytes bytes = encode(sent);
+        EXPECT_LE(bytes.size(), kMaxTileBytes);
+        const TileResult got = decode(bytes, shapeOf(sent));
+        EXPECT_EQ(got.width, w);
+        EXPECT_EQ(got.layers[0].chain, sent.layers[0].chain);
+        EXPECT_EQ(got.extras.object, sent.extras.object);
+      }
+}
+
+TEST(TileCodec, AnEmptyTaskIsAHeadOnly) {
+  TileResult empty;
+  empty.reset(0, 0, kDiffuseBit, 0);
+  const Bytes bytes = encode(empty);
+  EXPECT_LE(bytes.size(), 32u);
+  EXPECT_EQ(decode(bytes, shapeOf(empty)).count(), 0);
+}
+
+TEST(TileCodec, TheSameDitherGivesTheSameBytesAndAnotherGivesOthers) {
+  const TileResult tile = TileMaker(3).make(32, 32, kAllLayers, 0);
+  TileEncoder used;
+  used.encode(TileMaker(4).make(32, 16, kAllLayers, kAllExtraPlanes), 9, 1);
+  EXPECT_EQ(used.encode(tile, 5, 1).bytes, encode(tile, 5)) << "an encoder's past must not show";
+  EXPECT_NE(encode(tile, 6), encode(tile, 5));
+}
+
+TEST(TileCodec, DitherKeysStandStillWithTheRandomization) {
+  const FrameKey key{10, 3, 4, 0.1f}, later{11, 3, 4, 0.2f}, next{11, 4, 4, 0.1f};
+  EXPECT_EQ(ditherKey(1, key, 5, 6), ditherKey(1, later, 5, 6));
+  EXPECT_NE(ditherKey(1, key, 5, 6), ditherKey(1, next, 5, 6));
+  EXPECT_NE(ditherKey(1, key, 5, 6), ditherKey(2, key, 5, 6));
+  EXPECT_NE(ditherKey(1, key, 5, 6), ditherKey(1, key, 6, 5));
+}
+
+TEST(TileCodec, TheMeanOverDithersIsTheValue) {
+  const TileResult tile = TileMaker(5).make(8, 8, kDiffuseBit, 0);
+  const auto& sent = tile.layers[0].irradiance.g;
+  constexpr int kRuns = 400;
+  std::vector<double> sum(sent.size()), squares(sent.size());
+  TileEncoder encoder;
+  for (uint64_t run = 0; run < kRuns; ++run) {
+    const TileResult got = decode(encoder.encode(tile, mixBits(run), 0).bytes, shapeOf(tile));
+    for (size_t i = 0; i < sent.size(); ++i) {
+      const double error = double{got.layers[0].irradiance.g[i]} - double{sent[i]};
+      sum[i] += error, squares[i] += error * error;
+    }
+  }
+  // The sum of squared z-scores over pixels is chi-square with 64 degrees of freedom: 0.1 % tail at
+  // 106.
+  double chi2 = 0;
+  for (size_t i = 0; i < sent.size(); ++i)
+    if (squares[i] > 0) chi2 += sum[i] * sum[i] / squares[i];
+  EXPECT_LT(chi2, 106);
+}
+
+TEST(TileCodec, UnusableValuesBecomeZeroAndAreCounted) {
+  TileResult tile = TileMaker(6).make(4, 4, kDiffuseBit, kDepthPlane);
+  LayerPlanes& planes = tile.layers[0];
+  planes.irradiance.g[0] = NAN;
+  planes.unfiltered.b[1] = INFINITY;
+  planes.reflectance.r[2] = -0.5f;
+  planes.distance[3] = -INFINITY;
+  planes.normal.g[4] = NAN;
+  tile.extras.depth[5] = NAN;
+  planes.irradiance.r[6] = -0.0f, planes.irradiance.g[6] = -0.0f, planes.irradiance.b[6] = -0.0f;
+  const auto encoded = TileEncoder().encode(tile, 1, 1);
+  EXPECT_EQ(encoded.replaced, 6u);
+  const TileResult got = decode(encoded.bytes, shapeOf(tile));
+  EXPECT_EQ(got.layers[0].irradiance.g[0], 0);
+  EXPECT_EQ(got.layers[0].unfiltered.b[1], 0);
+  EXPECT_EQ(got.layers[0].reflectance.r[2], 0);
+  EXPECT_EQ(got.layers[0].distance[3], 0);
+  EXPECT_EQ(at(got.layers[0].normal, 4), Vec3(0));
+  EXPECT_EQ(got.extras.depth[5], 0);
+  EXPECT_EQ(at(got.layers[0].irradiance, 6), Vec3(0));
+}
+
+TEST(TileCodec, PlanesOfNothingCostNothing) {
+  TileResult black;
+  black.reset(32, 32, kAllLayers, kAllExtraPlanes);
+  EXPECT_LT(encode(black, 1, 0).size(), 200u) << "about a byte for each of some eighty planes";
+}
+
+TEST(TileCodec, AnythingButTheTasksShapeIsRefused) {
+  const TileResult tile = TileMaker(7).make(8, 4, kDiffuseBit, kDepthPlane);
+  const Bytes bytes = encode(tile);
+  EXPECT_NO_THROW(decode(bytes, shapeOf(tile)));
+  EXPECT_THROW(decode(bytes, {4, 8, kDiffuseBit, kDepthPlane}), Error);
+  EXPECT_THROW(decode(bytes, {8, 4, kAllLayers, kDepthPlane}), Error);
+  EXPECT_THROW(decode(bytes, {8, 4, kDiffuseBit, 0}), Error);
+  EXPECT_THROW(decode(bytes, {0, 0, kDiffuseBit, kDepthPlane}), Error);
+}
+
+TEST(TileCodec, EveryTruncationIsRefused) {
+  const TileResult tile = TileMaker(8).make(8, 4, kAllLayers, kAllExtraPlanes);
+  for (const int level : {0, 1}) {
+    Bytes bytes = encode(tile, 1, level);
+    for (size_t size = 0; size < bytes.size(); ++size)
+      ASSERT_THROW(decode(ByteView(bytes).first(size), shapeOf(tile)), Error) << size;
+    bytes.push_back(std::byte{0});
+    EXPECT_THROW(decode(bytes, shapeOf(tile)), Error) << "one byte too many";
+  }
+}
+
+TEST(TileCodec, EveryFlippedBitGivesAnErrorOrFiniteValues) {
+  const TileResult tile = TileMaker(9).make(5, 3, kAllLayers, kAllExtraPlanes);
+  TileDecoder decoder;
+  TileResult got;
+  for (const int level : {0, 1}) {
+    const Bytes good = encode(tile, 1, level);
+    for (size_t bit = 0; bit < good.size() * 8; ++bit) {
+      Bytes bad = good;
+      bad[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
+      try {
+        decoder.decode(bad, shapeOf(tile), got);
+      } catch (const Error&) {
+        continue;
+      }
+      for (const LayerPlanes& planes : got.layers)
+        for (size_t i = 0; i < planes.distance.size(); ++i)
+          ASSERT_TRUE(isFinite(at(planes.irradiance, i)) && isFinite(at(planes.unfiltered, i)) &&
+                      isFinite(at(planes.normal, i)) && std::isfinite(planes.distance[i]) &&
+                      planes.distance[i] >= 0);
+    }
+  }
+}
+
+TEST(TileCodec, DeclaredSizesAreCappedBeforeMemoryIsTaken) {
+  const TileResult tile = TileMaker(10).make(8, 4, kDiffuseBit, 0);
+  Bytes bytes = encode(tile);
+  for (size_t i = 8; i < 12; ++i) bytes[i] = std::byte{0xff};  // the size in the head
+  EXPECT_THROW(decode(bytes, shapeOf(tile)), Error);
+}
+
+}  // namespace
+}  // namespace ninefold
