@@ -106,7 +106,7 @@ def pendant(shade, inside, light, cord, drop, radius=0.2, segments=32):
     """Hangs from y = 0; the mouth of its shade is at -drop. Its light looks down."""
     model = Model("pendant lamp")
     model.add(cord, tube([(0, -drop + 0.15, 0), (0, 0.002, 0)], 0.005, 8, ends=False))
-    model.add(cord, lathe([(0.05, -0.03), (0.06, -0.005), (0.06, 0.002)], 20))
+    model.add(cord, lathe([(0, -0.03), (0.05, -0.03), (0.06, -0.005), (0.06, 0.002)], 20))
     outer = [(radius, 0), (radius * 0.93, 0.06), (radius * 0.7, 0.12), (radius * 0.3, 0.165), (0.02, 0.18), (0, 0.18)]
     inner = [(0, 0.172), (radius * 0.28, 0.158), (radius * 0.67, 0.114), (radius * 0.91, 0.055), (radius * 0.985, 0)]
     hung = vec.move(0, -drop, 0)

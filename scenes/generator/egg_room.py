@@ -16,8 +16,8 @@ PLUM = matte("plum wall", 0.52, 0.16, 0.26)
 BLUE = matte("blue wall", 0.14, 0.32, 0.6)
 CLOTH = matte("mustard cloth", 0.72, 0.46, 0.08)
 POSTER = picture("rings", abstract(34))
-WARM = light("warm lamp", 74, 56, 34)
-COOL = light("cool lamp", 44, 52, 62)
+WARM = light("warm lamp", 95, 72, 44)
+COOL = light("cool lamp", 56, 66, 79)
 
 
 def column(height=0.92):

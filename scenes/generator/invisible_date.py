@@ -15,15 +15,15 @@ FLOOR = Material(
     texture=Texture("tiles", textures.checker((30, 26, 26), (186, 174, 156)), (0.9, 0.9)),
     roughness=0,
 )
-ROSE = matte("rose wall", 0.62, 0.24, 0.2)
-GREEN = matte("green wall", 0.24, 0.42, 0.24)
+ROSE = matte("rose wall", 0.68, 0.3, 0.25)
+GREEN = matte("green wall", 0.3, 0.5, 0.3)
 SOFA = matte("sofa cloth", 0.16, 0.25, 0.42)
 PILLOW = matte("pillow cloth", 0.78, 0.52, 0.14)
 CHAIR = textured("chair cloth", textures.weave((112, 28, 36), (186, 70, 66)), 0.05, 0.05)
 LINEN = matte("linen", 0.8, 0.78, 0.72)
 CHINA = matte("china", 0.82, 0.82, 0.8)
 WAX = matte("wax", 0.82, 0.74, 0.58)
-LAMP = light("lamp", 150, 134, 106)
+LAMP = light("lamp", 190, 170, 136)
 
 TABLE_TOP = 0.75
 

@@ -66,7 +66,7 @@ def shelves(scene):
 
 def main_desk(scene):
     """In the middle: lamp, open book, glass ball. Its user looks south, towards the camera."""
-    x, z = -0.75, -0.55
+    x, z = -0.15, -0.5
     desk = workplace.desk(p.WALNUT, p.BLACK, 1.7, 0.82, p.WALNUT)
     scene.place(desk, (x, 0, z), 180, "main desk")
     top = DESK_TOP + 0.0005
@@ -87,18 +87,18 @@ def main_desk(scene):
 
 
 def second_desk(scene, chair):
-    """At the east wall."""
-    desk = workplace.desk(p.OAK, p.BLACK, 1.5, 0.75, p.WHITE, -1)
-    x, z = X - 0.4, -0.15
-    scene.place(desk, (x, 0, z), -90, "second desk")
+    """Under the windows; its user looks west."""
+    desk = workplace.desk(p.OAK, p.BLACK, 1.5, 0.75, p.WHITE)
+    x, z = -X + 0.42, 0.35
+    scene.place(desk, (x, 0, z), 90, "second desk")
     top = DESK_TOP + 0.0005
-    scene.place(workplace.monitor(p.BLACK, EDITOR), (x + 0.1, top, z - 0.05), -96, "second monitor")
-    scene.place(workplace.keyboard(p.WHITE, p.GREY), (x - 0.2, top, z), -90, "second keyboard")
-    scene.place(workplace.mouse(p.GREY), (x - 0.2, top, z + 0.33), -90)
-    scene.place(workplace.mug(p.TEAL, p.SOIL), (x - 0.02, top, z - 0.5), 30, "second mug")
-    scene.place(chair, (x - 0.75, 0, z + 0.05), 62, "second chair")
-    board = workplace.pinboard(CORK, p.OAK, NOTES)
-    scene.place(board, (X, 1.62, z), -90)
+    scene.place(workplace.monitor(p.BLACK, EDITOR), (x - 0.14, top, z - 0.1), 84, "second monitor")
+    scene.place(workplace.keyboard(p.WHITE, p.GREY), (x + 0.18, top, z - 0.06), 90, "second keyboard")
+    scene.place(workplace.mouse(p.GREY), (x + 0.18, top, z - 0.4), 90)
+    scene.place(workplace.mug(p.TEAL, p.SOIL), (x + 0.02, top, z + 0.42), 30, "second mug")
+    scene.place(chair, (x + 0.72, 0, z + 0.1), -118, "second chair")
+    board = workplace.pinboard(CORK, p.OAK, NOTES, 0.72, 0.95)
+    scene.place(board, (-X, 1.62, 0), 90)
 
 
 def loose_things(scene):
@@ -106,10 +106,10 @@ def loose_things(scene):
     scene.place(green, (-2.75, 0, -1.6), 30, "plant")
     small = decor.plant(p.WHITE, p.SOIL, p.LEAVES, p.STEM, 18, 0.7, 5)
     scene.place(small, (1.32, 0.821, -Z + 0.22), 0, "plant on the cabinet", 0, 0.5)
-    scene.place(workplace.bin_(p.BLACK), (0.42, 0, -1.1))
+    scene.place(workplace.bin_(p.BLACK), (1.02, 0, -0.95))
     visitor = seating.upholstered_chair(VISITOR_FABRIC, p.DARK_WOOD, 2)
-    scene.place(visitor, (-1.25, 0, 0.62), 172, "visitor's chair")
-    scene.place(visitor, (-0.15, 0, 0.72), 200, "second visitor's chair")
+    scene.place(visitor, (-0.5, 0, 0.72), 168, "visitor's chair")
+    scene.place(visitor, (0.55, 0, 0.66), 204, "second visitor's chair")
 
 
 def build():
@@ -119,6 +119,6 @@ def build():
     chair = main_desk(scene)
     second_desk(scene, chair)
     loose_things(scene)
-    scene.camera("from the door", (1.75, 1.72, 2.3), (-0.75, 0.85, -0.75), 54)
-    scene.camera("desk", (-0.35, 1.25, 0.75), (-1.0, 0.8, -0.6), 42)
+    scene.camera("from the corner", (2.05, 1.66, 2.3), (-0.62, 0.86, -0.75), 54)
+    scene.camera("desk", (0.2, 1.25, 0.75), (-0.4, 0.8, -0.55), 42)
     return scene

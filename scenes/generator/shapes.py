@@ -79,7 +79,7 @@ def slab(size, at=(0, 0, 0), skip=()):
 
 
 def taper(bottom, top, height, at=(0, 0, 0), lean=(0, 0)):
-    """A square leg without ends that gets wider or narrower; `lean` shifts its top in x and z."""
+    """A square leg without a lower end that gets wider or narrower; `lean` shifts its top in x and z."""
 
     def ring(side, y, dx, dz):
         h = side / 2
@@ -93,14 +93,4 @@ def taper(bottom, top, height, at=(0, 0, 0), lean=(0, 0)):
         normal = vec.unit(vec.cross(vec.sub(b, a), vec.sub(d, a)))
         uvs = ((0, 0), (0, bottom), (height, bottom), (height, 0))
         mesh.fan([(p, normal, uv) for p, uv in zip((a, b, c, d), uvs)])
-    return mesh
-
-
-def prism(outline, depth):
-    """A convex outline (x, y), counter-clockwise, drawn out from z = 0 to z = -depth."""
-    mesh = Mesh()
-    mesh.fan([((x, y, 0), (0, 0, 1), (x, -y)) for x, y in outline])
-    mesh.fan([((x, y, -depth), (0, 0, -1), (x, -y)) for x, y in reversed(outline)])
-    for (x0, y0), (x1, y1) in zip(outline, outline[1:] + outline[:1]):
-        mesh.join(rectangle((x0, y0, 0), (0, 0, -depth), (x1 - x0, y1 - y0, 0)))
-    return mesh
+    return mesh.fan([(p, (0, 1, 0), (0, 0)) for p in high])

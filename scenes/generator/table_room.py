@@ -54,6 +54,12 @@ def lamp():
     return model
 
 
+def carpet(width, depth):
+    top = rectangle((-width / 2, 0.008, depth / 2), (width, 0, 0), (0, 0, -depth), fit=True)
+    edge = slab((width, 0.009, depth), (0, -0.001, 0), skip=("+y", "-y"))
+    return Model("rug").add(RUG, top).add(p.TERRACOTTA, edge)
+
+
 def books():
     model = Model("books")
     y = 0.001
@@ -66,8 +72,7 @@ def books():
 def build():
     scene = Scene("table_room")
     scene.place(room(4.2, 4.8, 2.6))
-    rug_mesh = rectangle((-1.25, 0, 0.85), (2.5, 0, 0), (0, 0, -1.7), fit=True)
-    scene.place(Model("rug").add(RUG, rug_mesh), (0, 0.006, -0.5))
+    scene.place(carpet(2.5, 1.7), (0, 0, -0.5))
     scene.place(table(), (0, 0, -0.5), 0)
     seat = wooden_chair(p.OAK, p.DARK_WOOD)
     scene.place(seat, (-0.3, 0, -1.1), 8, "chair behind the table")

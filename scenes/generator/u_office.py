@@ -18,7 +18,7 @@ CARPET = textured("carpet", textures.carpet((96, 84, 72), (150, 136, 118), 18), 
 FABRIC = textured("chair fabric", textures.weave((30, 60, 110), (76, 120, 172)), 0.05, 0.05)
 CORAL = matte("coral wall", 0.7, 0.3, 0.2)
 MINT = matte("mint wall", 0.42, 0.66, 0.5)
-LAMP = light("ceiling light", 1400, 1330, 1200)
+LAMP = light("ceiling light", 2400, 2280, 2050)
 
 
 def shells(scene):

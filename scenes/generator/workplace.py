@@ -4,7 +4,7 @@ import math
 import random
 
 from . import vectors as vec
-from .curved import disc, lathe, rounded_box, tube
+from .curved import cushion, disc, lathe, rounded_box, tube
 from .mesh import Model
 from .seating import smooth
 from .shapes import box, rectangle, slab, taper
@@ -70,8 +70,6 @@ def keyboard(body, keys):
 
 
 def mouse(body):
-    from .curved import cushion
-
     return Model("mouse").add(body, cushion((0.062, 0.036, 0.105), 16, 8, 0.8, (0, 0.0005, 0)))
 
 
@@ -132,12 +130,13 @@ def pinboard(board, frame, notes, width=1.5, height=0.95, seed=6):
     for x0, x1 in ((-w - f, -w), (w, w + f)):
         model.add(frame, box((x0, -h, -0.005), (x1, h, 0.022), skip=("-y", "+y")))
     rnd = random.Random(seed)
-    for i in range(5):
+    columns = max(2, round(width / 0.3))
+    for i in range(columns):
         for j in range(3):
             if rnd.random() < 0.78:
                 a, b = rnd.choice(((0.15, 0.21), (0.1, 0.1), (0.21, 0.15)))
                 note = rectangle((-a / 2, -b / 2, 0), (a, 0, 0), (0, b, 0), fit=True)
-                place = (width * (i - 2) / 5.2, height * (j - 1) / 3.2, 0.0135 + 0.0002 * i)
+                place = (width * (i - (columns - 1) / 2) / (columns + 0.2), height * (j - 1) / 3.2, 0.0135 + 0.0002 * i)
                 turn = vec.turn("z", rnd.uniform(-6, 6))
                 model.add(notes[rnd.randrange(len(notes))], note.moved(vec.move(*place), turn))
     return model
