@@ -90,6 +90,25 @@ TEST(Energy, ThinWallsSumTheBouncesBetweenTheirFaces) {
   EXPECT_EQ(through->wi, -upward(0.4f));
 }
 
+// The least rough surfaces do what smooth ones do: Fresnel and tint are in both, and bend alike.
+TEST(Energy, RoughLobesTendToSmoothOnes) {
+  for (const float c : {0.2f, 0.5f, 0.9f}) {
+    for (const Bsdf& rough :
+         {metal(0.002f), glass(0.002f, 1.5f), glass(0.002f, 1 / 1.5f), glass(0.002f, 1.5f, true)}) {
+      for (const Lobe lobe : {Lobe::reflection, Lobe::transmission}) {
+        Bsdf smooth = rough;
+        smooth.alpha = 0;
+        const auto limit = sampleLobe(smooth, lobe, upward(c), Vec2(0.5f), 0.5f);
+        const Vec3 albedo = sampledAlbedo(rough, lobe, upward(c), 16);
+        EXPECT_LT(glm::length(albedo - (limit ? limit->weight : Vec3(0))), 0.01f) << c;
+        const auto sample = sampleLobe(rough, lobe, upward(c), Vec2(0.5f), 0.5f);
+        ASSERT_EQ(limit.has_value(), sample.has_value()) << c;
+        EXPECT_LT(limit ? glm::distance(limit->wi, sample->wi) : 0.0f, 0.03f) << c;
+      }
+    }
+  }
+}
+
 TEST(Energy, WeightsAndAlbedosNeverExceedOne) {
   for (const float alpha : {0.0f, 0.002f, 0.05f, 0.3f, 1.0f}) {
     for (const float eta : {0.4f, 0.67f, 1.001f, 1.5f, 10.0f}) {
