@@ -22,6 +22,40 @@ bool startsWith(std::span<const std::byte> file, std::string_view magic) {
                     [](char c, std::byte b) { return std::byte(c) == b; });
 }
 
+size_t bigEndian(std::span<const std::byte> file, size_t at, int bytes) {
+  size_t value = 0;
+  for (int i = 0; i < bytes; ++i)
+    value = value << 8 | std::to_integer<size_t>(file[at + static_cast<size_t>(i)]);
+  return value;
+}
+
+// The libraries would print lines of their own about these, or make up the missing pixels.
+bool isWholePng(std::span<const std::byte> file) {
+  constexpr size_t kSignature = 8, kChunkFrame = 4 + 4 + 4;  // length, type, checksum
+  constexpr size_t kEnd = 0x49454E44;                        // "IEND"
+  for (size_t at = kSignature; file.size() - at >= kChunkFrame;) {
+    const size_t length = bigEndian(file, at, 4);
+    if (length > file.size() - at - kChunkFrame) return false;
+    if (bigEndian(file, at + 4, 4) == kEnd) return true;
+    at += length + kChunkFrame;
+  }
+  return false;
+}
+
+// Segments up to the start of the scan, then an end marker behind it.
+bool isWholeJpeg(std::span<const std::byte> file) {
+  constexpr size_t kScan = 0xFFDA, kEnd = 0xFFD9;
+  size_t at = 2;
+  while (file.size() - at >= 4 && bigEndian(file, at, 2) != kScan) {
+    const size_t length = 2 + bigEndian(file, at + 2, 2);
+    if (length > file.size() - at) return false;
+    at += length;
+  }
+  for (; file.size() - at >= 2; ++at)
+    if (bigEndian(file, at, 2) == kEnd) return true;
+  return false;
+}
+
 // TGA has no magic: a colour map flag of 0 or 1, a known image type, 8 to 32 bits a pixel.
 bool looksLikeTga(std::span<const std::byte> file) {
   if (file.size() < 18) return false;
@@ -31,8 +65,14 @@ bool looksLikeTga(std::span<const std::byte> file) {
 }
 
 const char* formatOf(std::span<const std::byte> file) {
-  if (startsWith(file, "\x89PNG\r\n\x1a\n")) return "png";
-  if (startsWith(file, "\xff\xd8\xff")) return "jpeg";
+  if (startsWith(file, "\x89PNG\r\n\x1a\n")) {
+    if (!isWholePng(file)) fail("truncated: the PNG ends in the middle");
+    return "png";
+  }
+  if (startsWith(file, "\xff\xd8\xff")) {
+    if (!isWholeJpeg(file)) fail("truncated: the JPEG ends in the middle");
+    return "jpeg";
+  }
   if (startsWith(file, "BM")) return "bmp";
   if (looksLikeTga(file)) return "targa";
   fail("not a PNG, JPEG, BMP or TGA image: convert it to PNG");

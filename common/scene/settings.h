@@ -32,6 +32,7 @@ struct Settings {
   uint64_t seed = 1;
   Randomization randomization = Randomization::owen;
   bool jitter = true;  // anti-aliasing: film positions spread over the pixel
+  bool compensate = true;  // give the bounded geometry term its energy back (compensation.h)
 };
 
 // What changes from frame to frame. At rest, frame i has randomization i and rotation i; while

@@ -17,7 +17,7 @@ std::array<float, 256> makeSrgbTable() {
 
 const std::array<float, 256> kSrgbToLinear = makeSrgbTable();
 
-float linear(uint8_t code) { return static_cast<float>(code) * (1.0f / 255.0f); }
+float linear(uint8_t code) { return static_cast<float>(code) / 255.0f; }
 
 // Brings u to where `size` texels, or two mirrored copies of them, cover all of it; far away and
 // non-finite coordinates included, so that the conversion to int is safe.
