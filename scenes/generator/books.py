@@ -1,4 +1,4 @@
-"""Books: rows for shelves, stacks, and an open one. All covers share one atlas of sixteen spines."""
+"""Books: rows for shelves, stacks, and an open one. All covers share one atlas of spines."""
 
 import functools
 import math
@@ -12,17 +12,31 @@ from .shapes import box, rectangle
 COVERS = 16
 _INK = (226, 200, 132)
 _COLOURS = [
-    (132, 32, 34), (24, 52, 96), (34, 84, 62), (196, 148, 50), (222, 212, 188), (84, 84, 90),
-    (20, 104, 112), (104, 62, 36), (158, 70, 40), (60, 40, 84), (176, 186, 190), (40, 44, 52),
-    (204, 96, 60), (92, 128, 78), (70, 112, 160), (150, 120, 90),
-]  # fmt: skip
+    (132, 32, 34),
+    (24, 52, 96),
+    (34, 84, 62),
+    (196, 148, 50),
+    (222, 212, 188),
+    (84, 84, 90),
+    (20, 104, 112),
+    (104, 62, 36),
+    (158, 70, 40),
+    (60, 40, 84),
+    (176, 186, 190),
+    (40, 44, 52),
+    (204, 96, 60),
+    (92, 128, 78),
+    (70, 112, 160),
+    (150, 120, 90),
+]
 
 
 def _paint_spines():
     """Sixteen columns of 16 pixels, 128 high: title, bands, and plain cover in the last 16 rows."""
-    palette = [
-        tuple(round(c * f) for c in colour) for colour in _COLOURS for f in (1, 0.72)
-    ] + [_INK, (30, 26, 24)]
+    palette = [tuple(round(c * f) for c in colour) for colour in _COLOURS for f in (1, 0.72)] + [
+        _INK,
+        (30, 26, 24),
+    ]
     rnd = random.Random(5)
     indices = bytearray(256 * 128)
     for k in range(COVERS):
@@ -59,7 +73,9 @@ def _book(model, thickness, height, depth, cover, place):
         (p, n, ((cover + 0.03 + 0.94 * u) / COVERS, v * 0.86)) for p, n, (u, v) in spine.vertices
     ]
     pages = box(
-        (board, 0.004, 0.004 - depth), (thickness - board, height - 0.004, -board), ("-x", "+x", "+z")
+        (board, 0.004, 0.004 - depth),
+        (thickness - board, height - 0.004, -board),
+        ("-x", "+x", "+z"),
     )
     model.add(SPINES, covers.moved(place), spine.moved(place)).add(PAPER, pages.moved(place))
 
@@ -104,8 +120,14 @@ def stack(sizes, seed, name="stack of books"):
 def open_book(page, cover, width=0.36, depth=0.25):
     """Lies on y = 0. Each half is a bulging stack of pages with one printed page on top."""
     model = Model("open book")
-    model.add(cover, box((-width / 2 - 0.005, 0.0005, -depth / 2 - 0.004),
-                         (width / 2 + 0.005, 0.004, depth / 2 + 0.004), skip=("-y",)))  # fmt: skip
+    model.add(
+        cover,
+        box(
+            (-width / 2 - 0.005, 0.0005, -depth / 2 - 0.004),
+            (width / 2 + 0.005, 0.004, depth / 2 + 0.004),
+            skip=("-y",),
+        ),
+    )
     steps = 10
 
     def outline(s):
@@ -129,6 +151,10 @@ def open_book(page, cover, width=0.36, depth=0.25):
             low = [((x, 0.004, z), (0, 0, facing), (0, 0)) for x, _ in top]
             high = [((x, y, z), (0, 0, facing), (0, 0)) for x, y in top]
             model.add(PAPER, Mesh().grid([low, high] if facing > 0 else [high, low]))
-        edge = rectangle((side * width / 2, 0.004, side * depth / 2), (0, 0, -side * depth), (0, outline(1) - 0.004, 0))
+        edge = rectangle(
+            (side * width / 2, 0.004, side * depth / 2),
+            (0, 0, -side * depth),
+            (0, outline(1) - 0.004, 0),
+        )
         model.add(PAPER, edge)
     return model

@@ -1,5 +1,5 @@
-"""A conference room: 84 lamps in the ceiling and 20 on the walls, a long table with 22 padded chairs,
-panelled walls. Few different things, stored once and placed often."""
+"""A conference room: 84 lamps in the ceiling and 20 on the walls, a long table with 22 padded
+chairs, panelled walls. Few different things, stored once and placed often."""
 
 from . import decor, palette as p, pictures, seating, textures, vectors as vec
 from . import room as rooms
@@ -49,7 +49,12 @@ def panel(width, cloth):
     model.add(p.WALNUT, rounded_box((2 * w - 0.3, 0.6, 0.04), 0.015, 2, (0, 0.2, 0.028)))
     model.add(p.WALNUT, rounded_box((2 * w, 0.05, 0.07), 0.02, 1, (0, WAINSCOT - 0.012, 0.02)))
     middle = (WAINSCOT + top) / 2
-    model.add(cloth, rounded_box((2 * w - 0.2, top - WAINSCOT - 0.24, 0.06), 0.02, 2, (0, WAINSCOT + 0.12, 0.01)))
+    model.add(
+        cloth,
+        rounded_box(
+            (2 * w - 0.2, top - WAINSCOT - 0.24, 0.06), 0.02, 2, (0, WAINSCOT + 0.12, 0.01)
+        ),
+    )
     for y in (WAINSCOT + 0.06, top - 0.09):
         model.add(p.WALNUT, rounded_box((2 * w - 0.06, 0.04, 0.05), 0.012, 1, (0, y, 0.01)))
     for x in (-w + 0.06, w - 0.06):
@@ -84,7 +89,9 @@ def notepad():
 
 
 def microphone():
-    model = Model("microphone").add(p.BLACK, rounded_box((0.09, 0.02, 0.12), 0.008, 2, (0, 0.0005, 0)))
+    model = Model("microphone").add(
+        p.BLACK, rounded_box((0.09, 0.02, 0.12), 0.008, 2, (0, 0.0005, 0))
+    )
     neck = seating.smooth([(0, 0.018, -0.03), (0, 0.14, -0.02), (0, 0.24, 0.05), (0, 0.26, 0.1)], 6)
     model.add(p.STEEL, tube(neck, 0.004, 10))
     return model.add(p.BLACK, tube([neck[-1], vec.add(neck[-1], (0, 0.008, 0.04))], 0.009, 14))

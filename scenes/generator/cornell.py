@@ -1,4 +1,4 @@
-"""The Cornell box: the measured box of Cornell University's Program of Computer Graphics, in metres.
+"""The Cornell box, as Cornell University's Program of Computer Graphics measured it, in metres.
 
 Its numbers are in millimetres with x to the left of the picture. The opening is where it was, in
 front; the lamp lies flush in its hole in the ceiling, so it lights everything but the ceiling.
@@ -21,9 +21,7 @@ TALL_BLOCK = ((423, 247), (265, 296), (314, 456), (472, 406)), 330
 def polygon(*corners):
     """Corners in millimetres, counter-clockwise seen from the front."""
     corners = [vec.mul(c, 0.001) for c in corners]
-    normal = vec.unit(
-        vec.cross(vec.sub(corners[1], corners[0]), vec.sub(corners[-1], corners[0]))
-    )
+    normal = vec.unit(vec.cross(vec.sub(corners[1], corners[0]), vec.sub(corners[-1], corners[0])))
     return Mesh().fan([(c, normal, (0, 0)) for c in corners])
 
 

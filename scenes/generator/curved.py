@@ -7,7 +7,7 @@ from .mesh import Mesh
 
 
 def rounded_box(size, radius, steps=2, at=(0, 0, 0)):
-    """A box by size and centre of its bottom; its edges are quarter circles of `steps` * 2 pieces."""
+    """A box by size and centre of its bottom; its edges are round, in `steps` * 2 pieces."""
     half = [s / 2 for s in size]
     core = [h - radius for h in half]
     tangents = [radius * math.tan(math.pi / 4 * k / steps) for k in range(steps + 1)]
@@ -34,14 +34,16 @@ def rounded_box(size, radius, steps=2, at=(0, 0, 0)):
 
 
 def _profile_normals(profile, crease):
-    """Splits an (r, y) line into runs of (r, y, normal) where it bends by more than `crease` degrees."""
+    """Splits an (r, y) line into runs of (r, y, normal) where it bends by over `crease` degrees."""
     edges = []
     for (r0, y0), (r1, y1) in zip(profile, profile[1:]):
         size = math.hypot(r1 - r0, y1 - y0)
         edges.append(((y1 - y0) / size, (r0 - r1) / size))
     runs, run = [], [(*profile[0], edges[0])]
     for point, before, after in zip(profile[1:], edges, edges[1:] + [None]):
-        bend = after and before[0] * after[0] + before[1] * after[1] < math.cos(math.radians(crease))
+        bend = after and before[0] * after[0] + before[1] * after[1] < math.cos(
+            math.radians(crease)
+        )
         if after is None or bend:
             runs.append(run + [(*point, before)])
             run = [(*point, after)]
@@ -86,8 +88,8 @@ def disc(radius, y, segments, up=True):
 
 
 def egg(radius, height, segments, rings, blunt=0.22):
-    """An egg that stands on y = 0, its blunt end below: r = R sin t (1 + k cos t), y = H/2 (1 - cos t),
-    with the normals of that curve."""
+    """An egg that stands on y = 0, its blunt end below, with exact normals:
+    r = R sin t (1 + k cos t), y = H/2 (1 - cos t)."""
     run = []
     for k in range(rings + 1):
         t = math.pi * k / rings
@@ -199,7 +201,10 @@ def table_top(width, depth, thickness, segments, power=4.0, edge=3, y=0.0):
         s, c = math.sin(t), math.cos(t)
         size = (abs(s) ** power + abs(c) ** power) ** (-1 / power)
         x, z = s * size, c * size
-        n = (math.copysign(abs(x) ** (power - 1), x) / a, math.copysign(abs(z) ** (power - 1), z) / b)
+        n = (
+            math.copysign(abs(x) ** (power - 1), x) / a,
+            math.copysign(abs(z) ** (power - 1), z) / b,
+        )
         outline.append((x * a, z * b, *vec.mul((*n, 0), 1 / math.hypot(*n))[:2]))
     rows = []
     for j in range(2 * edge + 1):

@@ -1,6 +1,6 @@
 """A gallery with two lamps, a warm and a cool one, and a glass egg on a column between them."""
 
-from . import decor, palette as p, seating, textures
+from . import decor, palette as p, textures
 from . import room as rooms
 from .curved import cushion, egg, lathe, rounded_box
 from .materials import light, matte, picture, textured
@@ -10,7 +10,9 @@ from .scene import Scene
 from .shapes import slab
 
 X, Z, HEIGHT = 2.4, 2.3, 2.8
-FLOOR = textured("marble tiles", textures.marble_tiles((88, 84, 82), (236, 230, 220), 0.1), 1.2, 1.2)
+FLOOR = textured(
+    "marble tiles", textures.marble_tiles((88, 84, 82), (236, 230, 220), 0.1), 1.2, 1.2
+)
 STONE = matte("limestone", 0.72, 0.68, 0.6)
 PLUM = matte("plum wall", 0.52, 0.16, 0.26)
 BLUE = matte("blue wall", 0.14, 0.32, 0.6)
@@ -44,11 +46,26 @@ def build():
     scene.place(rooms.skirting(-X, X, -Z, Z, p.WHITE))
     scene.place(column(), (0, 0, -0.3), 0)
     scene.place(Model("glass egg").add(p.GLASS, egg(0.16, 0.44, 40, 24)), (0, 0.921, -0.3))
-    scene.place(decor.pendant(p.BRASS, p.WHITE, WARM, p.BLACK, 0.62, 0.2, 20), (-1.15, HEIGHT, -0.7), 0, "warm lamp")
-    scene.place(decor.pendant(p.STEEL, p.WHITE, COOL, p.BLACK, 0.62, 0.2, 20), (1.2, HEIGHT, -0.9), 0, "cool lamp")
+    scene.place(
+        decor.pendant(p.BRASS, p.WHITE, WARM, p.BLACK, 0.62, 0.2, 20),
+        (-1.15, HEIGHT, -0.7),
+        0,
+        "warm lamp",
+    )
+    scene.place(
+        decor.pendant(p.STEEL, p.WHITE, COOL, p.BLACK, 0.62, 0.2, 20),
+        (1.2, HEIGHT, -0.9),
+        0,
+        "cool lamp",
+    )
     scene.place(bench(), (1.72, 0, -1.75), -20)
     scene.place(decor.framed_picture(POSTER, p.DARK_WOOD, 0.8, 0.8), (-0.95, 1.5, -Z))
-    scene.place(decor.framed_picture(p.LANDSCAPE, p.DARK_WOOD, 1.0, 0.72), (0.95, 1.5, -Z), 0, "second picture")
+    scene.place(
+        decor.framed_picture(p.LANDSCAPE, p.DARK_WOOD, 1.0, 0.72),
+        (0.95, 1.5, -Z),
+        0,
+        "second picture",
+    )
     scene.place(decor.vase(p.TERRACOTTA, 24), (-1.75, 0, -1.6), 0, "vase", 0, 1.6)
     scene.camera("front", (0.22, 1.5, 1.75), (-0.02, 1.14, -0.6), 56)
     scene.camera("egg", (0.5, 1.25, 0.75), (0, 1.08, -0.3), 36)

@@ -49,7 +49,7 @@ class _Views:
 
 
 def _rounded(values):
-    """As a reader will see them: float32, with -0 and dust gone, so that the bytes never depend on it."""
+    """As a reader will see them: float32, without -0 and the last digits of sin and cos."""
     return [struct.unpack("<f", struct.pack("<f", round(v, 6) + 0.0))[0] for v in values]
 
 

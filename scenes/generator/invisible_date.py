@@ -7,7 +7,6 @@ from .curved import ball, lathe, table_top, tube
 from .materials import Material, Texture, light, matte, textured
 from .mesh import Model
 from .scene import Scene
-from .shapes import slab
 
 X, Z, HEIGHT = 2.7, 2.5, 2.75
 FLOOR = Material(
@@ -30,13 +29,27 @@ TABLE_TOP = 0.75
 
 def dinner_table():
     model = Model("dinner table").add(LINEN, table_top(1.0, 1.0, 0.03, 40, 2, 2, TABLE_TOP - 0.03))
-    leg = [(0.2, 0.03), (0.06, 0.09), (0.045, 0.4), (0.06, TABLE_TOP - 0.06), (0.16, TABLE_TOP - 0.03)]
+    leg = [
+        (0.2, 0.03),
+        (0.06, 0.09),
+        (0.045, 0.4),
+        (0.06, TABLE_TOP - 0.06),
+        (0.16, TABLE_TOP - 0.03),
+    ]
     foot = [(0.26, -0.002), (0.26, 0.02)]
     return model.add(p.DARK_WOOD, lathe(foot + leg, 24))
 
 
 def candlestick():
-    foot = [(0, 0.0005), (0.055, 0.0005), (0.05, 0.012), (0.012, 0.03), (0.01, 0.12), (0.028, 0.14), (0.012, 0.145)]
+    foot = [
+        (0, 0.0005),
+        (0.055, 0.0005),
+        (0.05, 0.012),
+        (0.012, 0.03),
+        (0.01, 0.12),
+        (0.028, 0.14),
+        (0.012, 0.145),
+    ]
     model = Model("candlestick").add(p.BRASS, lathe([*foot, (0, 0.146)], 20))
     return model.add(WAX, lathe([(0.011, 0.14), (0.011, 0.34), (0, 0.343)], 12))
 

@@ -8,8 +8,8 @@ Colour = Tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Texture:
-    """`paint` returns (width, height, palette, indices) as png.encode takes them; `size` is what one
-    repetition measures on a surface [m], (1, 1) for pictures that are fitted to their rectangle."""
+    """`paint` returns (width, height, palette, indices) as png.encode takes them; `size` is what
+    one repetition measures on a surface [m], (1, 1) for pictures fitted to their rectangle."""
 
     name: str
     paint: Callable
@@ -64,9 +64,7 @@ def describe(material, texture_index):
     strength = max(material.radiance)
     if strength > 0:
         result["emissiveFactor"] = [round(c / strength, 6) for c in material.radiance]
-        result["extensions"] = {
-            "KHR_materials_emissive_strength": {"emissiveStrength": strength}
-        }
+        result["extensions"] = {"KHR_materials_emissive_strength": {"emissiveStrength": strength}}
     if material.glass:
         result["extensions"] = {
             "KHR_materials_transmission": {"transmissionFactor": 1},

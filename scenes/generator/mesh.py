@@ -1,7 +1,7 @@
 """A triangle mesh of one material, and a model: a thing made of such meshes.
 
-A vertex is (position, unit normal, (u, v)). Texture coordinates count metres on the surface, so that
-one texture fits everything; the writer divides them by the size of the material's texture.
+A vertex is (position, unit normal, (u, v)). Texture coordinates count metres on the surface, so
+that one texture fits everything; the writer divides them by the size of the material's texture.
 v grows downwards, as in glTF. Front faces are counter-clockwise.
 """
 

@@ -1,4 +1,4 @@
-"""Periodic noise for textures that repeat. Integer hashes only, so every machine gets the same texels."""
+"""Periodic noise for textures that repeat, from integer hashes: the same texels everywhere."""
 
 import math
 

@@ -12,13 +12,20 @@ from .workplace import DESK_TOP
 X, Z, HEIGHT = 3.2, 2.6, 2.75
 CARPET = textured("carpet", textures.carpet((60, 78, 96), (112, 130, 142)), 0.7, 0.7)
 FABRIC = textured("chair fabric", textures.weave((120, 36, 28), (196, 84, 60)), 0.05, 0.05)
-VISITOR_FABRIC = textured("visitor fabric", textures.weave((40, 76, 84), (92, 142, 148)), 0.05, 0.05)
+VISITOR_FABRIC = textured(
+    "visitor fabric", textures.weave((40, 76, 84), (92, 142, 148)), 0.05, 0.05
+)
 WARM_WALL = matte("ochre wall", 0.74, 0.5, 0.22)
 GREEN_WALL = matte("sage wall", 0.36, 0.48, 0.34)
 CORK = textured("cork", textures.carpet((150, 108, 68), (206, 164, 112), 12), 0.5, 0.5)
 SLAT = matte("slat", 0.72, 0.68, 0.6)
 EDITOR = picture("editor", pictures.screen(5))
-NOTES = (p.LETTER, p.PAGES, matte("yellow note", 0.85, 0.7, 0.16), matte("rose note", 0.8, 0.36, 0.36))
+NOTES = (
+    p.LETTER,
+    p.PAGES,
+    matte("yellow note", 0.85, 0.7, 0.16),
+    matte("rose note", 0.8, 0.36, 0.36),
+)
 CEILING_LIGHT = light("ceiling light", 21, 20, 17.5)
 DESK_LIGHT = light("desk light", 190, 150, 96)
 
@@ -73,13 +80,17 @@ def main_desk(scene):
     lamp = workplace.desk_lamp(p.TEAL, DESK_LIGHT)
     scene.place(lamp, (x - 0.66, top, z + 0.05), 80, "desk lamp")
     scene.place(books.open_book(p.PAGES, p.TERRACOTTA), (x - 0.34, top, z + 0.08), -8)
-    scene.place(Model("glass ball").add(p.GLASS, ball(0.062, 12)), (x - 0.04, top + 0.0625, z + 0.2))
+    scene.place(
+        Model("glass ball").add(p.GLASS, ball(0.062, 12)), (x - 0.04, top + 0.0625, z + 0.2)
+    )
     scene.place(workplace.mug(p.WHITE, p.SOIL), (x + 0.14, top, z + 0.02), 120)
     scene.place(workplace.pens(p.TERRACOTTA, (p.TEAL, p.BLACK, p.CREAM)), (x - 0.02, top, z - 0.22))
     scene.place(workplace.monitor(p.BLACK, EDITOR), (x + 0.5, top, z + 0.06), 205, "monitor")
     keys = workplace.keyboard(p.GREY, p.BLACK)
     scene.place(keys, (x + 0.42, top, z - 0.24), 192, "keyboard")
-    tall = books.stack(((0.045, 0.25, 0.18), (0.03, 0.26, 0.19), (0.05, 0.23, 0.17), (0.02, 0.2, 0.14)), 9)
+    tall = books.stack(
+        ((0.045, 0.25, 0.18), (0.03, 0.26, 0.19), (0.05, 0.23, 0.17), (0.02, 0.2, 0.14)), 9
+    )
     scene.place(tall, (x - 0.02 + 0.72, top, z + 0.24), 20, "books on the desk")
     chair = seating.office_chair(FABRIC, p.STEEL, p.BLACK)
     scene.place(chair, (x - 0.1, 0, z - 0.82), 14, "main chair")
@@ -93,7 +104,9 @@ def second_desk(scene, chair):
     scene.place(desk, (x, 0, z), 90, "second desk")
     top = DESK_TOP + 0.0005
     scene.place(workplace.monitor(p.BLACK, EDITOR), (x - 0.14, top, z - 0.1), 84, "second monitor")
-    scene.place(workplace.keyboard(p.WHITE, p.GREY), (x + 0.18, top, z - 0.06), 90, "second keyboard")
+    scene.place(
+        workplace.keyboard(p.WHITE, p.GREY), (x + 0.18, top, z - 0.06), 90, "second keyboard"
+    )
     scene.place(workplace.mouse(p.GREY), (x + 0.18, top, z - 0.4), 90)
     scene.place(workplace.mug(p.TEAL, p.SOIL), (x + 0.02, top, z + 0.42), 30, "second mug")
     scene.place(chair, (x + 0.72, 0, z + 0.1), -118, "second chair")

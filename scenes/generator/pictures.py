@@ -1,4 +1,4 @@
-"""Painted things that are fitted to one rectangle: paintings, screens, printed pages, the view from a window."""
+"""Pictures that are fitted to one rectangle: paintings, screens, pages, the view outside."""
 
 import functools
 import math
@@ -44,9 +44,11 @@ def dusk(width=128, height=128):
 
     @functools.lru_cache(maxsize=None)
     def paint():
-        palette = [
-            (46 + 5 * i, 66 + 6 * i, 118 + 4 * i) for i in range(20)
-        ] + [(26, 28, 40), (36, 38, 52), (236, 196, 120)]
+        palette = [(46 + 5 * i, 66 + 6 * i, 118 + 4 * i) for i in range(20)] + [
+            (26, 28, 40),
+            (36, 38, 52),
+            (236, 196, 120),
+        ]
         indices = bytearray()
         for y in range(height):
             for x in range(width):
@@ -77,7 +79,10 @@ def printed_page(seed, width=128, height=192):
                     hill = math.sin(x * 0.09) * 8 + figure * 0.62
                     pixels[y * width + x] = 3 if y > hill else 2
                 elif y > figure + 4 and inside < 3 and line % 9 != 8:
-                    if hashed(x // 2 + line * 97, line, seed) > 0.22 and hashed(x // 9, line, seed) > 0.1:
+                    if (
+                        hashed(x // 2 + line * 97, line, seed) > 0.22
+                        and hashed(x // 9, line, seed) > 0.1
+                    ):
                         pixels[y * width + x] = 1
         return width, height, palette, bytes(pixels)
 
@@ -89,7 +94,14 @@ def screen(seed, width=256, height=160):
 
     @functools.lru_cache(maxsize=None)
     def paint():
-        palette = [(28, 32, 40), (40, 46, 58), (150, 200, 220), (220, 170, 110), (160, 210, 130), (190, 190, 196)]
+        palette = [
+            (28, 32, 40),
+            (40, 46, 58),
+            (150, 200, 220),
+            (220, 170, 110),
+            (160, 210, 130),
+            (190, 190, 196),
+        ]
         pixels = bytearray(width * height)
         for y in range(height):
             line, inside = divmod(y, 5)
@@ -113,7 +125,14 @@ def abstract(seed, width=192, height=192):
 
     @functools.lru_cache(maxsize=None)
     def paint():
-        palette = [(228, 214, 188), (196, 78, 52), (32, 70, 96), (222, 164, 60), (60, 120, 110), (40, 36, 40)]
+        palette = [
+            (228, 214, 188),
+            (196, 78, 52),
+            (32, 70, 96),
+            (222, 164, 60),
+            (60, 120, 110),
+            (40, 36, 40),
+        ]
         discs = [
             (hashed(k, 0, seed), hashed(k, 1, seed), 0.08 + 0.2 * hashed(k, 2, seed), 1 + k % 5)
             for k in range(9)

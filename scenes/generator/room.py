@@ -1,7 +1,7 @@
 """Rooms: the shell with its openings, windows with blinds, doors, skirting boards.
 
-Compass: north is -z, east is +x. Walls look inwards. Anything that touches a wall or a floor reaches
-a little into it, so that no two faces lie in one plane and no light gets through the joint.
+Compass: north is -z, east is +x. Walls look inwards. Anything that touches a wall or a floor
+reaches a little into it, so that no two faces lie in one plane and no light gets through the joint.
 """
 
 import math
@@ -79,7 +79,13 @@ def doorway(width, height, depth, floor, trim):
     model = Model("doorway")
     for low, high in ((-w - t, -w + 0.012), (w - 0.012, w + t)):
         model.add(trim, box((low, -0.002, -depth - over), (high, height + t, over)))
-    model.add(trim, box((-w + 0.012, height - 0.012, -depth - over + 0.002), (w - 0.012, height + t, over - 0.002)))
+    model.add(
+        trim,
+        box(
+            (-w + 0.012, height - 0.012, -depth - over + 0.002),
+            (w - 0.012, height + t, over - 0.002),
+        ),
+    )
     sill = box((-w + 0.012, -0.03, -depth - 0.02), (w - 0.012, 0.004, 0.02))
     return model.add(floor, sill)
 
@@ -90,7 +96,9 @@ def window(width, height, trim, view):
     depth = 0.14
     model = casing(width, height, depth, trim)
     w = width / 2
-    back = rectangle((-w - 0.03, -0.03, -depth + 0.01), (width + 0.06, 0, 0), (0, height + 0.06, 0), True)
+    back = rectangle(
+        (-w - 0.03, -0.03, -depth + 0.01), (width + 0.06, 0, 0), (0, height + 0.06, 0), True
+    )
     model.add(view, back)
     z0, z1 = -depth + 0.02, -depth + 0.06
     model.add(trim, box((-0.025, 0, z0), (0.025, height, z1)))

@@ -60,7 +60,9 @@ class Scene:
         yaw = math.degrees(math.atan2(-d[0], -d[2]))
         pitch = math.degrees(math.asin(d[1]))
         rotation = _product(_quaternion((0, 1, 0), yaw), _quaternion((1, 0, 0), pitch))
-        self.cameras.append(Camera(name, _round(eye), _round(rotation), round(math.radians(fov), 6)))
+        self.cameras.append(
+            Camera(name, _round(eye), _round(rotation), round(math.radians(fov), 6))
+        )
 
     def statistics(self):
         """(unique triangles, triangles after instancing, lights = emitting parts of things)."""

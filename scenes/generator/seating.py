@@ -1,7 +1,5 @@
 """Chairs and sofas. They look towards +z and stand on y = 0."""
 
-import math
-
 from . import vectors as vec
 from .curved import ball, cushion, lathe, rounded_box, tube
 from .mesh import Model
@@ -46,7 +44,12 @@ def office_chair(fabric, base, plastic, detail=1, name="office chair"):
     spine = [(0, 0.415, -0.04), (0, 0.425, -0.2), (0, 0.53, -0.29), (0, 0.82, -0.3)]
     model.add(plastic, tube(smooth(spine, 4 * detail), 0.022, 8 * detail))
     for x in (-0.27, 0.27):
-        path = [(x * 0.7, 0.425, 0.02), (x * 0.95, 0.427, 0.02), (x * 1.03, 0.5, 0.02), (x, 0.64, 0.02)]
+        path = [
+            (x * 0.7, 0.425, 0.02),
+            (x * 0.95, 0.427, 0.02),
+            (x * 1.03, 0.5, 0.02),
+            (x, 0.64, 0.02),
+        ]
         model.add(plastic, tube(smooth(path, 4 * detail), 0.016, 8 * detail))
         model.add(plastic, rounded_box((0.07, 0.03, 0.28), 0.013, 1 + detail, (x, 0.64, 0.03)))
     return model

@@ -23,7 +23,8 @@ def rectangle(corner, right, up, fit=False):
 
 def wall(corner, right, up, holes=()):
     """A rectangle with rectangular holes (x0, y0, x1, y1) in metres from its corner. Cut along all
-    edges of the holes, so that neighbouring pieces share their vertices and no light gets through."""
+    edges of the holes, so that neighbouring pieces share their vertices and no light gets through.
+    """
     width, height = vec.length(right), vec.length(up)
     xs = sorted({0, width, *(x for h in holes for x in (h[0], h[2]))})
     ys = sorted({0, height, *(y for h in holes for y in (h[1], h[3]))})
@@ -79,7 +80,7 @@ def slab(size, at=(0, 0, 0), skip=()):
 
 
 def taper(bottom, top, height, at=(0, 0, 0), lean=(0, 0)):
-    """A square leg without a lower end that gets wider or narrower; `lean` shifts its top in x and z."""
+    """A square leg without a lower end that widens or narrows; `lean` shifts its top in x and z."""
 
     def ring(side, y, dx, dz):
         h = side / 2

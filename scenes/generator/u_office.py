@@ -1,6 +1,6 @@
-"""Two offices and the narrow corridor that joins them, in the shape of a U, after Segovia and others
-(2006). The only lamp is in the far room, the camera in the dark one: nearly all light that it sees
-came through two doors. Standard instant radiosity hardly finds it."""
+"""Two offices and the narrow corridor that joins them, in the shape of a U, after Segovia and
+others (2006). The only lamp is in the far room, the camera in the dark one: nearly all light that
+it sees came through two doors. Standard instant radiosity hardly finds it."""
 
 from . import books, decor, palette as p, seating, textures, workplace
 from . import room as rooms
@@ -32,24 +32,56 @@ def shells(scene):
     dark = {"north": [hole(-OUTER, -DOOR_X)]}
     bright = {"north": [hole(INNER, DOOR_X)]}
     passage = {"south": [hole(OUTER, DOOR_X), hole(OUTER, -DOOR_X)]}
-    scene.place(rooms.shell(-OUTER, -INNER, -Z, Z, HEIGHT, CARPET, p.CEILING,
-                            {**plain, "west": CORAL}, dark, "dark room"))  # fmt: skip
-    scene.place(rooms.shell(INNER, OUTER, -Z, Z, HEIGHT, CARPET, p.CEILING,
-                            {**plain, "east": MINT}, bright, "bright room"))  # fmt: skip
-    scene.place(rooms.shell(-OUTER, OUTER, *CORRIDOR, HEIGHT, CARPET, p.CEILING, plain, passage, "corridor"))
+    scene.place(
+        rooms.shell(
+            -OUTER,
+            -INNER,
+            -Z,
+            Z,
+            HEIGHT,
+            CARPET,
+            p.CEILING,
+            {**plain, "west": CORAL},
+            dark,
+            "dark room",
+        )
+    )
+    scene.place(
+        rooms.shell(
+            INNER,
+            OUTER,
+            -Z,
+            Z,
+            HEIGHT,
+            CARPET,
+            p.CEILING,
+            {**plain, "east": MINT},
+            bright,
+            "bright room",
+        )
+    )
+    scene.place(
+        rooms.shell(-OUTER, OUTER, *CORRIDOR, HEIGHT, CARPET, p.CEILING, plain, passage, "corridor")
+    )
     frame = rooms.doorway(*DOOR, -Z - CORRIDOR[1], CARPET, p.WHITE)
     scene.place(frame, (-DOOR_X, 0, -Z), 0, "dark room's doorway")
     scene.place(frame, (DOOR_X, 0, -Z), 0, "bright room's doorway")
     gap = [(low - INNER - 0.06, high - INNER + 0.06)]
     mirrored = [(OUTER - high - 0.06, OUTER - low + 0.06)]
     scene.place(rooms.skirting(-OUTER, -INNER, -Z, Z, p.WHITE, {"north": mirrored}))
-    scene.place(rooms.skirting(INNER, OUTER, -Z, Z, p.WHITE, {"north": gap}), name="second skirting")
+    scene.place(
+        rooms.skirting(INNER, OUTER, -Z, Z, p.WHITE, {"north": gap}), name="second skirting"
+    )
     both = [(OUTER - high - 0.06, OUTER - low + 0.06), (OUTER + low - 0.06, OUTER + high + 0.06)]
-    scene.place(rooms.skirting(-OUTER, OUTER, *CORRIDOR, p.WHITE, {"south": both}), name="third skirting")
+    scene.place(
+        rooms.skirting(-OUTER, OUTER, *CORRIDOR, p.WHITE, {"south": both}), name="third skirting"
+    )
 
 
 def dark_room(scene, chair, shelf, rows):
-    scene.place(workplace.desk(p.OAK, p.BLACK, 1.5, 0.75, p.OAK), (-2.95, 0, -0.75), 180, "dark desk")
+    scene.place(
+        workplace.desk(p.OAK, p.BLACK, 1.5, 0.75, p.OAK), (-2.95, 0, -0.75), 180, "dark desk"
+    )
     top = DESK_TOP + 0.0005
     scene.place(books.open_book(p.PAGES, p.TERRACOTTA), (-3.05, top, -0.7), 8)
     scene.place(workplace.mug(p.WHITE, p.SOIL), (-2.65, top, -0.6), 200)
@@ -66,7 +98,12 @@ def dark_room(scene, chair, shelf, rows):
     green = decor.plant(p.TERRACOTTA, p.SOIL, p.LEAVES, p.STEM, 30, 1.0)
     scene.place(green, (-0.5, 0, -1.1), 40)
     scene.place(decor.framed_picture(p.ABSTRACT, p.DARK_WOOD, 0.7, 0.7), (-INNER, 1.55, -0.4), -90)
-    scene.place(decor.framed_picture(p.LANDSCAPE, p.DARK_WOOD, 0.8, 0.6), (-OUTER, 1.5, -0.6), 90, "second picture")
+    scene.place(
+        decor.framed_picture(p.LANDSCAPE, p.DARK_WOOD, 0.8, 0.6),
+        (-OUTER, 1.5, -0.6),
+        90,
+        "second picture",
+    )
 
 
 def bright_room(scene, chair, shelf, rows):

@@ -80,7 +80,13 @@ def mug(clay, inside, segments=28):
     inner = [(0.0355, 0.03), (0.033, 0.01), (0, 0.008)]
     model = Model("mug").add(clay, lathe(outer + rim + inner, segments))
     model.add(inside, disc(0.0358, 0.078, segments))
-    handle = [(0.039, 0.078, 0), (0.06, 0.08, 0), (0.07, 0.055, 0), (0.058, 0.028, 0), (0.038, 0.026, 0)]
+    handle = [
+        (0.039, 0.078, 0),
+        (0.06, 0.08, 0),
+        (0.07, 0.055, 0),
+        (0.058, 0.028, 0),
+        (0.038, 0.026, 0),
+    ]
     return model.add(clay, tube(smooth(handle, 4), 0.005, 8))
 
 
@@ -97,7 +103,7 @@ def pens(cup, colours, seed=4):
 
 
 def desk_lamp(metal, light, bulb_radius=0.062):
-    """A jointed arm that carries a shade over the point (0, 0, 0.3); light leaves the shade's mouth."""
+    """A jointed arm that carries a shade over the point (0, 0, 0.3); its light looks down."""
     model = Model("desk lamp")
     foot = [(0, 0.0005), (0.095, 0.0005), (0.098, 0.006), (0.09, 0.018), (0.02, 0.026), (0, 0.026)]
     model.add(metal, lathe(foot, 32))
@@ -108,8 +114,20 @@ def desk_lamp(metal, light, bulb_radius=0.062):
     for joint in joints[1:]:
         pin = [vec.add(joint, (-0.024, 0, 0)), vec.add(joint, (0.024, 0, 0))]
         model.add(metal, tube(pin, 0.015, 14))
-    outside = [(bulb_radius + 0.03, 0), (bulb_radius + 0.022, 0.04), (0.045, 0.1), (0.03, 0.15), (0, 0.155)]
-    inside = [(0, 0.145), (0.028, 0.14), (0.042, 0.098), (bulb_radius + 0.018, 0.04), (bulb_radius + 0.028, 0)]
+    outside = [
+        (bulb_radius + 0.03, 0),
+        (bulb_radius + 0.022, 0.04),
+        (0.045, 0.1),
+        (0.03, 0.15),
+        (0, 0.155),
+    ]
+    inside = [
+        (0, 0.145),
+        (0.028, 0.14),
+        (0.042, 0.098),
+        (bulb_radius + 0.018, 0.04),
+        (bulb_radius + 0.028, 0),
+    ]
     head = vec.chain(vec.move(0, 0.44, 0.27), vec.turn("x", -22))
     model.add(metal, lathe(inside + outside, 32).moved(head))
     model.add(light, disc(bulb_radius, 0.03, 24, up=False).moved(head))
@@ -136,7 +154,11 @@ def pinboard(board, frame, notes, width=1.5, height=0.95, seed=6):
             if rnd.random() < 0.78:
                 a, b = rnd.choice(((0.15, 0.21), (0.1, 0.1), (0.21, 0.15)))
                 note = rectangle((-a / 2, -b / 2, 0), (a, 0, 0), (0, b, 0), fit=True)
-                place = (width * (i - (columns - 1) / 2) / (columns + 0.2), height * (j - 1) / 3.2, 0.0135 + 0.0002 * i)
+                place = (
+                    width * (i - (columns - 1) / 2) / (columns + 0.2),
+                    height * (j - 1) / 3.2,
+                    0.0135 + 0.0002 * i,
+                )
                 turn = vec.turn("z", rnd.uniform(-6, 6))
                 model.add(notes[rnd.randrange(len(notes))], note.moved(vec.move(*place), turn))
     return model
@@ -149,6 +171,8 @@ def cabinet(body, fronts, handle, width=0.8, height=1.1, depth=0.42, drawers=4):
     step = (height - 0.04) / drawers
     for k in range(drawers):
         y = 0.03 + step * k
-        model.add(fronts, box((-w + 0.012, y, depth - 0.01), (w - 0.012, y + step - 0.014, depth + 0.016)))
+        model.add(
+            fronts, box((-w + 0.012, y, depth - 0.01), (w - 0.012, y + step - 0.014, depth + 0.016))
+        )
         model.add(handle, slab((0.14, 0.014, 0.03), (0, y + step * 0.6, depth + 0.02)))
     return model
