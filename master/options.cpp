@@ -122,10 +122,10 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
 }
 
 void readRun(const RawOptions& raw, Options& o) {
-  o.frames = raw.whole("frames", 1, static_cast<uint64_t>(kForever));
-  o.seconds = raw.real("seconds", 1e-3, kForever);
-  o.untilError = raw.real("until-error", 1e-9, 1);
-  if (!o.frames && !o.seconds && !o.untilError) o.frames = kDefaultFrames;
+  o.stop.frames = raw.whole("frames", 1, static_cast<uint64_t>(kForever));
+  o.stop.seconds = raw.real("seconds", 1e-3, kForever);
+  o.stop.untilError = raw.real("until-error", 1e-9, 1);
+  if (!o.stop.frames && !o.stop.seconds && !o.stop.untilError) o.stop.frames = kDefaultFrames;
 }
 
 void readFiles(const RawOptions& raw, Options& o) {

@@ -17,6 +17,7 @@
 #include "common/image/surface_test.h"
 #include "common/scene/scene.h"
 #include "common/scene/settings.h"
+#include "master/stop_rule.h"
 
 namespace ninefold {
 
@@ -41,10 +42,7 @@ struct Options {
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
 
-  // A run stops at the first of these that is given; at 64 frames if none is.
-  std::optional<int64_t> frames;
-  std::optional<double> seconds;     // [s]
-  std::optional<double> untilError;  // relative standard error; looked at for 16, 32, 64... frames
+  StopRule stop;  // 64 frames if no flag says otherwise
 
   std::optional<std::string> output;  // .exr, .png or .hdr
   bool aovs = false;

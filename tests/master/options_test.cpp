@@ -55,8 +55,9 @@ TEST(Options, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(o.clientThreads, 1);
   EXPECT_EQ(o.listen, "127.0.0.1:0");
   EXPECT_EQ(o.waitClients, 1);
-  EXPECT_EQ(o.frames, kDefaultFrames);
-  EXPECT_FALSE(o.seconds || o.untilError || o.stats || o.keyFile || o.environment || o.aovs);
+  EXPECT_EQ(o.stop.frames, kDefaultFrames);
+  EXPECT_FALSE(o.stop.seconds || o.stop.untilError || o.stats || o.keyFile || o.environment ||
+               o.aovs);
 }
 
 TEST(Options, EveryFlagIsRead) {
@@ -87,9 +88,9 @@ TEST(Options, EveryFlagIsRead) {
   EXPECT_FLOAT_EQ(o.settings.photonRadius, 0.25f);
   EXPECT_EQ(o.settings.caustics, Caustics::off);
   EXPECT_EQ(*o.environment, Radiance(1, 2, 3.5f));
-  EXPECT_EQ(o.frames, 11);
-  EXPECT_EQ(o.seconds, 1.5);
-  EXPECT_EQ(o.untilError, 0.01);
+  EXPECT_EQ(o.stop.frames, 11);
+  EXPECT_EQ(o.stop.seconds, 1.5);
+  EXPECT_EQ(o.stop.untilError, 0.01);
   EXPECT_TRUE(o.aovs);
   EXPECT_FLOAT_EQ(o.exposure, -1.5f);
   EXPECT_EQ(o.settings.seed, UINT64_MAX);
@@ -129,8 +130,8 @@ TEST(Options, PresetsSetDefaultsThatFlagsOverride) {
 }
 
 TEST(Options, OneStopIsEnough) {
-  EXPECT_FALSE(parse("room.glb --seconds 3").frames);
-  EXPECT_FALSE(parse("room.glb --until-error 0.02").frames);
+  EXPECT_FALSE(parse("room.glb --seconds 3").stop.frames);
+  EXPECT_FALSE(parse("room.glb --until-error 0.02").stop.frames);
 }
 
 TEST(Options, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {

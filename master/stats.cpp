@@ -1,0 +1,145 @@
+#include "master/stats.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rate(double amount, double seconds) { return seconds > 0 ? amount / seconds : 0; }
+
+// The smallest value that at least the fraction p of all does not exceed.
+double percentile(std::vector<double> values, double p) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  const auto rank = static_cast<size_t>(std::ceil(p * static_cast<double>(values.size())));
+  return values[std::max<size_t>(rank, 1) - 1];
+}
+
+Json numberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
+
+Json list(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
+
+Json object(const Needs& n) {
+  return {{"reflection", n.reflection},          {"transmission", n.transmission},
+          {"rough_specular", n.roughSpecular},   {"textures", n.textures},
+          {"alpha_mask", n.alphaMask},           {"area_lights", n.areaLights},
+          {"punctual_lights", n.punctualLights}, {"environment", n.environment}};
+}
+
+Json object(const Camera& c) {
+  return {{"name", c.name},
+          {"eye", list(c.eye)},
+          {"forward", list(c.forward)},
+          {"up", list(c.up)},
+          {"vertical_fov", c.verticalFov}};
+}
+
+const char* nameOf(Method m) { return m == Method::pathTrace ? "path-trace" : "instant-radiosity"; }
+
+const char* nameOf(Caustics c) {
+  return c == Caustics::off ? "off" : c == Caustics::direct ? "direct" : "all";
+}
+
+Json object(const Settings& s, const std::string& preset) {
+  return {{"preset", preset},
+          {"width", s.width},
+          {"height", s.height},
+          {"camera", object(s.camera)},
+          {"interleave", Json::array({s.interleave.n, s.interleave.m})},
+          {"direct_vpls", s.directVpls},
+          {"indirect_vpls", s.indirectVpls},
+          {"photons", s.photons},
+          {"path_length", s.pathLength},
+          {"specular_depth", s.specularDepth},
+          {"bound", s.bound},
+          {"photon_radius", s.photonRadius},
+          {"caustics", nameOf(s.caustics)},
+          {"environment", list(s.environment)},
+          {"randomization", s.randomization == Randomization::owen ? "owen" : "xor"},
+          {"jitter", s.jitter}};
+}
+
+Json object(const std::vector<ClientStats>& clients) {
+  Json all = Json::array();
+  for (const ClientStats& c : clients)
+    all.push_back({{"name", c.name},
+                   {"isa", c.isa},
+                   {"tasks", c.tasks},
+                   {"busy_fraction", c.busyFraction},
+                   {"sets_per_frame", c.setsPerFrame}});
+  return all;
+}
+
+Json object(const RayCounts& rays) {
+  return {{"eye", rays.eye},
+          {"shadow", rays.shadow},
+          {"photon", rays.photon},
+          {"compensation", rays.compensation}};
+}
+
+void addPerformance(const RunStats& s, Json& json) {
+  const double pixels = static_cast<double>(s.frames) * s.settings.width * s.settings.height;
+  json["frames"] = s.frames;
+  json["seconds"] = s.seconds;
+  json["fps"] = rate(static_cast<double>(s.frames), s.seconds);
+  json["frame_ms"] = {{"p50", percentile(s.frameMs, 0.5)},
+                      {"p95", percentile(s.frameMs, 0.95)},
+                      {"max", percentile(s.frameMs, 1)}};
+  json["rays"] = object(s.rays);
+  json["rays_per_second"] = rate(static_cast<double>(s.rays.total()), s.seconds);
+  json["pixels_per_second"] = rate(pixels, s.seconds);
+  json["bytes_received"] = s.bytesReceived;
+  json["bytes_per_pixel"] = rate(static_cast<double>(s.bytesReceived), pixels);
+}
+
+void addWork(const RunStats& s, Json& json) {
+  json["clients"] = object(s.clients);
+  json["master"] = {
+      {"decode_ms", s.decodeMs}, {"filter_ms", s.filterMs}, {"idle_fraction", s.idleFraction}};
+  json["tiles_dropped"] = {
+      {"stale", s.tilesStale}, {"duplicate", s.tilesDuplicate}, {"malformed", s.tilesMalformed}};
+  json["tasks_reissued"] = s.tasksReissued;
+}
+
+void addJob(const RunStats& s, Json& json) {
+  json["relative_error"] = numberOrNull(s.relativeError);
+  json["needs"] = object(s.needs);
+  json["method"] = nameOf(s.settings.method);
+  json["settings"] = object(s.settings, s.preset);
+  json["seed"] = s.settings.seed;
+  json["reproducible"] = s.reproducible;
+  json["image_hash"] = s.imageHash;
+}
+
+}  // namespace
+
+std::string toJson(const RunStats& stats) {
+  Json json;
+  addPerformance(stats, json);
+  addWork(stats, json);
+  addJob(stats, json);
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeStats(const std::string& path, const RunStats& stats) {
+  const std::string part = path + ".part";
+  std::ofstream file(part, std::ios::binary | std::ios::trunc);
+  file << toJson(stats);
+  file.close();
+  if (file && std::rename(part.c_str(), path.c_str()) == 0) return;
+  const int reason = errno;
+  std::remove(part.c_str());
+  fail("--stats {}: cannot write it: {}", path, std::strerror(reason));
+}
+
+}  // namespace ninefold

@@ -1,0 +1,50 @@
+// stats.h: what --stats writes: one JSON object about a run. The names of its keys are part of the
+// outside interface (DESIGN §4); each field says which it becomes.
+//
+// Threads: plain value. Errors: writeStats throws Error that names the file.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/base/counters.h"
+#include "common/scene/needs.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+struct ClientStats {
+  std::string name = {}, isa = {};
+  uint64_t tasks = 0;       // accepted results
+  double busyFraction = 0;  // of its threads' time while it was there
+  double setsPerFrame = 0;  // light sets, for each frame that it worked on
+};
+
+struct RunStats {
+  int64_t frames = 0;           // complete, at full size
+  double seconds = 0;           // first dispatch to last completion; gives fps and all rates
+  std::vector<double> frameMs;  // from one completion to the next, in order; gives frame_ms
+  RayCounts rays;               // of accepted results
+  uint64_t bytesReceived = 0;
+  std::vector<ClientStats> clients;
+  double decodeMs = 0, filterMs = 0;  // master.decode_ms, filter_ms: mean for each frame
+  double idleFraction = 0;            // master.idle_fraction: of its threads' time
+  uint64_t tilesStale = 0, tilesDuplicate = 0;
+  uint64_t tilesMalformed = 0;  // not to be decoded, or never asked for
+  uint64_t tasksReissued = 0;
+  double relativeError = 0;  // not finite (less than two frames): null
+  Needs needs;
+  std::string preset;  // settings.preset
+  Settings settings;   // method, settings, seed
+  bool reproducible = true;
+  std::string imageHash;
+};
+
+// The object as text, keys in the order of the interface.
+std::string toJson(const RunStats& stats);
+
+// Written beside `path` and renamed: it is whole or not there.
+void writeStats(const std::string& path, const RunStats& stats);
+
+}  // namespace ninefold
