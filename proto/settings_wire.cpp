@@ -1,6 +1,7 @@
 #include "proto/settings_wire.h"
 
 #include "proto/messages.h"
+#include "proto/text.h"
 
 namespace ninefold {
 namespace {
@@ -20,7 +21,7 @@ Enum toEnum(const char* field, uint32_t value, Enum last) {
 }
 
 void toWire(const Camera& camera, pb::Camera& out) {
-  out.set_name(camera.name);
+  out.set_name(printable(camera.name, kMaxText));
   toWire(camera.eye, *out.mutable_eye());
   toWire(camera.forward, *out.mutable_forward());
   toWire(camera.up, *out.mutable_up());
@@ -29,6 +30,8 @@ void toWire(const Camera& camera, pb::Camera& out) {
 
 Camera fromWire(const pb::Camera& in) {
   Camera camera;
+  if (printable(in.name(), kMaxText) != in.name())
+    fail("camera name is longer than {} bytes or not printable UTF-8", kMaxText);
   camera.name = in.name();
   camera.eye = fromWire(in.eye());
   camera.forward = fromWire(in.forward());
@@ -58,6 +61,7 @@ void toWire(const Settings& s, pb::Settings& out) {
   out.set_seed(s.seed);
   out.set_randomization(static_cast<uint32_t>(s.randomization));
   out.set_jitter(s.jitter);
+  out.set_compensate(s.compensate);
 }
 
 Settings fromWire(const pb::Settings& in) {
@@ -79,6 +83,7 @@ Settings fromWire(const pb::Settings& in) {
   s.seed = in.seed();
   s.randomization = toEnum("randomization", in.randomization(), Randomization::owen);
   s.jitter = in.jitter();
+  s.compensate = in.compensate();
   checkRanges(s);
   return s;
 }

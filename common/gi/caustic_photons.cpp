@@ -19,7 +19,8 @@ void tracePhoton(const Transport& t, const Particle& start, const MediumStack& m
                   const ShadingPoint& p = *a.point;
                   if (a.fromSpecular && !isBlack(p.bsdf.diffuse)) {
                     const Flux flux = share * shadingFactor(p, p.wo) * a.flux;
-                    if (!isBlack(flux)) out.push_back({p.surface.position, p.ng, flux});
+                    if (!isBlack(flux))
+                      out.push_back({p.surface.position, p.ng, flux, a.diffuseBefore});
                   }
                   return false;  // what scatters diffusely here is the VPLs' part
                 });
@@ -76,10 +77,12 @@ std::vector<Photon> makeCausticPhotons(const Transport& t, const FrameKey& frame
   return photons;
 }
 
-Irradiance gatherPhotons(const PhotonGrid& grid, Vec3 position, Vec3 n) {
+Irradiance gatherPhotons(const Transport& t, const PhotonGrid& grid, Vec3 position, Vec3 n,
+                         int pathVertices) {
   Flux sum(0);
   grid.near(position, [&](const Photon& photon) {
-    if (glm::dot(photon.normal, n) > kMinNormalCosine) sum += photon.flux;
+    const bool counts = t.allows(photon.diffuseBefore + pathVertices);
+    if (counts && glm::dot(photon.normal, n) > kMinNormalCosine) sum += photon.flux;
   });
   return sum / (kPi * grid.radius() * grid.radius());
 }

@@ -22,7 +22,8 @@ namespace ninefold {
 std::vector<Photon> makeCausticPhotons(const Transport& transport, const FrameKey& frame, int k,
                                        const std::vector<Vpl>& vpls, RayCounts& rays);
 
-// Irradiance at a receiver with unit geometric normal n.
-Irradiance gatherPhotons(const PhotonGrid& grid, Vec3 position, Vec3 n);
+// Irradiance at a receiver with unit geometric normal n; pathVertices as in irradiance.h.
+Irradiance gatherPhotons(const Transport& transport, const PhotonGrid& grid, Vec3 position, Vec3 n,
+                         int pathVertices);
 
 }  // namespace ninefold

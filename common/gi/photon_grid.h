@@ -22,8 +22,9 @@ namespace ninefold {
 
 struct Photon {
   Vec3 position{0};
-  Vec3 normal{0};  // geometric, on the side where it landed
-  Flux flux{0};    // [W]
+  Vec3 normal{0};         // geometric, on the side where it landed
+  Flux flux{0};           // [W]
+  int diffuseBefore = 0;  // D vertices of its path before it landed
 };
 
 class PhotonGrid {

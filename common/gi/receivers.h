@@ -15,7 +15,7 @@ struct Receiver {
   Vec3 position{0};
   Vec3 ng{0}, ns{0};   // geometric and shading normal, turned to where the path came from
   Vec3 origin{0};      // where shadow rays start: position moved off the surface along ng
-  uint32_t pixel = 0;  // index in the task's rectangle
+  uint32_t pixel = 0;  // names the pixel in the whole image: x + width * y
   float gain = 1;      // 1 / probability of the lobe choices behind it; E is multiplied by it
 };
 
@@ -36,6 +36,10 @@ class Receivers {
   size_t size() const { return pixel.size(); }
   Vec3 position(size_t i) const { return Vec3(px[i], py[i], pz[i]); }
   Vec3 ng(size_t i) const { return Vec3(gx[i], gy[i], gz[i]); }
+  Vec3 ns(size_t i) const { return Vec3(sx[i], sy[i], sz[i]); }
+  Vec3 origin(size_t i) const { return Vec3(ox[i], oy[i], oz[i]); }
+  Vec3 irradiance(size_t i) const { return Vec3(er[i], eg[i], eb[i]); }
+  void addIrradiance(size_t i, Vec3 e) { er[i] += e.x, eg[i] += e.y, eb[i] += e.z; }
 
   // Fills up to a multiple of sixteen with copies of the last receiver; size() stays.
   void pad(size_t lanes) {

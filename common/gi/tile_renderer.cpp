@@ -1,10 +1,9 @@
 #include "common/gi/tile_renderer.h"
 
-#include "common/gi/caustic_photons.h"
 #include "common/gi/direct_light.h"
 #include "common/gi/eye_path.h"
+#include "common/gi/irradiance.h"
 #include "common/gi/path_tracer.h"
-#include "common/gi/vpl_gather.h"
 
 namespace ninefold {
 namespace {
@@ -13,10 +12,6 @@ constexpr int kBlock = 4;  // a packet is a 4 x 4 block of the sub-plane
 
 void put(RgbPlane& plane, size_t i, Vec3 v) {
   plane.r[i] = v.x, plane.g[i] = v.y, plane.b[i] = v.z;
-}
-
-void add(RgbPlane& plane, size_t i, Vec3 v) {
-  plane.r[i] += v.x, plane.g[i] += v.y, plane.b[i] += v.z;
 }
 
 // One task's constants, so that the functions below stay short.
@@ -45,8 +40,11 @@ void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
   Receiver r;
   r.position = x.surface.position, r.ng = x.ng, r.ns = x.frame.normal;
   r.origin = offsetOrigin(x.surface, x.ng);
-  r.pixel = static_cast<uint32_t>(pixel), r.gain = gain;
+  r.gain = gain;
+  const int i = static_cast<int>(pixel) % c.rect.width, j = static_cast<int>(pixel) / c.rect.width;
+  r.pixel = static_cast<uint32_t>(c.pixelX(i) + c.t.settings.width * c.pixelY(j));
   c.scratch.receivers[static_cast<size_t>(layer)].add(r);
+  c.scratch.places[static_cast<size_t>(layer)].push_back(static_cast<uint32_t>(pixel));
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
   put(planes.reflectance, pixel, kInvPi * throughput * x.bsdf.diffuse);
   put(planes.normal, pixel, x.frame.normal);
@@ -125,20 +123,18 @@ void traceBlock(TaskContext& c, int bi, int bj) {
 
 void gatherLayer(TaskContext& c, int layer) {
   Receivers& receivers = c.scratch.receivers[static_cast<size_t>(layer)];
+  const std::vector<uint32_t>& places = c.scratch.places[static_cast<size_t>(layer)];
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
-  receivers.pad(kPacket);
-  gatherVpls(c.t, c.lights.vpls, receivers, c.out.rays.shadow);
+  const Settings& s = c.t.settings;
+  const ReceiverSamples samples{s.seed, c.task.frame.randomization, s.randomization,
+                                static_cast<uint32_t>(layer)};
   const bool wantsCaustic = layer == kDiffuse && (c.task.extraMask & kCausticPlane) != 0;
+  std::vector<Irradiance> caustic(wantsCaustic ? receivers.size() : 0, Irradiance(0));
+  gatherIrradiance(c.t, c.lights, samples, 1, c.scratch, receivers,
+                   wantsCaustic ? &caustic : nullptr, c.out.rays);
   for (size_t i = 0; i < receivers.size(); ++i) {
-    const size_t pixel = receivers.pixel[i];
-    Irradiance e(receivers.er[i], receivers.eg[i], receivers.eb[i]);
-    if (!c.lights.photons.empty()) {
-      const Irradiance caustic =
-          gatherPhotons(c.lights.photons, receivers.position(i), receivers.ng(i));
-      if (wantsCaustic) add(c.out.extras.caustic, pixel, caustic);
-      e += caustic;
-    }
-    put(planes.irradiance, pixel, receivers.gain[i] * e);
+    put(planes.irradiance, places[i], receivers.gain[i] * receivers.irradiance(i));
+    if (wantsCaustic) put(c.out.extras.caustic, places[i], caustic[i]);
   }
 }
 
@@ -163,6 +159,7 @@ void pathTracePixel(TaskContext& c, int i, int j) {
 // Instant radiosity: eye paths to their layers' receivers, then the set's light for all of them.
 void radiosityTask(TaskContext& c) {
   for (Receivers& receivers : c.scratch.receivers) receivers.clear();
+  for (auto& places : c.scratch.places) places.clear();
   for (int bj = 0; bj < c.rect.height; bj += kBlock)
     for (int bi = 0; bi < c.rect.width; bi += kBlock) traceBlock(c, bi, bj);
   for (int layer = 0; layer < kLayers; ++layer)

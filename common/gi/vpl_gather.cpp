@@ -104,11 +104,12 @@ void addVisible(const Vpl& vpl, const PacketWeights& weights, uint32_t visible, 
 
 }  // namespace
 
-void gatherVpls(const Transport& t, const std::vector<Vpl>& vpls, Receivers& receivers,
-                uint64_t& shadowRays) {
+void gatherVpls(const Transport& t, const std::vector<Vpl>& vpls, int pathVertices,
+                Receivers& receivers, uint64_t& shadowRays) {
   RayPacket rays;
   PacketWeights weights;
   for (const Vpl& vpl : vpls) {
+    if (!t.allows(vpl.diffuseCount + pathVertices)) continue;
     const Vec3 target = rayTarget(t, vpl);
     const bool directional = vpl.kind == Vpl::Kind::directional;
     const float tFar = directional ? std::numeric_limits<float>::infinity() : 1.0f;

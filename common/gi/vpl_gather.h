@@ -20,9 +20,10 @@
 
 namespace ninefold {
 
-// Adds to receivers.er/eg/eb; receivers must be padded to kPacket. `shadowRays` counts active
+// Adds to receivers.er/eg/eb; receivers must be padded to kPacket. VPLs whose path would exceed the
+// limit on D vertices are left out; pathVertices as in irradiance.h. `shadowRays` counts active
 // lanes.
-void gatherVpls(const Transport& transport, const std::vector<Vpl>& vpls, Receivers& receivers,
-                uint64_t& shadowRays);
+void gatherVpls(const Transport& transport, const std::vector<Vpl>& vpls, int pathVertices,
+                Receivers& receivers, uint64_t& shadowRays);
 
 }  // namespace ninefold

@@ -34,11 +34,12 @@ struct Allowed {
 
 void expectAgreement(const Scene& scene, Allowed allowed) {
   const Tracer tracer(scene, Isa::automatic);
-  Settings radiosity = testing::small(Method::instantRadiosity, 16);
+  Settings radiosity = testing::small(Method::instantRadiosity);
   radiosity.bound = 3000, radiosity.photonRadius = allowed.radius,
   radiosity.pathLength = allowed.pathLength;
-  radiosity.directVpls = 8, radiosity.indirectVpls = 48, radiosity.photons = 4000;
-  Settings reference = testing::small(Method::pathTrace, 16);
+  radiosity.directVpls = 8, radiosity.indirectVpls = 48, radiosity.photons = 2000;
+  radiosity.interleave = {2, 2};
+  Settings reference = testing::small(Method::pathTrace);
   reference.pathLength = allowed.pathLength;
   const auto a = testing::render(tracer, radiosity, allowed.frames);
   const auto b = testing::render(tracer, reference, 4 * allowed.frames);

@@ -1,0 +1,47 @@
+// compensation.h: gives the bounded geometry term its lost energy back, without bias and without
+// fireflies.
+//
+//   E(x) lacks  integral over hits y of  L(y -> x) cos_s dw  max(G - b, 0) / G
+//   estimate    pi W (L_e(y) + rho_y/pi E(y)),  W = max(G - b, 0) / G,  one direction w with
+//   density cos_s/pi
+//
+//   G, b, cos_s   as in vpl_gather.h                                                    [1/m^2],
+//   [1/m^2], 1 E(y)          from VPLs and photons, of paths one D vertex longer, itself
+//   compensated (recursion)
+//
+// W is zero beyond t = sqrt(cos_x / b): the rays are short and cheap, and few of them hit anything.
+// A hit is followed with probability q = min(1, largest channel of W rho_y) and divided by it.
+// Light that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray
+// that meets nothing, and S lobes at y, return nothing.
+//
+// Source:  Kollig and Keller, "Illumination in the Presence of Weak Singularities", 2004.
+// Proved:  tests/gi (furnace in a corner: exact with it, too dark without; agreement with the path
+// tracer). Threads: reentrant with one scratch a thread.   Errors: none; at most kMaxBounces
+// levels.
+#pragma once
+
+#include "common/gi/light_set.h"
+#include "common/gi/receivers.h"
+#include "common/gi/scratch.h"
+
+namespace ninefold {
+
+// Where the directions of a task's receivers come from: addressed by pixel and layer.
+struct ReceiverSamples {
+  uint64_t seed = 0;
+  uint32_t randomization = 0;
+  Randomization kind = Randomization::owen;
+  uint32_t layer = 0;
+
+  // pixel: any number that names the pixel in the whole image.
+  PixelSampler of(uint32_t pixel) const {
+    return PixelSampler(seed, SampleUse::gather, pixel, layer, randomization, kind);
+  }
+};
+
+// Adds compensation to receivers.er/eg/eb. pathVertices as in irradiance.h, which this calls for
+// E(y).
+void compensate(const Transport& transport, const LightSet& lights, const ReceiverSamples& samples,
+                int pathVertices, Scratch& scratch, Receivers& receivers, RayCounts& rays);
+
+}  // namespace ninefold

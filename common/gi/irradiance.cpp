@@ -1,0 +1,25 @@
+#include "common/gi/irradiance.h"
+
+#include "common/gi/caustic_photons.h"
+#include "common/gi/vpl_gather.h"
+
+namespace ninefold {
+
+void gatherIrradiance(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
+                      int pathVertices, Scratch& scratch, Receivers& receivers,
+                      std::vector<Irradiance>* caustic, RayCounts& rays) {
+  receivers.pad(kPacket);
+  gatherVpls(t, lights.vpls, pathVertices, receivers, rays.shadow);
+  if (!lights.photons.empty()) {
+    for (size_t i = 0; i < receivers.size(); ++i) {
+      const Irradiance e =
+          gatherPhotons(t, lights.photons, receivers.position(i), receivers.ng(i), pathVertices);
+      receivers.addIrradiance(i, e);
+      if (caustic != nullptr) (*caustic)[i] = e;
+    }
+  }
+  if (t.settings.compensate && pathVertices <= kMaxBounces)
+    compensate(t, lights, samples, pathVertices, scratch, receivers, rays);
+}
+
+}  // namespace ninefold
