@@ -16,7 +16,9 @@
 //   suspect     a client that holds tasks and gives no result for too long: as lost, but its
 //               results stay welcome, and it gets one task on trial when it is heard of again
 //
-// Use: after every event, and at least every 100 ms, call poll() and carry its actions out.
+// Use: after every event, and at least every 100 ms, open frames while wantsFrame() and there is
+// room for them, then call poll() and carry its actions out. (The other way round, poll would copy
+// tasks to clients for which a new frame has work.)
 // A result is reported after its tile was decoded; a tile that cannot be decoded ends the
 // connection (clientLost), so its task is done again.
 //

@@ -151,13 +151,12 @@ void Server::dispatch(Time now) {
   if (listener_ == nullptr) return;  // closed
   started_ = started_ || scheduler_.clients() >= setup_.waitClients;
   if (!started_) return;
-  Actions actions = scheduler_.poll(now);
-  openFrames(now);
+  openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
+  const Actions actions = scheduler_.poll(now);
   for (const Cancellation& cancel : actions.cancel)
     if (const auto& connection = peers_.at(cancel.client).connection)
       connection->send(msg::Cancel{JobOffer::kJob, cancel.firstWanted});
   sendTasks(actions.assign);
-  sendTasks(scheduler_.poll(now).assign);  // of the frames just opened
 }
 
 void Server::openFrames(Time) {
