@@ -172,7 +172,8 @@ bool maySend(Peer sender, MessageType type);
 // Frame sizes by type, for a FrameParser; {0, 0} for unknown types.
 FrameLimit messageLimit(uint16_t type);
 
-// Message to frame. Bulk bytes are moved, not copied. The message is our own: CHECKs the limits.
+// Message to frame. Bulk bytes are moved, not copied. The message is our own: CHECKs the limits;
+// texts are cut to kMaxText and made printable.
 Frame encodeMessage(Message&& message);
 
 // Frame to message; throws Error as said above. `sender` is who the frame came from.

@@ -1,23 +1,18 @@
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
 #include "proto/settings_wire.h"
+#include "proto/text.h"
 
 namespace ninefold {
 namespace {
 
-// Text of a peer goes to people's terminals: no control characters, so no escape sequences and no
-// new lines.
 std::string text(const char* field, const std::string& in) {
-  if (in.size() > kMaxText) fail("{} is longer than {} bytes", field, kMaxText);
-  const bool printable = std::all_of(in.begin(), in.end(), [](char c) {
-    const auto u = static_cast<unsigned char>(c);
-    return u >= 0x20 && u != 0x7f && !(u >= 0x80 && u < 0xa0);
-  });
-  return printable ? in : throw Error(fmt::format("{} holds control characters", field));
+  if (printable(in, kMaxText) != in)
+    fail("{} is longer than {} bytes or not printable UTF-8", field, kMaxText);
+  return in;
 }
 
 Sha256 hash(const std::string& in) {

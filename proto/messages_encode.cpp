@@ -2,6 +2,7 @@
 
 #include "proto/messages.h"
 #include "proto/settings_wire.h"
+#include "proto/text.h"
 
 namespace ninefold {
 namespace {
@@ -13,24 +14,24 @@ void putHash(const Sha256& hash, std::string& out) {
 pb::Hello header(const msg::Hello& m) {
   pb::Hello out;
   out.set_protocol(m.protocol);
-  out.set_release(m.release);
-  out.set_name(m.name);
+  out.set_release(printable(m.release, kMaxText));
+  out.set_name(printable(m.name, kMaxText));
   out.set_threads(m.threads);
-  out.set_isa(m.isa);
-  out.set_probe_class(m.probeClass);
+  out.set_isa(printable(m.isa, kMaxText));
+  out.set_probe_class(printable(m.probeClass, kMaxText));
   return out;
 }
 
 pb::Welcome header(const msg::Welcome& m) {
   pb::Welcome out;
   out.set_client_id(m.clientId);
-  out.set_release(m.release);
+  out.set_release(printable(m.release, kMaxText));
   return out;
 }
 
 pb::Refuse header(const msg::Refuse& m) {
   pb::Refuse out;
-  out.set_reason(m.reason);
+  out.set_reason(printable(m.reason, kMaxText));
   return out;
 }
 
@@ -138,7 +139,7 @@ pb::Pong header(const msg::Pong& m) {
 
 pb::Goodbye header(const msg::Goodbye& m) {
   pb::Goodbye out;
-  out.set_reason(m.reason);
+  out.set_reason(printable(m.reason, kMaxText));
   return out;
 }
 

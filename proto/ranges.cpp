@@ -18,7 +18,6 @@ void finite(const char* field, Vec3 v) {
 }
 
 void checkCamera(const Camera& camera) {
-  if (camera.name.size() > kMaxText) fail("camera name is longer than {} bytes", kMaxText);
   finite("camera eye", camera.eye);
   finite("camera forward", camera.forward);
   finite("camera up", camera.up);

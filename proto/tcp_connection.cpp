@@ -123,7 +123,8 @@ asio::awaitable<void> TcpConnection::writeAll() {
 // --- receiving ---
 
 void TcpConnection::heard(Frame&& frame) {
-  heardFirst_ = true;
+  if (!std::exchange(heardFirst_, true))
+    wakeWatch_.cancel();  // another deadline counts from now on
   if (state() != State::open) return;
   events_.onMessage(decodeMessage(std::move(frame), other_));
 }
@@ -132,8 +133,9 @@ asio::awaitable<void> TcpConnection::readFrames() {
   while (!isClosed_) {
     const size_t got = co_await socket_->read(parser_.space());
     if (got == 0) break;
-    if (std::optional<Frame> frame = parser_.filled(got)) heard(std::move(*frame));
-    if (heardFirst_) readDeadline_ = Clock::now() + options_.silence;
+    std::optional<Frame> frame = parser_.filled(got);
+    if (heardFirst_ || frame) readDeadline_ = Clock::now() + options_.silence;
+    if (frame) heard(std::move(*frame));
     if (socket_->hasOutput()) wakeWriter_.cancel();  // TLS itself has something to answer
   }
   if (!parser_.atBoundary()) fail("the peer closed the connection inside a message");

@@ -9,7 +9,7 @@
 //                                  of float bit patterns (a stepwise      is the distance of max
 //                                  and min in logarithm); 0 stays exactly 0          floats;
 //                                  max/min = 2^k gives k/65534
-//   normals, unit                  octahedral 2 x 16 bit; 0 stays 0       5e-5 rad
+//   normals, unit                  octahedral 2 x 16 bit; 0 stays 0       6.5e-5 rad
 //   chain, object                  as they are                            0
 //
 // Rounding is stochastic between the two neighbouring *decoded* levels, so that the mean over

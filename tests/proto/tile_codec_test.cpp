@@ -46,7 +46,7 @@ void expectFractions(const RgbPlane& sent, const RgbPlane& got, float top) {
 
 void expectNormals(const RgbPlane& sent, const RgbPlane& got) {
   for (size_t i = 0; i < sent.r.size(); ++i)
-    ASSERT_LE(glm::length(at(sent, i) - at(got, i)), 5e-5f);
+    ASSERT_LE(glm::length(at(sent, i) - at(got, i)), 6.5e-5f);
 }
 
 void expectLengths(const std::vector<float>& sent, const std::vector<float>& got) {
@@ -117,24 +117,24 @@ TEST(TileCodec, DitherKeysStandStillWithTheRandomization) {
 }
 
 TEST(TileCodec, TheMeanOverDithersIsTheValue) {
-  const TileResult tile = TileMaker(5).make(8, 8, kDiffuseBit, 0);
-  const auto& sent = tile.layers[0].irradiance.g;
-  constexpr int kRuns = 400;
-  std::vector<double> sum(sent.size()), squares(sent.size());
+  // Errors in units of the pixel's brightest channel, pooled over pixels and channels of E in all
+  // layers: 8 x 8 x 3 x 3 x 400 independent samples, a z-test at 1e-6. Single values are
+  // quantize_test's work.
+  const TileResult tile = TileMaker(5).make(8, 8, kAllLayers, 0);
+  double sum = 0, squares = 0, count = 0;
   TileEncoder encoder;
-  for (uint64_t run = 0; run < kRuns; ++run) {
+  for (uint64_t run = 0; run < 400; ++run) {
     const TileResult got = decode(encoder.encode(tile, mixBits(run), 0).bytes, shapeOf(tile));
-    for (size_t i = 0; i < sent.size(); ++i) {
-      const double error = double{got.layers[0].irradiance.g[i]} - double{sent[i]};
-      sum[i] += error, squares[i] += error * error;
-    }
+    for (size_t k = 0; k < kLayers; ++k)
+      for (size_t i = 0; i < 64; ++i) {
+        const Vec3 value = at(tile.layers[k].irradiance, i);
+        if (isBlack(value)) continue;
+        const Vec3 error = (at(got.layers[k].irradiance, i) - value) / maxComponent(value);
+        for (int c = 0; c < 3; ++c) sum += error[c], squares += error[c] * error[c], count += 1;
+      }
   }
-  // The sum of squared z-scores over pixels is chi-square with 64 degrees of freedom: 0.1 % tail at
-  // 106.
-  double chi2 = 0;
-  for (size_t i = 0; i < sent.size(); ++i)
-    if (squares[i] > 0) chi2 += sum[i] * sum[i] / squares[i];
-  EXPECT_LT(chi2, 106);
+  EXPECT_LT(std::abs(sum), 4.9 * std::sqrt(squares));
+  EXPECT_GT(std::sqrt(squares / count), 1e-3) << "it is a dither, not a copy";
 }
 
 TEST(TileCodec, UnusableValuesBecomeZeroAndAreCounted) {
