@@ -17,9 +17,8 @@ constexpr double kForever = 1e9;  // [s]; also the largest number of frames
 
 // What the interface names and this release does not have. Take a line out when its work is done.
 void refuseWhatIsMissing(const RawOptions& raw) {
-  for (const char* flag : {"window", "animate"})
-    if (raw.has(flag) && raw.text(flag) != "0")
-      failUsage("--{} is not available in this release", flag);
+  if (raw.isOn("window")) failUsage("--window is not available in this release");
+  if (raw.has("animate")) failUsage("--animate is not available in this release");
   for (const auto& [flag, only] : {std::pair("method", "instant-radiosity"), {"view", "beauty"}})
     if (const auto name = raw.text(flag); name && *name != only)
       failUsage("--{} {} is not available in this release, only {}", flag, *name, only);

@@ -181,10 +181,13 @@ TEST(Options, ListeningBeyondThisMachineNeedsAKey) {
 }
 
 TEST(Options, WhatThisReleaseDoesNotHaveSaysSo) {
-  for (const char* flags : {"--window", "--animate 0:1:25", "--method path-trace", "--view depth"})
+  for (const char* flags :
+       {"--window", "--animate 0:1:25", "--animate 0", "--method path-trace", "--view depth"})
     EXPECT_NE(complaint(std::string("a.glb ") + flags).find("not available in this release"),
               std::string::npos)
         << flags;
+  EXPECT_EQ(complaint("a.glb", {{"NINEFOLD_WINDOW", "0"}}), "");
+  EXPECT_NE(complaint("a.glb", {{"NINEFOLD_WINDOW", "1"}}), "");
 }
 
 TEST(Options, HelpAndNewKeyNeedNothingElse) {

@@ -140,7 +140,7 @@ TEST(SimulatedCluster, SurvivesRandomFailures) {
         c.freezes = when, c.thaws = when + uniform(0, 3);
     }
     clients.push_back({});  // one that lives
-    play({.frames = 30, .checkEvery = 3}, clients);
+    play({.frames = 30, .checkEvery = 10}, clients);
   }
 }
 
