@@ -13,7 +13,8 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 constexpr uint64_t kMaxClients = 4096;
-constexpr double kForever = 1e9;  // [s]; also the largest number of frames
+constexpr uint64_t kMaxFrames = 1'000'000'000;
+constexpr double kMaxSeconds = 1e9;
 
 // What the interface names and this release does not have. Take a line out when its work is done.
 void refuseWhatIsMissing(const RawOptions& raw) {
@@ -121,8 +122,8 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
 }
 
 void readRun(const RawOptions& raw, Options& o) {
-  o.stop.frames = raw.whole("frames", 1, static_cast<uint64_t>(kForever));
-  o.stop.seconds = raw.real("seconds", 1e-3, kForever);
+  o.stop.frames = raw.whole("frames", 1, kMaxFrames);
+  o.stop.seconds = raw.real("seconds", 1e-3, kMaxSeconds);
   o.stop.untilError = raw.real("until-error", 1e-9, 1);
   if (!o.stop.frames && !o.stop.seconds && !o.stop.untilError) o.stop.frames = kDefaultFrames;
 }
