@@ -4,6 +4,7 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -29,31 +30,51 @@ size_t bigEndian(std::span<const std::byte> file, size_t at, int bytes) {
   return value;
 }
 
-// The libraries would print lines of their own about these, or make up the missing pixels.
-bool isWholePng(std::span<const std::byte> file) {
-  constexpr size_t kSignature = 8, kChunkFrame = 4 + 4 + 4;  // length, type, checksum
-  constexpr size_t kEnd = 0x49454E44;                        // "IEND"
-  for (size_t at = kSignature; file.size() - at >= kChunkFrame;) {
+uint32_t crc32(std::span<const std::byte> bytes) {
+  static const auto table = [] {
+    std::array<uint32_t, 256> entries{};
+    for (uint32_t i = 0; i < entries.size(); ++i) {
+      entries[i] = i;
+      for (int bit = 0; bit < 8; ++bit)
+        entries[i] = (entries[i] >> 1) ^ ((entries[i] & 1) != 0 ? 0xEDB88320u : 0u);
+    }
+    return entries;
+  }();
+  uint32_t crc = ~0u;
+  for (const std::byte b : bytes)
+    crc = (crc >> 8) ^ table[(crc ^ std::to_integer<uint32_t>(b)) & 0xFF];
+  return ~crc;
+}
+
+// Damage is looked for here because the libraries would print lines of their own about it, or make
+// up the missing pixels.
+void checkPng(std::span<const std::byte> file) {
+  constexpr size_t kSignature = 8, kFrame = 4 + 4 + 4;  // of a chunk: length, type, checksum
+  constexpr size_t kEnd = 0x49454E44;                   // "IEND"
+  for (size_t at = kSignature; file.size() - at >= kFrame;) {
     const size_t length = bigEndian(file, at, 4);
-    if (length > file.size() - at - kChunkFrame) return false;
-    if (bigEndian(file, at + 4, 4) == kEnd) return true;
-    at += length + kChunkFrame;
+    if (length > file.size() - at - kFrame) break;
+    const auto checked = file.subspan(at + 4, 4 + length);
+    if (crc32(checked) != bigEndian(file, at + 8 + length, 4))
+      fail("damaged: a checksum of the PNG is wrong");
+    if (bigEndian(checked, 0, 4) == kEnd) return;
+    at += length + kFrame;
   }
-  return false;
+  fail("truncated: the PNG ends in the middle");
 }
 
 // Segments up to the start of the scan, then an end marker behind it.
-bool isWholeJpeg(std::span<const std::byte> file) {
+void checkJpeg(std::span<const std::byte> file) {
   constexpr size_t kScan = 0xFFDA, kEnd = 0xFFD9;
   size_t at = 2;
   while (file.size() - at >= 4 && bigEndian(file, at, 2) != kScan) {
     const size_t length = 2 + bigEndian(file, at + 2, 2);
-    if (length > file.size() - at) return false;
+    if (length > file.size() - at) break;
     at += length;
   }
   for (; file.size() - at >= 2; ++at)
-    if (bigEndian(file, at, 2) == kEnd) return true;
-  return false;
+    if (bigEndian(file, at, 2) == kEnd) return;
+  fail("truncated: the JPEG ends in the middle");
 }
 
 // TGA has no magic: a colour map flag of 0 or 1, a known image type, 8 to 32 bits a pixel.
@@ -64,15 +85,10 @@ bool looksLikeTga(std::span<const std::byte> file) {
   return at(1) <= 1 && type >= 1 && type <= 3 && at(16) >= 8 && at(16) <= 32;
 }
 
+// OpenImageIO's name of the format, of which the file is a whole one as far as can be told cheaply.
 const char* formatOf(std::span<const std::byte> file) {
-  if (startsWith(file, "\x89PNG\r\n\x1a\n")) {
-    if (!isWholePng(file)) fail("truncated: the PNG ends in the middle");
-    return "png";
-  }
-  if (startsWith(file, "\xff\xd8\xff")) {
-    if (!isWholeJpeg(file)) fail("truncated: the JPEG ends in the middle");
-    return "jpeg";
-  }
+  if (startsWith(file, "\x89PNG\r\n\x1a\n")) return checkPng(file), "png";
+  if (startsWith(file, "\xff\xd8\xff")) return checkJpeg(file), "jpeg";
   if (startsWith(file, "BM")) return "bmp";
   if (looksLikeTga(file)) return "targa";
   fail("not a PNG, JPEG, BMP or TGA image: convert it to PNG");

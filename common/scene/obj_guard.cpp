@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "common/base/error.h"
 #include "common/scene/reader.h"
@@ -28,12 +29,15 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
+// Finite in single precision; what is too small for it counts as 0.
 bool isFiniteNumber(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
-  float value = 0;
+  double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  const bool tiny = error == std::errc::result_out_of_range && std::abs(value) < 1;
-  return end == word.data() + word.size() && (error == std::errc() || tiny) && std::isfinite(value);
+  if (end != word.data() + word.size()) return false;
+  if (error == std::errc::result_out_of_range)
+    return word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+  return error == std::errc() && std::abs(value) <= std::numeric_limits<float>::max();
 }
 
 class Checker {
@@ -116,7 +120,7 @@ std::vector<std::string> checkObj(std::string_view text) {
     const size_t end = std::min(text.find_first_of("\n\r"), text.size());
     checker.line(text.substr(0, end));
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (end > 0 && text.starts_with('\n') && text.data()[-1] == '\r') text.remove_prefix(1);
+    if (text.starts_with('\n') && text.data()[-1] == '\r') text.remove_prefix(1);
   }
   return std::move(checker.libraries);
 }

@@ -79,6 +79,7 @@ void checkInstances(const Scene& scene) {
 void checkLights(const Scene& scene) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const PunctualLight& light = scene.lights[i];
+    if (light.kind > LightKind::directional) fail("light {}: unknown kind", i);
     if (!isFinite(light.position)) fail("light {}: its position is not a finite number", i);
     if (!isUnit(light.direction)) fail("light {}: its direction is not of unit length", i);
     const Vec3 I = light.intensity;

@@ -60,6 +60,9 @@ TEST(ImageDecode, TruncatedFilesAreErrors) {
     EXPECT_FALSE(errorOf([&] {
                    decode(Bytes(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size)));
                  }).empty());
+  Bytes flipped = whole;
+  flipped[60] ^= 1;
+  EXPECT_EQ(errorOf([&] { decode(flipped); }), "damaged: a checksum of the PNG is wrong");
   const Bytes jpegWithoutEnd = {0xFF, 0xD8, 0xFF, 0xDA, 0, 4, 1, 2, 3, 4};
   EXPECT_EQ(errorOf([&] { decode(jpegWithoutEnd); }), "truncated: the JPEG ends in the middle");
   const Bytes shortTga = {0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 0x20, 1, 2};

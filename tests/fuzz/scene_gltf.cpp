@@ -1,0 +1,79 @@
+// scene_gltf.cpp: any bytes as a glTF file (text or binary) without other files beside it: an
+// Error, or a Scene that passes validate and whose lights can be tabulated.
+#include <string>
+
+#include "common/base/error.h"
+#include "common/scene/emitters.h"
+#include "common/scene/gltf_scene.h"
+#include "common/scene/needs.h"
+#include "tests/fuzz/fuzz.h"
+
+namespace {
+
+using Input = std::vector<uint8_t>;
+
+// A triangle with everything that the reader looks at: texture, camera, light, extensions, sparse
+// data.
+const std::string kRich = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
+"extensionsUsed":["KHR_lights_punctual","EXT_mesh_gpu_instancing"],
+"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"color":[1,1,1],"spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}}]}},
+"nodes":[{"mesh":0,"rotation":[0,0,0,1],"scale":[1,2,3],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}},
+{"camera":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{"extensions":{"KHR_lights_punctual":{"light":0}},"children":[3]},{"mesh":0}],
+"cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":0.1}}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0,"TEXCOORD_0":2},"indices":1,"material":0,"mode":4},{"attributes":{"POSITION":0},"mode":5}]}],
+"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":0.3}}},"roughnessFactor":0.2},
+"emissiveFactor":[1,1,1],"emissiveTexture":{"index":0},"alphaMode":"MASK","extensions":{"KHR_materials_emissive_strength":{"emissiveStrength":5},
+"KHR_materials_transmission":{"transmissionFactor":0.5},"KHR_materials_volume":{"thicknessFactor":1},"KHR_materials_ior":{"ior":1.4}}}],
+"textures":[{"source":0,"sampler":0}],"samplers":[{"wrapS":33071}],"images":[{"bufferView":2,"mimeType":"image/png"}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":{"bufferView":1,"componentType":5121},"values":{"bufferView":0}}},
+{"bufferView":1,"componentType":5121,"count":3,"type":"SCALAR"},{"bufferView":0,"componentType":5123,"normalized":true,"count":3,"type":"VEC2"}],
+"bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":4},{"buffer":0,"byteOffset":40,"byteLength":18}],
+"buffers":[{"byteLength":60}]})";
+
+void appendWord(Input& to, size_t word) {
+  for (int shift = 0; shift < 32; shift += 8) to.push_back(static_cast<uint8_t>(word >> shift));
+}
+
+Input binary(std::string json) {
+  while (json.size() % 4 != 0) json += ' ';
+  Input chunk(60, 0);
+  chunk[14] = 0x80, chunk[15] = 0x3F, chunk[31] = 0x40;  // (0,0,0) (1,0,0) (0,2,0)
+  chunk[37] = 1, chunk[38] = 2;                          // 0 1 2
+  const uint8_t image[18] = {0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 8, 0x20};  // TGA
+  std::copy(std::begin(image), std::end(image), chunk.begin() + 40);
+  chunk[58] = 200;
+  Input file;
+  for (const size_t word : {size_t{0x46546C67}, size_t{2}, 28 + json.size() + chunk.size(),
+                            json.size(), size_t{0x4E4F534A}})
+    appendWord(file, word);
+  file.insert(file.end(), json.begin(), json.end());
+  appendWord(file, chunk.size()), appendWord(file, 0x004E4942);
+  file.insert(file.end(), chunk.begin(), chunk.end());
+  return file;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  return text.replace(text.find(from), from.size(), to);
+}
+
+}  // namespace
+
+std::vector<Input> ninefoldFuzzSeeds() {
+  const std::string view = R"("byteOffset":40,"byteLength":18)";
+  const std::string good = replaced(kRich, view, R"("byteOffset":40,"byteLength":19)");
+  const std::string text = replaced(
+      good, R"({"byteLength":60})",
+      R"({"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAAAAECAAAAAwAAAAAAAAAAAAEAAQAIIMgA"})");
+  return {binary(good), binary(kRich), Input(text.begin(), text.end())};
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  try {
+    const ninefold::Scene scene =
+        ninefold::finishScene(ninefold::readGltf({data, size}, ninefold::SceneFolder({})));
+    const ninefold::Emitters emitters(scene, scene.environment);
+    ninefold::needsOf(scene, scene.environment);
+  } catch (const ninefold::Error&) {
+  }
+  return 0;
+}

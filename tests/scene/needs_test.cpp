@@ -1,0 +1,108 @@
+#include <gtest/gtest.h>
+
+#include "common/image/layers.h"
+#include "common/scene/needs.h"
+#include "tests/scene/one_line_error.h"
+#include "tests/scene/simple_scene.h"
+
+namespace ninefold {
+namespace {
+
+Scene withMaterial(const Material& material) {
+  Scene scene = simpleScene();
+  scene.materials[0] = material;
+  return scene;
+}
+
+bool folds(float metallic, float roughness, float specular = 1) {
+  Material m;
+  m.metallic = metallic, m.roughness = roughness, m.specular = specular;
+  return foldsIntoDiffuse(Scene{}, m);
+}
+
+Needs needsWith(const Material& m) { return needsOf(withMaterial(m), Radiance(0)); }
+
+Material matte() {
+  Material m;
+  m.metallic = 0;
+  return m;
+}
+
+TEST(Needs, FoldingRule) {
+  EXPECT_TRUE(folds(0, 0.6f));
+  EXPECT_FALSE(folds(0, 0.59f));
+  EXPECT_TRUE(folds(1, 0.85f));
+  EXPECT_FALSE(folds(1, 0.84f));
+  EXPECT_TRUE(folds(0, 0, 0)) << "no specular, no lobe";
+  EXPECT_FALSE(folds(1, 0, 0)) << "KHR_materials_specular does not touch metals";
+}
+
+TEST(Needs, FoldingLooksAtTheSmoothestTexel) {
+  Material m = matte();
+  m.metallicRoughnessMap.image = 0;
+  Scene scene = withMaterial(m);
+  scene.images.push_back({"map", 2, 1, 3, false, {0, 255, 0, 0, 200, 0}});
+  EXPECT_TRUE(foldsIntoDiffuse(scene, m));
+  scene.images[0].texels[4] = 100;
+  EXPECT_FALSE(foldsIntoDiffuse(scene, m));
+}
+
+TEST(Needs, ADiffuseSceneNeedsNothing) {
+  const Needs needs = needsWith(matte());
+  EXPECT_FALSE(needs.specular());
+  EXPECT_FALSE(needs.roughSpecular);
+  EXPECT_FALSE(needs.textures);
+  EXPECT_EQ(needs.layerMask(), kDiffuseBit);
+  const std::vector<std::string> lines = describe(needs);
+  EXPECT_EQ(lines[0], "reflection layer: off, no surface reflects other than diffusely");
+  EXPECT_EQ(lines[1], "transmission layer: off, no surface lets light through");
+  EXPECT_EQ(lines[2], "caustic photons: off, no surface can focus light");
+}
+
+TEST(Needs, MirrorsReflectAndGlassDoesBoth) {
+  Material mirror;
+  mirror.roughness = 0;
+  EXPECT_EQ(needsWith(mirror).layerMask(), kDiffuseBit | kReflectionBit);
+  EXPECT_FALSE(needsWith(mirror).roughSpecular);
+  mirror.roughness = 0.3f;
+  EXPECT_TRUE(needsWith(mirror).roughSpecular);
+  Material glass = matte();
+  glass.transmission = 1, glass.roughness = 0;
+  EXPECT_EQ(needsWith(glass).layerMask(), kDiffuseBit | kReflectionBit | kTransmissionBit);
+}
+
+TEST(Needs, BlendingNeedsTransmissionOnlyIfAnythingIsTransparent) {
+  Material m = matte();
+  m.alphaMode = AlphaMode::blend;
+  EXPECT_FALSE(needsWith(m).transmission);
+  m.opacity = 0.5f;
+  EXPECT_TRUE(needsWith(m).transmission);
+  EXPECT_FALSE(needsWith(m).reflection);
+  m.opacity = 1, m.baseColorMap.image = 0;
+  Scene scene = withMaterial(m);
+  scene.images.push_back({"rgb", 1, 1, 3, true, {1, 2, 3}});
+  EXPECT_FALSE(needsOf(scene, Radiance(0)).transmission);
+  scene.images[0] = {"rgba", 1, 1, 4, true, {1, 2, 3, 200}};
+  EXPECT_TRUE(needsOf(scene, Radiance(0)).transmission);
+}
+
+TEST(Needs, OnlyMaterialsThatAreSeenCount) {
+  Scene scene = withMaterial(matte());
+  Material glass;
+  glass.transmission = 1;
+  scene.materials.push_back(glass);
+  EXPECT_FALSE(needsOf(scene, Radiance(0)).specular());
+}
+
+TEST(Needs, KindsOfLight) {
+  Scene scene = withMaterial(matte());
+  EXPECT_FALSE(needsOf(scene, Radiance(0)).environment);
+  EXPECT_TRUE(needsOf(scene, Radiance(1)).environment);
+  scene.lights.emplace_back();
+  EXPECT_TRUE(needsOf(scene, Radiance(0)).punctualLights);
+  scene.materials[0].emission = Vec3(1);
+  EXPECT_TRUE(needsOf(scene, Radiance(0)).areaLights);
+}
+
+}  // namespace
+}  // namespace ninefold
