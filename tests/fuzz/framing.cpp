@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "proto/messages.h"
+#include "tests/fuzz/fuzz.h"
 
 namespace ninefold {
 namespace {
@@ -24,6 +25,28 @@ void feed(ByteView bytes, size_t piece, Peer sender) {
 
 }  // namespace
 }  // namespace ninefold
+
+std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
+  using namespace ninefold;
+  const auto stream = [](uint8_t choices, std::vector<Message> messages) {
+    std::vector<uint8_t> bytes{choices};
+    for (Message& message : messages) {
+      const Frame frame = encodeMessage(std::move(message));
+      for (const std::byte b : frameHead(frame)) bytes.push_back(static_cast<uint8_t>(b));
+      for (const char c : frame.header) bytes.push_back(static_cast<uint8_t>(c));
+      for (const std::byte b : frame.payload) bytes.push_back(static_cast<uint8_t>(b));
+    }
+    return bytes;
+  };
+  const msg::Result result{1, 2, 3, 4, 5, 1, 0, {6, 7, 8, 9}, Bytes(40)};
+  const msg::Tasks tasks{1, {2, 3, 4, 0.5f}, {{1, 2, 3}, {4, 5, 6}}};
+  const msg::SceneOffer offer{1, {{{}, 10, BlobKind::image}, {{}, 20, BlobKind::rest}}};
+  return {stream(2, {msg::Hello{}, msg::BlobRequest{}, msg::Progress{}, msg::Ready{1, 1}, result}),
+          stream(7, {msg::Hello{}, result, msg::Pong{1, 2}, msg::Goodbye{"done"}}),
+          stream(0, {msg::Welcome{}, offer, msg::BlobChunk{{}, 5, 9, Bytes(4)},
+                     msg::Configure{1, 1, {}}}),
+          stream(5, {msg::Ping{}, tasks, msg::Cancel{1, 2}, msg::Refuse{"no"}})};
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace ninefold;

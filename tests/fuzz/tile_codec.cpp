@@ -3,6 +3,8 @@
 #include "proto/tile_codec.h"
 
 #include "proto/messages.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/proto/random_tile.h"
 
 namespace ninefold {
 namespace {
@@ -25,6 +27,20 @@ void check(const TileResult& tile) {
 
 }  // namespace
 }  // namespace ninefold
+
+std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
+  using namespace ninefold;
+  std::vector<std::vector<uint8_t>> seeds;
+  for (const uint8_t layers : {uint8_t{1}, uint8_t{3}, uint8_t{7}})
+    for (const int level : {0, 1}) {
+      const auto extras = static_cast<uint8_t>(layers == 7 ? kAllExtraPlanes : 0);
+      const TileResult tile = TileMaker(layers).make(6, 4, layers, extras);
+      auto& seed = seeds.emplace_back(std::vector<uint8_t>{5, 3, layers, extras});
+      for (const std::byte b : TileEncoder().encode(tile, 1, level).bytes)
+        seed.push_back(static_cast<uint8_t>(b));
+    }
+  return seeds;
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace ninefold;

@@ -2,6 +2,32 @@
 // is cut into an image, meshes and the rest at two places that its first bytes choose.
 #include "proto/scene_blobs.h"
 
+#include "tests/fuzz/fuzz.h"
+
+std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
+  using namespace ninefold;
+  Scene scene;
+  scene.images.push_back({"wood", 2, 2, 3, true, std::vector<uint8_t>(12, 77)});
+  scene.materials.resize(1);
+  Mesh mesh;
+  mesh.positions = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  mesh.triangles = {Triangle(0, 1, 2)};
+  scene.meshes = {mesh};
+  scene.instances.resize(1);
+  scene.cameras.resize(1);
+  for (const Vec3 p : mesh.positions) scene.bounds.add(p);
+  const std::vector<Blob> blobs = packScene(scene);
+  const size_t image = blobs[0].info.rawBytes, meshes = blobs[1].info.rawBytes;
+  std::vector<uint8_t> whole{static_cast<uint8_t>(image), static_cast<uint8_t>(image >> 8),
+                             static_cast<uint8_t>(meshes), static_cast<uint8_t>(meshes >> 8)};
+  std::vector<uint8_t> packed(4);
+  for (const Blob& blob : blobs)
+    for (const std::byte b : unpackBlob(blob.info, blob.compressed))
+      whole.push_back(static_cast<uint8_t>(b));
+  for (const std::byte b : blobs[2].compressed) packed.push_back(static_cast<uint8_t>(b));
+  return {whole, packed};
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace ninefold;
   if (size < 8) return 0;
