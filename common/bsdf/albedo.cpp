@@ -33,7 +33,9 @@ Vec2 gridPoint(int k, int side) {
   return (Vec2(k % side, k / side) + Vec2(0.5f)) / static_cast<float>(side);
 }
 
-Reflectance opaqueAlbedo(Vec3 f0, Albedo all) { return f0 * (all.a - all.b) + Vec3(all.b); }
+Reflectance opaqueAlbedo(Vec3 f0, Vec3 f90, Albedo all) {
+  return f0 * (all.a - all.b) + f90 * all.b;
+}
 
 float power5(float x) { return x * x * x * x * x; }
 
@@ -121,7 +123,7 @@ Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
   } else if (bsdf.reflects && bsdf.dielectric) {
     albedo = smoothReflection(bsdf) ? interfaceReflectance(bsdf, c) : meanWeight(bsdf, lobe, c);
   } else if (bsdf.reflects) {
-    albedo = opaqueAlbedo(bsdf.f0, mirrorAlbedo(c, bsdf.alpha));
+    albedo = opaqueAlbedo(bsdf.f0, bsdf.f90, mirrorAlbedo(c, bsdf.alpha));
   }
   return glm::clamp(albedo, 0.0f, 1.0f);
 }
@@ -133,7 +135,7 @@ Reflectance meanReflection(Vec3 f0, float alpha) {
   for (int i = 0; i < kSteps; ++i) {
     const float t = (static_cast<float>(i) + 0.5f) / kSteps, c = t * t;
     const Albedo all = mirrorAlbedo(c, alpha);
-    sum += 4.0f * t * c / kSteps * opaqueAlbedo(f0, all);
+    sum += 4.0f * t * c / kSteps * opaqueAlbedo(f0, Vec3(1.0f), all);
   }
   return glm::clamp(sum, 0.0f, 1.0f);
 }

@@ -8,10 +8,10 @@ namespace ninefold {
 namespace {
 
 // Schlick 1994.
-Vec3 schlick(Vec3 f0, float cosine) {
+Vec3 schlick(Vec3 f0, Vec3 f90, float cosine) {
   const float s = std::clamp(1.0f - cosine, 0.0f, 1.0f);
   const float s2 = s * s;
-  return f0 + (Vec3(1.0f) - f0) * (s2 * s2 * s);
+  return f0 + (f90 - f0) * (s2 * s2 * s);
 }
 
 float dielectricReflectance(const Bsdf& bsdf, float cosine) {
@@ -22,7 +22,7 @@ float dielectricReflectance(const Bsdf& bsdf, float cosine) {
 }  // namespace
 
 Vec3 interfaceReflectance(const Bsdf& bsdf, float cosine) {
-  if (!bsdf.dielectric) return schlick(bsdf.f0, cosine);
+  if (!bsdf.dielectric) return schlick(bsdf.f0, bsdf.f90, cosine);
   return dielectricReflectance(bsdf, cosine) * bsdf.reflectionTint;
 }
 

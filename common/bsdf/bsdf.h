@@ -2,7 +2,8 @@
 //
 //   D             f = diffuse / pi; its weight does not depend on directions
 //   reflection    GGX with Smith's height-correlated masking (smooth when alpha = 0)
-//                 opaque: Schlick's Fresnel f0 + (1-f0)(1-cos)^5; dielectric: exact Fresnel of eta
+//                 opaque: Schlick's Fresnel f0 + (f90-f0)(1-cos)^5; dielectric: exact Fresnel of
+//                 eta
 //   transmission  GGX refraction (Walter 2007), smooth when alpha = 0; thin-walled: straight on,
 //                 without bending (rough: the mirror lobe, turned to the other side);
 //                 plus the straight pass of weight `passThrough` (alpha blending), always smooth
@@ -32,6 +33,7 @@ enum class Lobe : uint8_t { reflection, transmission };
 struct Bsdf {
   Reflectance diffuse{0};  // rho of D
   Vec3 f0{0};              // opaque: reflectance at normal incidence (Schlick); used if !dielectric
+  Vec3 f90{1};             // opaque: reflectance at grazing incidence
   float alpha = 0;         // GGX roughness (already squared); below kSmoothAlpha it is set to 0
   float eta = 1;           // dielectric: index beyond the surface / index on wo's side
   bool reflects = false;   // reflection lobe present
@@ -63,8 +65,9 @@ struct LobeValue {
 };
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi);
 
-// Directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1]. Exact for
-// smooth lobes, a table within 0.04 for opaque ones, four samples within 0.1 for rough dielectrics.
+// Directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1]. Exact
+// for smooth lobes, a table within 0.04 for opaque ones, four samples within 0.1 for rough
+// dielectrics.
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO);
 
 // Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what folding a lobe that

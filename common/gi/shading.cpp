@@ -28,13 +28,13 @@ MeanReflection::MeanReflection() {
   }
 }
 
-Reflectance MeanReflection::operator()(Vec3 f0, float alpha) const {
+Reflectance MeanReflection::operator()(Vec3 f0, Vec3 f90, float alpha) const {
   const float at = std::sqrt(std::clamp(alpha, 0.0f, 1.0f)) * kSteps;
   const auto i = std::min(static_cast<size_t>(at), static_cast<size_t>(kSteps - 1));
   const float part = at - static_cast<float>(i);
   const float black = ends_[i].black + part * (ends_[i + 1].black - ends_[i].black);
   const float white = ends_[i].white + part * (ends_[i + 1].white - ends_[i].white);
-  return black * (Vec3(1) - f0) + white * f0;
+  return black * f90 + (white - black) * f0;
 }
 
 Shader::Shader(const Scene& scene) : scene_(&scene) {
@@ -71,27 +71,27 @@ Frame Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
   return Frame(usable ? n : ng);
 }
 
-Vec3 Shader::dielectricF0(const Material& m, const SurfacePoint& s) const {
+Shader::FresnelEnds Shader::dielectricEnds(const Material& m, const SurfacePoint& s) const {
   const float r = (m.ior - 1) / (m.ior + 1);
   Vec3 f0 = r * r * m.specularColor;
   if (m.specularColorMap) f0 *= Vec3(lookUp(*scene_, m.specularColorMap, s.uv0, s.uv1));
   float strength = m.specular;
   if (m.specularMap) strength *= lookUp(*scene_, m.specularMap, s.uv0, s.uv1).w;
-  return strength * glm::min(f0, Vec3(1));
+  return {strength * glm::min(f0, Vec3(1)), Vec3(strength)};
 }
 
 void Shader::fillOpaque(Bsdf& bsdf, const Material& m, const Prepared& prepared, Vec3 base,
                         float metallic, float alpha, const SurfacePoint& s) const {
-  const Vec3 f0 = dielectricF0(m, s);
-  bsdf.f0 = mix(f0, base, metallic);
-  bsdf.diffuse = (1 - metallic) * base;
-  if (!isBlack(f0)) bsdf.diffuse *= Vec3(1) - meanReflection_(f0, alpha);
-  bsdf.reflects = !prepared.folds && !isBlack(bsdf.f0);
-  if (prepared.folds && !isBlack(bsdf.f0)) {
-    const Vec3 lobe = mix(isBlack(f0) ? Vec3(0) : meanReflection_(f0, alpha),
-                          meanReflection_(base, alpha), metallic);
-    bsdf.diffuse = glm::min(bsdf.diffuse + lobe, Vec3(1));
-  }
+  const FresnelEnds dielectric = dielectricEnds(m, s);
+  const bool coated = !isBlack(dielectric.f90);
+  const Vec3 mean = coated ? meanReflection_(dielectric.f0, dielectric.f90, alpha) : Vec3(0);
+  bsdf.f0 = mix(dielectric.f0, base, metallic);
+  bsdf.f90 = mix(dielectric.f90, Vec3(1), metallic);
+  bsdf.diffuse = (1 - metallic) * (Vec3(1) - mean) * base;
+  bsdf.reflects = !prepared.folds && !isBlack(bsdf.f90);
+  if (!prepared.folds) return;
+  const Vec3 metal = metallic > 0 ? meanReflection_(base, Vec3(1), alpha) : Vec3(0);
+  bsdf.diffuse = glm::min(bsdf.diffuse + mix(mean, metal, metallic), Vec3(1));
 }
 
 void Shader::fillTransmitting(Bsdf& bsdf, const Material& m, const Prepared& prepared, Vec3 base,
@@ -146,7 +146,7 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   }
   if (m.alphaMode == AlphaMode::blend) {
     opacity = std::clamp(opacity, 0.0f, 1.0f);
-    p.bsdf.diffuse *= opacity, p.bsdf.f0 *= opacity;
+    p.bsdf.diffuse *= opacity, p.bsdf.f0 *= opacity, p.bsdf.f90 *= opacity;
     p.bsdf.reflectionTint *= opacity, p.bsdf.transmissionTint *= opacity;
     p.bsdf.passThrough = 1 - opacity;
   }

@@ -1,6 +1,7 @@
 // shading.h: what light meets at a surface point: materials and textures turned into a Bsdf.
 //
 // Opaque      f0 = mix(((n-1)/(n+1))^2 specular, baseColor, metallic)
+//             f90 = mix(specular factor, 1, metallic)
 //             D  = baseColor (1-metallic) (1 - mean reflection of the dielectric part)
 //             The mean, not the directional, albedo couples D to the lobe: D's weight stays free of
 //             directions.
@@ -41,7 +42,7 @@ struct ShadingPoint {
 class MeanReflection {
  public:
   MeanReflection();
-  Reflectance operator()(Vec3 f0, float alpha) const;
+  Reflectance operator()(Vec3 f0, Vec3 f90, float alpha) const;
 
  private:
   static constexpr int kSteps = 64;  // over sqrt(alpha), i.e. perceptual roughness
@@ -83,7 +84,10 @@ class Shader {
                   float metallic, float alpha, const SurfacePoint& s) const;
   void fillTransmitting(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                         float metallic, const SurfacePoint& s) const;
-  Vec3 dielectricF0(const Material& material, const SurfacePoint& s) const;
+  struct FresnelEnds {
+    Vec3 f0, f90;  // at normal and grazing incidence
+  };
+  FresnelEnds dielectricEnds(const Material& material, const SurfacePoint& s) const;
 
   const Scene* scene_;
   std::vector<Prepared> materials_;
