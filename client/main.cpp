@@ -1,10 +1,12 @@
 // ninefold-client: renders for a master. Builds everything and passes references.
-#include <signal.h>
 #include <sys/prctl.h>
+
+#include <csignal>
 
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
+#include <thread>
 
 #include "client/identity.h"
 #include "client/program.h"
@@ -41,11 +43,12 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace ninefold;
   try {
-    const client::Options options = client::parseOptions(argc, argv);
+    const client::Options options = client::parseOptions(
+        argc, argv, processVariable, static_cast<int>(std::thread::hardware_concurrency()));
     if (!options.help) return client::run(options);
     std::fputs(client::helpText().c_str(), stdout);
     return 0;
-  } catch (const client::UsageError& error) {
+  } catch (const UsageError& error) {
     std::fprintf(stderr, "ninefold-client: %s\n", error.what());
     return 2;
   } catch (const std::exception& error) {

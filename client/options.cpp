@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <boost/program_options.hpp>
-#include <cctype>
+#include <map>
 #include <sstream>
-#include <thread>
 
 #include "client/blob_cache.h"
 #include "proto/messages.h"
@@ -16,67 +15,69 @@ namespace {
 
 namespace po = boost::program_options;
 
+constexpr unsigned kHelpWidth = 100;
+
+struct Flag {
+  const char* name;
+  const char* value;
+  const char* help;
+};
+
+constexpr Flag kFlags[] = {
+    {"master", "ADDR:PORT", "the master to render for, as it says when it starts"},
+    {"key-file", "FILE", "cluster key: the file that the master's --new-key made, copied here"},
+    {"threads", "N", "threads that render, 1 to 1024 (default: one per core)"},
+    {"cache", "DIR",
+     "private folder that keeps scenes, or none (default $XDG_CACHE_HOME/ninefold or "
+     "~/.cache/ninefold)"},
+    {"isa", "NAME", "instruction set: auto, avx2 or avx512 (default auto)"},
+};
+
+// What the master says to the clients that it starts itself; not for people.
+constexpr const char* kInternalFlags[] = {"name", "key-descriptor"};
+
 po::options_description publicFlags() {
-  po::options_description flags("Options");
-  auto add = flags.add_options();
-  add("help", "print this and exit");
-  add("master", po::value<std::string>()->value_name("ADDR:PORT"), "the master to render for");
-  add("threads", po::value<int>()->value_name("N"), "threads that render; default: one per core");
-  add("key-file", po::value<std::string>()->value_name("FILE"),
-      "cluster key: the master's file (made by ninefold-master --new-key), copied here");
-  add("cache", po::value<std::string>()->value_name("DIR"),
-      "folder that keeps scenes; none: no folder; default: $XDG_CACHE_HOME/ninefold or "
-      "~/.cache/ninefold");
-  add("isa", po::value<std::string>()->value_name("NAME"),
-      "instruction set: auto, avx2 or avx512; default: auto");
+  po::options_description flags("Options", kHelpWidth);
+  for (const Flag& flag : kFlags)
+    flags.add_options()(flag.name, po::value<std::string>()->value_name(flag.value), flag.help);
+  flags.add_options()("help", "print this and end");
   return flags;
 }
 
-// What the master says to the clients that it starts itself.
-po::options_description allFlags() {
+using Values = std::map<std::string, std::string>;
+
+Values parseFlags(int argc, const char* const* argv) {
+  using namespace po::command_line_style;
   po::options_description flags = publicFlags();
-  flags.add_options()("name", po::value<std::string>())("key-descriptor", po::value<int>());
-  return flags;
-}
-
-// NINEFOLD_KEY_FILE -> key-file; names that are no flag of ours are somebody else's.
-std::string flagOfVariable(const std::string& variable) {
-  constexpr std::string_view kPrefix = "NINEFOLD_";
-  if (!variable.starts_with(kPrefix)) return {};
-  std::string flag = variable.substr(kPrefix.size());
-  std::ranges::transform(flag, flag.begin(), [](unsigned char c) {
-    return c == '_' ? '-' : static_cast<char>(std::tolower(c));
-  });
-  return publicFlags().find_nothrow(flag, false) != nullptr && flag != "help" ? flag : "";
-}
-
-po::variables_map parse(int argc, const char* const* argv) {
-  po::variables_map values;
+  for (const char* flag : kInternalFlags) flags.add_options()(flag, po::value<std::string>());
+  po::variables_map parsed;
+  const po::positional_options_description none;
   try {
-    const auto flags = allFlags();
-    const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
-    const po::positional_options_description none;
-    po::store(
-        po::command_line_parser(argc, argv).options(flags).positional(none).style(style).run(),
-        values);
-    if (values.contains("key-descriptor")) return values;  // then all is said in the arguments
-    po::store(po::parse_environment(flags, flagOfVariable), values);
+    po::store(po::command_line_parser(argc, argv)
+                  .options(flags)
+                  .positional(none)
+                  .style(allow_long | long_allow_adjacent | long_allow_next)
+                  .run(),
+              parsed);
   } catch (const po::error& error) {
-    throw UsageError(fmt::format("{}; see ninefold-client --help", error.what()));
+    failUsage("{}; see ninefold-client --help", error.what());
   }
+  Values values;
+  for (const auto& [flag, value] : parsed)
+    values[flag] = flag == "help" ? "1" : value.as<std::string>();
   return values;
 }
 
-template <typename T>
-std::optional<T> get(const po::variables_map& values, const char* flag) {
-  return values.contains(flag) ? std::optional<T>(values[flag].as<T>()) : std::nullopt;
+void addVariables(Values& values, const Variable& variable) {
+  for (const Flag& flag : kFlags)
+    if (const auto value = variable(variableOfFlag(flag.name))) values.emplace(flag.name, *value);
 }
 
 Isa parseIsa(const std::string& name) {
   if (name == "auto") return Isa::automatic;
   if (name == "avx2") return Isa::avx2;
   if (name == "avx512") return Isa::avx512;
-  throw UsageError(fmt::format("--isa {}: must be auto, avx2 or avx512", name));
+  failUsage("--isa {}: must be auto, avx2 or avx512", name);
 }
 
 std::string machineName() {
@@ -84,42 +85,55 @@ std::string machineName() {
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "client";
 }
 
+std::optional<std::string> get(const Values& values, const char* flag) {
+  const auto found = values.find(flag);
+  return found == values.end() ? std::nullopt : std::optional(found->second);
+}
+
+int getNumber(const Values& values, const char* flag, int otherwise, int low, int high) {
+  const auto text = get(values, flag);
+  if (!text) return otherwise;
+  return static_cast<int>(
+      parseWhole(flag, *text, static_cast<uint64_t>(low), static_cast<uint64_t>(high)));
+}
+
 }  // namespace
 
-Options parseOptions(int argc, const char* const* argv) {
-  const po::variables_map values = parse(argc, argv);
+Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores) {
+  Values values = parseFlags(argc, argv);
   Options options;
   options.help = values.contains("help");
   if (options.help) return options;
+  options.keyDescriptor = getNumber(values, "key-descriptor", -1, 3, 1 << 20);
+  // The master says all that its own clients need to know; what it was told itself is not for them.
+  if (!options.local()) addVariables(values, variable);
 
-  options.master = get<std::string>(values, "master").value_or("");
+  options.master = get(values, "master").value_or("");
   if (options.master.empty())
-    throw UsageError("--master ADDR:PORT is missing; the master prints it when it starts");
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  options.threads = get<int>(values, "threads").value_or(std::min(cores, 1024));
-  if (options.threads < 1 || options.threads > 1024)
-    throw UsageError(fmt::format("--threads {}: must be 1 to 1024", options.threads));
-  options.isa = parseIsa(get<std::string>(values, "isa").value_or("auto"));
-  options.name = get<std::string>(values, "name").value_or(machineName());
-  options.keyDescriptor = get<int>(values, "key-descriptor").value_or(-1);
-  if (const auto file = get<std::string>(values, "key-file")) options.keyFile = *file;
-  const auto folder = get<std::string>(values, "cache");
-  if (!folder)
+    failUsage("--master ADDR:PORT is missing; the master says it when it starts");
+  options.threads = getNumber(values, "threads", std::clamp(cores, 1, 1024), 1, 1024);
+  options.isa = parseIsa(get(values, "isa").value_or("auto"));
+  options.name = get(values, "name").value_or(machineName());
+  if (const auto file = get(values, "key-file")) options.keyFile = *file;
+  if (const auto folder = get(values, "cache"); !folder)
     options.cache = BlobCache::defaultFolder();
   else if (*folder != "none")
     options.cache = *folder;
   if (!options.local() && !options.keyFile)
-    throw UsageError("--key-file FILE is missing: copy the master's key file here");
+    failUsage("--key-file FILE is missing: copy the master's key file here");
   return options;
 }
 
 std::string helpText() {
   std::ostringstream text;
   text << "Usage: ninefold-client --master ADDR:PORT --key-file FILE [options]\n\n"
-          "Renders for a Ninefold master. Everything else, the scene included, comes from there.\n"
-          "Ends with status 0 when the master is done, 1 on a failure, 2 on wrong usage.\n\n"
+          "Renders for a ninefold-master. Everything else, the scene included, comes from there.\n"
+          "\n"
        << publicFlags()
-       << "\nEach flag may also be given by the environment: NINEFOLD_KEY_FILE for --key-file.\n";
+       << "\nEach flag but --help may also be given by the environment: NINEFOLD_KEY_FILE for\n"
+          "--key-file. Flags win.\n"
+          "Exit status: 0 the master is done, 1 a failure (one line on stderr says what to do), 2 "
+          "wrong usage.\n";
   return text.str();
 }
 

@@ -7,15 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "common/base/error.h"
+#include "common/base/command_line.h"
 #include "common/tracing/tracer.h"
 
 namespace ninefold::client {
-
-class UsageError : public Error {
- public:
-  using Error::Error;
-};
 
 struct Options {
   bool help = false;
@@ -30,7 +25,8 @@ struct Options {
   bool local() const { return keyDescriptor >= 0; }
 };
 
-Options parseOptions(int argc, const char* const* argv);
+// `cores`: of this machine; one thread for each is the default.
+Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores);
 std::string helpText();
 
 }  // namespace ninefold::client

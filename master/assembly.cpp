@@ -66,6 +66,7 @@ void Assembly::run() {
     } catch (const Error& error) {
       malformed = error.what();
     }
+    tile->result.encoded = {};
     answer_(std::move(*tile), malformed);
     const std::lock_guard lock(mutex_);
     busy_ += Clock::now() - start;
@@ -112,7 +113,9 @@ Assembly::Slot* Assembly::claim(const msg::Result& result) {
 
 void Assembly::placed(Slot& slot) {
   const std::lock_guard lock(mutex_);
-  if (--slot.left == 0) complete_.notify_all();
+  if (--slot.left > 0) return;
+  slot.completed = Clock::now();
+  complete_.notify_all();
 }
 
 std::optional<Assembly::Complete> Assembly::next(Time deadline) {
@@ -123,7 +126,7 @@ std::optional<Assembly::Complete> Assembly::next(Time deadline) {
   };
   if (!complete_.wait_until(lock, deadline, ready)) return std::nullopt;
   const Slot* slot = find(nextFrame_++);
-  return Complete{slot->key, &slot->buffer};
+  return Complete{slot->key, &slot->buffer, slot->completed};
 }
 
 void Assembly::release(const Complete& frame) {

@@ -49,6 +49,7 @@ class Assembly {
   struct Complete {
     FrameKey key;
     const FrameBuffer* buffer = nullptr;
+    Time completed;  // when its last tile was placed
   };
   // The next frame by index, if it is complete by `deadline`. Give it back with release.
   std::optional<Complete> next(Time deadline);
@@ -65,6 +66,7 @@ class Assembly {
     FrameKey key;
     std::vector<bool> claimed;  // by task: placed or being placed
     int left = 0;
+    Time completed;
   };
 
   void run();

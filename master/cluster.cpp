@@ -69,6 +69,7 @@ void Cluster::tick() {
   {
     const std::lock_guard lock(mutex_);
     summary_ = describeClients(now);
+    firstDispatch_ = server_.tally().firstDispatch;
   }
   timer_ = loop_.after(kTick, [this] { tick(); });
 }
@@ -90,6 +91,11 @@ std::optional<std::string> Cluster::failure() const {
 std::string Cluster::summary() const {
   const std::lock_guard lock(mutex_);
   return summary_;
+}
+
+std::optional<Time> Cluster::firstDispatch() const {
+  const std::lock_guard lock(mutex_);
+  return firstDispatch_;
 }
 
 std::string Cluster::describeClients(Time now) const {

@@ -42,6 +42,7 @@ class Cluster {
   std::optional<std::string> failure() const;
   // What the clients are doing, for people: "2 ready, 1 syncing 63%".
   std::string summary() const;
+  std::optional<Time> firstDispatch() const;
 
   // Begins to end: goodbye to all, no process left within a second. Does not wait.
   void stop(const std::string& reason);
@@ -69,6 +70,7 @@ class Cluster {
   mutable std::mutex mutex_;
   std::optional<std::string> failure_;  // guarded by mutex_
   std::string summary_;                 // guarded by mutex_
+  std::optional<Time> firstDispatch_;   // guarded by mutex_
 
   std::thread thread_;
 };

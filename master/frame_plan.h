@@ -23,6 +23,7 @@ class FramePlan {
 
   // The next frame's key; indices are given out in order, from 0.
   FrameKey next();
+  int64_t opened() const { return next_; }
 
   // w of a frame, by its index from 0.
   float neighbourWeight(uint32_t frame) const {

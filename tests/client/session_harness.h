@@ -23,11 +23,11 @@ class SessionHarness {
     o.reconnect = reconnect;
     return o;
   }
-  static BlobInfo blob(uint8_t name, uint64_t rawBytes = 1000) {
+  static BlobInfo blob(uint8_t name, uint64_t rawBytes = 1000, BlobKind kind = BlobKind::rest) {
     BlobInfo info;
     info.hash[0] = name;
     info.rawBytes = rawBytes;
-    info.kind = BlobKind::rest;
+    info.kind = kind;
     return info;
   }
   static msg::Configure settings(uint32_t job = 1) {

@@ -19,7 +19,8 @@ TEST(Session, IntroducesItselfFirst) {
 TEST(Session, FetchesOnlyWhatTheCacheLacksAndThenBuildsAndIsReady) {
   SessionHarness h;
   h.welcome();
-  const BlobInfo cached = SessionHarness::blob(1), missing = SessionHarness::blob(2);
+  const BlobInfo cached = SessionHarness::blob(1, 1000, BlobKind::image);
+  const BlobInfo missing = SessionHarness::blob(2);
   h.session.received(msg::SceneOffer{1, {cached, missing}}, h.now);
   h.session.received(SessionHarness::settings(), h.now);
   const auto find = h.take<act::FindBlobs>();

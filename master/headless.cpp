@@ -1,0 +1,202 @@
+#include "master/headless.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <thread>
+
+#include "common/base/log.h"
+#include "common/base/process.h"
+#include "master/assembly.h"
+#include "master/cluster.h"
+#include "master/frame_plan.h"
+#include "master/invitation.h"
+#include "master/job.h"
+#include "master/picture.h"
+#include "master/progress.h"
+#include "master/run_record.h"
+#include "master/stop_rule.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
+
+class HeadlessRun {
+ public:
+  HeadlessRun(const Options& options, const Job& job);
+  ~HeadlessRun();
+
+  int run();
+
+ private:
+  ClusterSetup clusterSetup() const;
+  ServerDuty duty();
+  std::optional<FrameKey> nextFrame();
+  void gatherFrames();
+  bool isDone();
+  void add(const Assembly::Complete& frame);
+  void tellProgress();
+  ProgressState progressState() const;
+  void writePicture() const;
+  void writeStatistics() const;
+  Duration elapsed() const;
+
+  const Options& options_;
+  const Job& job_;
+  const std::shared_ptr<const Key> localKey_ = std::make_shared<const Key>(Key::random());
+  const StopRule rule_;
+  const int decoders_;
+  FramePlan plan_;            // the network thread's
+  std::atomic<bool> enough_;  // no more frames are opened
+  PictureMaker picture_;
+  RunRecord record_;
+  Progress progress_;
+  // In this order: the decoders end before the cluster that they report to.
+  Cluster cluster_;
+  Assembly assembly_;
+};
+
+PictureMaker::Setup pictureSetup(const Options& options, const Job& job) {
+  return {job.grid(),    job.settings.camera, job.layerMask,
+          job.extraMask, options.surfaceTest, options.exposure};
+}
+
+HeadlessRun::HeadlessRun(const Options& options, const Job& job)
+    : options_(options),
+      job_(job),
+      rule_(options.stop),
+      decoders_(1 + static_cast<int>(std::thread::hardware_concurrency()) / 8),
+      plan_(job.firstPhotonRadius, options.converging),
+      enough_(false),
+      picture_(pictureSetup(options, job)),
+      progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
+      cluster_(clusterSetup(), *job.offer, duty()),
+      assembly_(job.grid(), job.layerMask, job.extraMask, decoders_,
+                [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
+                  cluster_.decoded(std::move(tile), malformed);
+                }) {}
+
+HeadlessRun::~HeadlessRun() {
+  cluster_.stop("the master ends");
+  cluster_.join();
+}
+
+ClusterSetup HeadlessRun::clusterSetup() const {
+  std::shared_ptr<const Key> clusterKey;
+  if (options_.keyFile) clusterKey = std::make_shared<const Key>(Key::load(*options_.keyFile));
+  LocalClients::Plan local;
+  local.program = programBesideUs("ninefold-client");
+  local.arguments = {fmt::format("--threads={}", options_.clientThreads), "--isa=" + options_.isa,
+                     "--cache=none"};
+  local.key = localKey_;
+  local.count = options_.localClients;
+  ServerSetup server{parseEndpoint(options_.listen, "--listen"),
+                     {localKey_, clusterKey},
+                     job_.grid(),
+                     job_.extraMask,
+                     options_.waitClients};
+  return {std::move(server), std::move(local), clusterKey != nullptr};
+}
+
+ServerDuty HeadlessRun::duty() {
+  return {[this] { return nextFrame(); },
+          [this](ReceivedTile& tile) { return assembly_.take(tile); }};
+}
+
+// On the network thread.
+std::optional<FrameKey> HeadlessRun::nextFrame() {
+  const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
+  if (enough_ || allOpened || !assembly_.hasRoom()) return std::nullopt;
+  const FrameKey key = plan_.next();
+  assembly_.open(key);
+  return key;
+}
+
+int HeadlessRun::run() {
+  invite(options_, cluster_.endpoint());
+  cluster_.start();
+  gatherFrames();
+  cluster_.stop("the picture is done");
+  if (picture_.frames() > 0) writePicture();
+  cluster_.join();
+  if (picture_.frames() > 0) writeStatistics();
+  if (const auto failure = cluster_.failure()) fail("{}", *failure);
+  if (picture_.frames() == 0) warn("stopped before any frame was complete: nothing is written");
+  return cluster_.signal() == 0 ? 0 : 128 + cluster_.signal();
+}
+
+void HeadlessRun::gatherFrames() {
+  while (!isDone()) {
+    if (const auto frame = assembly_.next(Clock::now() + kLook)) {
+      add(*frame);
+      assembly_.release(*frame);
+    }
+    tellProgress();
+  }
+  enough_ = true;
+  const std::string end = progress_.finish(progressState(), Clock::now());
+  std::fputs(end.c_str(), stderr);
+}
+
+bool HeadlessRun::isDone() {
+  const bool metRule = rule_.isMet(picture_.frames(), elapsed(), picture_.relativeError());
+  return metRule || cluster_.signal() != 0 || cluster_.failure();
+}
+
+Duration HeadlessRun::elapsed() const {
+  const std::optional<Time> begin = cluster_.firstDispatch();
+  return begin ? Clock::now() - *begin : Duration{0};
+}
+
+void HeadlessRun::add(const Assembly::Complete& frame) {
+  const Time start = Clock::now();
+  picture_.add(*frame.buffer, plan_.neighbourWeight(frame.key.frame));
+  record_.frameDone(frame.completed, Clock::now() - start);
+}
+
+void HeadlessRun::tellProgress() {
+  if (const auto text = progress_.update(progressState(), Clock::now()))
+    std::fputs(text->c_str(), stderr);
+}
+
+ProgressState HeadlessRun::progressState() const {
+  const double fraction = rule_.fraction(picture_.frames(), elapsed(), picture_.relativeError());
+  return {fraction, picture_.frames(), rule_.frames, cluster_.summary()};
+}
+
+void HeadlessRun::writePicture() const {
+  if (!options_.output) return;
+  picture_.write(*options_.output, {{"release", releaseName()},
+                                    {"scene", options_.scene},
+                                    {"scene_hash", job_.sceneHash},
+                                    {"camera", job_.settings.camera.name},
+                                    {"preset", nameOf(options_.preset)},
+                                    {"seed", fmt::format("{}", job_.settings.seed)},
+                                    {"frames", fmt::format("{}", picture_.frames())},
+                                    {"image_hash", picture_.imageHash()}});
+  log("{} frame(s) in {}", picture_.frames(), *options_.output);
+}
+
+void HeadlessRun::writeStatistics() const {
+  if (!options_.stats) return;
+  RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), decoders_);
+  stats.frames = picture_.frames();
+  stats.relativeError = picture_.relativeError();
+  stats.imageHash = picture_.imageHash();
+  stats.needs = job_.needs;
+  stats.preset = nameOf(options_.preset);
+  stats.settings = job_.settings;
+  writeStats(*options_.stats, stats);
+}
+
+}  // namespace
+
+int runHeadless(const Options& options) {
+  if (options.output) checkOutputPath(*options.output);
+  const Job job = makeJob(options);
+  HeadlessRun run(options, job);
+  return run.run();
+}
+
+}  // namespace ninefold

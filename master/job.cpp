@@ -1,0 +1,51 @@
+#include "master/job.h"
+
+#include "common/base/log.h"
+#include "common/scene/reader.h"
+#include "proto/scene_blobs.h"
+
+namespace ninefold {
+namespace {
+
+uint8_t extraPlanes(const Options& options, const Needs& needs) {
+  if (!options.aovs) return 0;
+  const bool photons = needs.specular() && options.settings.caustics != Caustics::off;
+  return static_cast<uint8_t>(kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane |
+                              (photons ? kCausticPlane : 0));
+}
+
+std::string hashOf(const std::vector<Blob>& blobs) {
+  Bytes names;
+  for (const Blob& blob : blobs)
+    for (const uint8_t byte : blob.info.hash) names.push_back(static_cast<std::byte>(byte));
+  return hex(sha256(names));
+}
+
+void tellSettings(const Options& options, const Settings& s) {
+  const std::string length =
+      s.pathLength == 0 ? "no limit of path length" : fmt::format("path length {}", s.pathLength);
+  log("{}x{} pixels, camera {}, preset {}: {}x{} light sets of {} + {} VPLs and {} photons, {}, "
+      "seed {}",
+      s.width, s.height, s.camera.name.empty() ? "as given" : s.camera.name, nameOf(options.preset),
+      s.interleave.n, s.interleave.m, s.directVpls, s.indirectVpls, s.photons, length, s.seed);
+}
+
+}  // namespace
+
+Job makeJob(const Options& options) {
+  const Scene scene = readScene(options.scene);
+  Job job;
+  job.settings = makeSettings(options, scene);
+  job.needs = needsOf(scene, job.settings.environment);
+  for (const std::string& line : describe(job.needs)) log("{}", line);
+  tellSettings(options, job.settings);
+  job.layerMask = layerMaskOf(job.needs, job.settings.method);
+  job.extraMask = extraPlanes(options, job.needs);
+  job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
+  std::vector<Blob> blobs = packScene(scene);
+  job.sceneHash = hashOf(blobs);
+  job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings);
+  return job;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,30 @@
+// job.h: what is to be rendered, made of the command line and the scene file: everything that the
+// run needs to know of the scene after it was packed for the clients. Errors: makeJob throws Error
+// (bad scene, no such camera). Threads: value.
+#pragma once
+
+#include <memory>
+
+#include "common/scene/needs.h"
+#include "common/scene/settings.h"
+#include "master/job_offer.h"
+#include "master/options.h"
+
+namespace ninefold {
+
+struct Job {
+  Settings settings;
+  Needs needs;
+  uint8_t layerMask = 1;
+  uint8_t extraMask = 0;
+  Metres firstPhotonRadius = 0;  // [m]
+  std::string sceneHash;         // SHA-256 over the names of its blobs
+  std::unique_ptr<JobOffer> offer;
+
+  TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }
+};
+
+// Reads the scene; the first log lines say what it needs and what will be done.
+Job makeJob(const Options& options);
+
+}  // namespace ninefold
