@@ -25,13 +25,15 @@ void addRgb(const TileGrid& grid, int phase, const RgbPlane& plane, Rgb& sums) {
   });
 }
 
-void appendRgb(const std::string& name, const Rgb& sums, double share, std::vector<Channel>& out) {
-  for (size_t c = 0; c < 3; ++c) {
-    Channel channel{name + "." + "RGB"[c], std::vector<float>(sums[c].size())};
-    for (size_t i = 0; i < sums[c].size(); ++i)
-      channel.values[i] = static_cast<float>(sums[c][i] * share);
-    out.push_back(std::move(channel));
-  }
+std::vector<float> scaled(const std::vector<double>& sums, double scale) {
+  std::vector<float> out(sums.size());
+  for (size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(sums[i] * scale);
+  return out;
+}
+
+void appendMeans(const std::string& layer, const Rgb& sums, double share,
+                 std::vector<Channel>& out) {
+  appendLayer(layer, {scaled(sums[0], share), scaled(sums[1], share), scaled(sums[2], share)}, out);
 }
 
 // Unit again; zero where no frame met a surface.
@@ -103,11 +105,11 @@ void AovFilm::addDepth(int phase, const std::vector<float>& depth) {
 std::vector<Channel> AovFilm::channels() const {
   std::vector<Channel> out;
   const double share = frames_ > 0 ? 1.0 / static_cast<double>(frames_) : 0;
-  if ((extraMask_ & kAlbedoPlane) != 0) appendRgb("albedo", albedo_, share, out);
+  if ((extraMask_ & kAlbedoPlane) != 0) appendMeans("albedo", albedo_, share, out);
   if ((extraMask_ & kNormalPlane) != 0) appendNormal(normal_, out);
   if ((extraMask_ & kDepthPlane) != 0) appendDepth(depth_, hits_, out);
-  appendRgb("irradiance", irradiance_, share, out);
-  if ((extraMask_ & kCausticPlane) != 0) appendRgb("caustic", caustic_, share, out);
+  appendMeans("irradiance", irradiance_, share, out);
+  if ((extraMask_ & kCausticPlane) != 0) appendMeans("caustic", caustic_, share, out);
   if ((extraMask_ & kObjectPlane) != 0) out.push_back({"objectId", object_});
   return out;
 }

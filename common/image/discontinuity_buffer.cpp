@@ -1,5 +1,7 @@
 #include "common/image/discontinuity_buffer.h"
 
+#include <bit>
+
 #include "common/base/error.h"
 
 namespace ninefold {
@@ -110,19 +112,24 @@ struct Sums {
   float weight[kChunk], r[kChunk], g[kChunk], b[kChunk];
 };
 
+// value or 0, without a branch and without 0 * infinity: what is not finite must not cross edges.
+float masked(float value, uint32_t mask) {
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(value) & mask);
+}
+
 // Adds one window position: w and w (E_i - E_0), w = weight where accept(i, k) says that the
-// surface goes on from centre[i] to other[k].
+// surface goes on from centre[i] to other[k], else 0.
 template <typename Accept>
 void addPosition(const Row& centre, const Row& other, Span span, float weight, Accept accept,
                  Sums& sums) {
 #pragma GCC ivdep
   for (int i = span.first; i < span.last; ++i) {
     const int k = i + span.shift, s = i - sums.first;
-    const float w = accept(i, k) ? weight : 0.0f;
-    sums.weight[s] += w;
-    sums.r[s] += w * (other.r[k] - centre.r[i]);
-    sums.g[s] += w * (other.g[k] - centre.g[i]);
-    sums.b[s] += w * (other.b[k] - centre.b[i]);
+    const uint32_t mask = accept(i, k) ? ~0u : 0u;
+    sums.weight[s] += masked(weight, mask);
+    sums.r[s] += masked(weight * (other.r[k] - centre.r[i]), mask);
+    sums.g[s] += masked(weight * (other.g[k] - centre.g[i]), mask);
+    sums.b[s] += masked(weight * (other.b[k] - centre.b[i]), mask);
   }
 }
 

@@ -59,7 +59,10 @@ void FrameFilter::composeRows(const FrameBuffer& frame, int phase, int j0, int j
   bool add = false;
   for (int layer = 0; layer < kLayers; ++layer) {
     if (!hasLayer(frame.layerMask(), layer)) continue;
-    RgbPlane& filtered = filtered_[static_cast<size_t>(layer)].at(static_cast<size_t>(phase));
+    std::vector<RgbPlane>& phases = filtered_[static_cast<size_t>(layer)];
+    NINEFOLD_CHECK(phases.size() == static_cast<size_t>(grid.interleave().sets()));
+    RgbPlane& filtered = phases[static_cast<size_t>(phase)];
+    NINEFOLD_CHECK(filtered.r.size() == static_cast<size_t>(sub.count()));
     buffer_.filterRows(frame, layer, phase, j0, j1, neighbourWeight, filtered);
     for (int j = j0; j < j1; ++j) {
       const Pixels pixels{beauty.at(grid.pixelX(phase, 0), grid.pixelY(phase, j)),

@@ -16,6 +16,12 @@ uint64_t addWord(uint64_t hash, uint32_t word) {
 
 }  // namespace
 
+void appendLayer(const std::string& layer, const RgbPlane& plane, std::vector<Channel>& channels) {
+  channels.push_back({layer + ".R", plane.r});
+  channels.push_back({layer + ".G", plane.g});
+  channels.push_back({layer + ".B", plane.b});
+}
+
 std::string imageHash(const RgbImage& image) {
   uint64_t hash = kFnvOffset;
   hash = addWord(hash, static_cast<uint32_t>(image.width));

@@ -34,6 +34,9 @@ struct Channel {
   std::vector<float> values;
 };
 
+// Adds the channels layer.R, layer.G, layer.B.
+void appendLayer(const std::string& layer, const RgbPlane& plane, std::vector<Channel>& channels);
+
 // 64-bit FNV-1a over the size and the bits of R, G, B, plane by plane, as 16 hex digits: equal
 // pictures, and in practice only those, have equal hashes. -0 and 0 differ: the promise is the same
 // bytes.

@@ -71,7 +71,10 @@ TEST_F(ImageFile, ExrKeepsEveryBit) {
 TEST_F(ImageFile, ExrCarriesNamedChannelsAndMetadata) {
   const RgbImage image = sample(5, 3);
   std::vector<Channel> extras;
-  for (const char* name : {"albedo.R", "N.x", "N.y", "N.z", "Z", "objectId"})
+  appendLayer("albedo",
+              {std::vector<float>(15, 1), std::vector<float>(15, 2), {sample(5, 3).pixels.r}},
+              extras);
+  for (const char* name : {"N.x", "N.y", "N.z", "Z", "objectId"})
     extras.push_back({name, std::vector<float>(15, static_cast<float>(extras.size()) + 0.5f)});
   writeImage(path("a.EXR"), {image, extras, {{"seed", "17"}, {"scene", "table_room.glb"}}});
   EXPECT_EQ(readImage(path("a.EXR")), image);
@@ -81,7 +84,8 @@ TEST_F(ImageFile, ExrCarriesNamedChannelsAndMetadata) {
   const OIIO::ImageSpec spec = input->spec();
   EXPECT_EQ(spec.get_string_attribute("ninefold:seed"), "17");
   EXPECT_EQ(spec.get_string_attribute("ninefold:scene"), "table_room.glb");
-  EXPECT_EQ(spec.nchannels, 9);
+  EXPECT_EQ(spec.nchannels, 11);
+  EXPECT_GE(spec.channelindex("albedo.B"), 0);
   for (const Channel& extra : extras) {
     const int channel = spec.channelindex(extra.name);
     ASSERT_GE(channel, 0) << extra.name;

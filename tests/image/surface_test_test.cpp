@@ -167,6 +167,22 @@ TEST(SurfaceTest, NeverAcceptsAPixelWithoutSurface) {
   EXPECT_FALSE(similarDistance(0, 0, 1));
 }
 
+TEST(SurfaceTest, LetsNothingThatIsNotFiniteCrossAnEdge) {
+  const Shape corner = [](Vec3 v) { return nearer(ground(v), wallAt(v, 4)); };
+  const Light light = [](int, int, const Point& p) { return p.part == 1 ? NAN : 4.0f; };
+  const RgbImage image = filtered(frameOfShape(kGrid, corner, light), SurfaceTest::surface);
+  int finite = 0, expected = 0;
+  const CameraRays rays(camera(), kWidth, kHeight);
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const Point p =
+          corner(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+      expected += p.part == 0;
+      finite += image.pixels.g[image.at(x, y)] == 1;
+    }
+  EXPECT_EQ(finite, expected);
+}
+
 TEST(SurfaceTest, KeepsChainsApartInMirrors) {
   const uint8_t layers = kDiffuseBit | kReflectionBit;
   for (const SurfaceTest test : {SurfaceTest::paper, SurfaceTest::surface}) {
