@@ -43,15 +43,19 @@ void Server::accept(std::shared_ptr<Connection> connection) {
   events.onMessage = [this, id](Message&& message) {
     withPeer(id, [&](ClientSession& s, Time now) { s.received(std::move(message), now); });
   };
-  events.onClosed = [this, id](const std::string& reason) {
-    const auto found = peers_.find(id);
-    if (!found->second.session->over()) {
-      found->second.session->disconnected();
-      lost(*found, reason, Clock::now());
-    }
-    found->second.connection.reset();
-  };
+  events.onClosed = [this, id](const std::string& reason) { closed(id, reason); };
   peer.connection->start(std::move(events));
+}
+
+void Server::closed(ClientId id, const std::string& reason) {
+  Handle& peer = *peers_.find(id);
+  peer.second.bytesReceived = peer.second.connection->bytesReceived();
+  if (!isClosing() && !peer.second.session->over()) {
+    peer.second.session->disconnected();
+    lost(peer, reason, Clock::now());
+    dispatch(Clock::now());
+  }
+  peer.second.connection.reset();
 }
 
 template <typename Event>
@@ -106,7 +110,6 @@ void Server::on(Handle& peer, todo::Finish&& a, Time now) {
 
 void Server::lost(Handle& peer, const std::string& reason, Time now) {
   log("client {} is lost: {}: {}", peer.first, describe(*peer.second.session), reason);
-  if (peer.second.connection) peer.second.bytesReceived = peer.second.connection->bytesReceived();
   scheduler_.clientLost(peer.first, now);
 }
 
@@ -139,6 +142,7 @@ void Server::tick(Time now) {
   std::erase_if(peers_, [](const Handle& peer) {  // those that were never ready leave no trace
     return peer.second.connection == nullptr && !peer.second.wasReady;
   });
+  if (isClosing()) return;
   for (Handle& peer : peers_) {
     if (peer.second.session->over()) continue;
     peer.second.session->tick(now);
@@ -148,7 +152,7 @@ void Server::tick(Time now) {
 }
 
 void Server::dispatch(Time now) {
-  if (listener_ == nullptr) return;  // closed
+  if (isClosing()) return;
   started_ = started_ || scheduler_.clients() >= setup_.waitClients;
   if (!started_) return;
   openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
@@ -184,7 +188,6 @@ void Server::close(const std::string& reason) {
   listener_.reset();
   for (auto& [id, peer] : peers_) {
     if (!peer.connection) continue;
-    peer.bytesReceived = peer.connection->bytesReceived();
     peer.connection->send(msg::Goodbye{reason.substr(0, kMaxText)});
     peer.connection->finish(reason);
   }

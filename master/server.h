@@ -93,6 +93,8 @@ class Server {
   using Handle = std::pair<const ClientId, Peer>;
 
   void accept(std::shared_ptr<Connection> connection);
+  void closed(ClientId id, const std::string& reason);
+  bool isClosing() const { return listener_ == nullptr; }
   template <typename Event>
   void withPeer(ClientId id, Event event);  // event(session), then what follows from it
   void carryOut(Handle& peer, Time now);
@@ -120,7 +122,7 @@ class Server {
   ClientId nextId_ = 1;
   bool started_ = false;  // waitClients were ready once
   ServerTally tally_;
-  std::unique_ptr<Listener> listener_;
+  std::unique_ptr<Listener> listener_;  // null once the server closes
 };
 
 }  // namespace ninefold

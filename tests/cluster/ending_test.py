@@ -1,0 +1,88 @@
+"""How a run ends: by Ctrl-C, by the loss of its master, by mistakes in the command line."""
+import os
+import time
+import unittest
+
+from programs import BIN, SCENES, ClusterTest, eventually, is_running, signal
+
+
+class Ending(ClusterTest):
+    def endless(self):
+        master = self.master("--local-clients", 2, "--seconds", 1000, frames=None)
+        master.waits_for(r"progress: \d+% frame [1-9]")
+        return master, master.children()
+
+    def test_interrupts_write_what_there_is_and_leave_nobody(self):
+        for sig, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            master, clients = self.endless()
+            self.assertEqual(len(clients), 2)
+            began = time.monotonic()
+            self.send(master.process.pid, sig)
+            self.assertEqual(master.ends(), status, master.text)
+            self.assertLess(time.monotonic() - began, 10)  # within a second when nothing else runs
+            self.assertTrue(master.picture.exists())
+            for pid in clients:
+                eventually(lambda: not is_running(pid), f"end of client process {pid}")
+
+    def test_ctrl_c_in_a_terminal_reaches_all_and_only_the_master_answers(self):
+        master, clients = self.endless()
+        for pid in [master.process.pid] + clients:
+            self.send(pid, signal.SIGINT)
+        self.assertEqual(master.ends(), 130, master.text)
+        self.assertNotIn("ended with", master.text)
+        self.assertTrue(master.picture.exists())
+
+    def test_clients_of_a_killed_master_end_even_when_frozen(self):
+        master, clients = self.endless()
+        self.send(clients[0], signal.SIGSTOP)
+        self.send(master.process.pid, signal.SIGKILL)
+        for pid in clients:
+            eventually(lambda: not is_running(pid), f"end of client process {pid}")
+
+    def test_an_interrupt_before_the_first_frame_writes_nothing_and_says_so(self):
+        self.new_key()
+        master = self.master("--local-clients", 0, "--key-file", "cluster.key")
+        master.waits_for("listening on")
+        self.send(master.process.pid, signal.SIGINT)
+        self.assertEqual(master.ends(), 130)
+        self.assertFalse(master.picture.exists())
+        self.assertIn("nothing is written", master.text)
+
+    def one_line(self, program):
+        lines = [l for l in program.lines if l and not l.startswith("[")]
+        self.assertEqual(len(lines), 1, program.text)
+        return lines[0]
+
+    def test_wrong_usage_is_one_line_and_status_2(self):
+        scene = SCENES / "cornell.glb"
+        for options, flag in (
+            (["--listen", "0.0.0.0:0"], "--key-file"),
+            (["--local-clients", "0"], "--key-file"),
+            (["--size", "0x10"], "--size"),
+            (["--isa", "mmx"], "--isa"),
+        ):
+            master = self.start(BIN / "ninefold-master", scene, "--output", "o.exr", *options)
+            self.assertEqual(master.ends(), 2, master.text)
+            self.assertIn(flag, self.one_line(master))
+        client = self.start(BIN / "ninefold-client")
+        self.assertEqual(client.ends(), 2)
+        self.assertIn("--master", self.one_line(client))
+
+    def test_bad_scenes_keys_and_outputs_are_one_line_and_status_1(self):
+        (self.folder / "broken.glb").write_bytes(b"glTF\2\0\0\0")
+        (self.folder / "short.key").write_bytes(b"short")
+        os.chmod(self.folder / "short.key", 0o600)
+        scene = SCENES / "cornell.glb"
+        for arguments, word in (
+            (["broken.glb", "--output", "o.exr"], "broken.glb"),
+            (["nowhere.glb", "--output", "o.exr"], "nowhere.glb"),
+            ([scene, "--output", "o.exr", "--key-file", "short.key"], "short.key"),
+            ([scene, "--output", "no/such/folder/o.exr"], "no/such/folder"),
+        ):
+            master = self.start(BIN / "ninefold-master", *arguments)
+            self.assertEqual(master.ends(), 1, master.text)
+            self.assertIn(word, self.one_line(master))
+
+
+if __name__ == "__main__":
+    unittest.main()

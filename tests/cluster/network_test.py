@@ -1,0 +1,139 @@
+"""Clients that come over the network: late, with the wrong key, or not clients at all."""
+import os
+import shutil
+import socket
+import subprocess
+import unittest
+
+from programs import ClusterTest, signal
+
+
+class Network(ClusterTest):
+    LONG = 60
+
+    def test_a_client_that_joins_late_renders_its_share(self):
+        self.new_key()
+        alone = self.render("--local-clients", 1, frames=self.LONG)
+        master = self.master("--local-clients", 1, "--key-file", "cluster.key", frames=self.LONG)
+        address = self.address_of(master)
+        master.waits_for(r"client 1 is ready")
+        late = self.client(address)
+        stats = self.finish(master)
+        self.assertEqual(late.ends(), 0, late.text)
+        self.assertEqual(stats["image_hash"], alone["image_hash"])
+        self.assertEqual(len(stats["clients"]), 2, master.text)
+        self.assertTrue(all(c["tasks"] > 0 for c in stats["clients"]), stats["clients"])
+
+    def test_a_wrong_key_is_refused_in_one_clear_line_on_both_sides(self):
+        self.new_key("right.key")
+        self.new_key("wrong.key")
+        master = self.master("--local-clients", 0, "--key-file", "right.key", frames=2)
+        address = self.address_of(master)
+        intruder = self.client(address, key="wrong.key")
+        self.assertEqual(intruder.ends(), 1, intruder.text)
+        self.assertEqual(len([l for l in intruder.lines if "key" in l]), 1, intruder.text)
+        master.waits_for("key")
+        friend = self.client(address, key="right.key")
+        self.finish(master)
+        self.assertEqual(friend.ends(), 0, friend.text)
+        for program in (master, intruder, friend):
+            for name in ("right.key", "wrong.key"):
+                key = (self.folder / name).read_bytes()
+                self.assertNotIn(key.hex(), program.text.lower())
+
+    def test_random_bytes_at_the_port_harm_nothing(self):
+        alone = self.render("--local-clients", 1, frames=self.LONG)
+        master = self.master("--local-clients", 1, frames=self.LONG)
+        host, _, port = self.address_of(master).rpartition(":")
+        for size in (0, 1, 16, 5000):
+            with socket.create_connection((host, int(port)), timeout=10) as stranger:
+                stranger.sendall(os.urandom(size))
+        stats = self.finish(master)
+        self.assertEqual(stats["image_hash"], alone["image_hash"])
+        self.assertEqual(len(stats["clients"]), 1)
+
+    def test_a_client_waits_for_a_restarted_master(self):
+        self.new_key()
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            address = f"127.0.0.1:{free.getsockname()[1]}"
+        options = ["--local-clients", 0, "--key-file", "cluster.key", "--listen", address]
+        first = self.master(*options, "--seconds", 1000, frames=None)
+        first.waits_for("listening on")
+        client = self.client(address)
+        first.waits_for(r"progress: \d+% frame [1-9]")
+        self.send(first.process.pid, signal.SIGKILL)
+        first.ends()
+        client.waits_for("trying again")
+        second = self.master(*options, frames=2)
+        self.finish(second)
+        self.assertEqual(client.ends(), 0, client.text)
+
+    def test_the_master_says_what_to_type_elsewhere(self):
+        self.new_key()
+        master = self.master("--local-clients", 0, "--key-file", "cluster.key", frames=2)
+        command = master.waits_for(r"(ninefold-client --master \S+ --key-file \S+)").group(1)
+        program, *arguments = command.split()
+        from programs import BIN
+        client = self.start(BIN / program, *arguments, "--cache", "cache")
+        self.finish(master)
+        self.assertEqual(client.ends(), 0, client.text)
+        self.assertTrue(any((self.folder / "cache").iterdir()))
+
+
+def ip(*arguments):
+    subprocess.run(["ip", *arguments], check=True, capture_output=True)
+
+
+@unittest.skipUnless(os.geteuid() == 0 and shutil.which("ip"), "needs root and ip(8)")
+class Lan(ClusterTest):
+    """Master and client on hosts of their own: network namespaces joined by a virtual cable."""
+
+    def setUp(self):
+        super().setUp()
+        self.hosts = [f"nf{os.getpid()}{side}" for side in "ab"]
+        try:
+            for host in self.hosts:
+                ip("netns", "add", host)
+                self.addCleanup(subprocess.run, ["ip", "netns", "del", host], capture_output=True)
+            a, b = self.hosts
+            ip("-n", a, "link", "add", "lan", "type", "veth", "peer", "lan", "netns", b)
+            for number, host in enumerate(self.hosts, 1):
+                ip("-n", host, "addr", "add", f"10.77.0.{number}/24", "dev", "lan")
+                ip("-n", host, "link", "set", "lan", "up")
+                ip("-n", host, "link", "set", "lo", "up")
+        except subprocess.CalledProcessError as error:
+            self.skipTest(f"no network namespaces here: {error.stderr.decode().strip()}")
+
+    def on(self, host):
+        return ["ip", "netns", "exec", self.hosts[host]]
+
+    def test_an_empty_client_on_another_host_gets_the_scene_and_renders(self):
+        here = self.render("--local-clients", 1, scene="table_room", frames=4)
+        self.new_key()
+        for attempt in ("empty cache", "full cache"):
+            master = self.master("--local-clients", 0, "--listen", "0.0.0.0:4700", "--key-file",
+                                 "cluster.key", scene="table_room", frames=4, prefix=self.on(0))
+            master.waits_for("listening on")
+            client = self.client("10.77.0.1:4700", prefix=self.on(1), cache="cache")
+            stats = self.finish(master)
+            self.assertEqual(client.ends(), 0, client.text)
+            self.assertEqual(stats["image_hash"], here["image_hash"], attempt)
+            self.assertTrue(any((self.folder / "cache").iterdir()))
+
+    def test_a_cut_cable_loses_the_client_and_not_the_run(self):
+        here = self.render("--local-clients", 1, frames=60)
+        self.new_key()
+        master = self.master("--local-clients", 1, "--listen", "0.0.0.0:4700", "--key-file",
+                             "cluster.key", "--wait-clients", 2, frames=60, prefix=self.on(0))
+        master.waits_for("listening on")
+        client = self.client("10.77.0.1:4700", prefix=self.on(1))
+        master.waits_for(r"is ready(.|\n)*is ready")
+        ip("-n", self.hosts[1], "link", "set", "lan", "down")
+        stats = self.finish(master)
+        self.assertEqual(stats["image_hash"], here["image_hash"])
+        client.close()
+
+
+if __name__ == "__main__":
+    unittest.main()

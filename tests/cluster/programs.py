@@ -1,0 +1,151 @@
+"""programs.py: starts the real master and clients in a folder of their own and watches them.
+
+Every wait has a deadline that is only there to end a broken test; no test decides by time.
+"""
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+BIN = pathlib.Path(os.environ["NINEFOLD_BIN"])
+SCENES = pathlib.Path(os.environ["NINEFOLD_SCENES"])
+DEADLINE = 120  # seconds
+
+
+def eventually(condition, what):
+    end = time.monotonic() + DEADLINE
+    while time.monotonic() < end:
+        result = condition()
+        if result:
+            return result
+        time.sleep(0.01)
+    raise AssertionError(f"never happened: {what}")
+
+
+class Program:
+    """A running program whose standard error is collected line by line."""
+
+    def __init__(self, command, cwd):
+        environment = {k: v for k, v in os.environ.items() if not k.startswith("NINEFOLD_")}
+        environment["HOME"] = str(cwd)
+        environment.pop("XDG_CACHE_HOME", None)
+        self.lines = []
+        self.process = subprocess.Popen([str(c) for c in command], cwd=cwd, env=environment,
+                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                        stderr=subprocess.PIPE, text=True, errors="replace")
+        self.reader = threading.Thread(target=self._read)
+        self.reader.start()
+
+    def _read(self):
+        for line in self.process.stderr:
+            self.lines.append(line.rstrip("\n"))
+
+    @property
+    def text(self):
+        return "\n".join(self.lines)
+
+    def waits_for(self, pattern):
+        """The first match of `pattern` in what the program said."""
+        def said():
+            if self.process.poll() is not None and not re.search(pattern, self.text):
+                self.reader.join()
+                if not re.search(pattern, self.text):
+                    raise AssertionError(f"ended without saying {pattern!r}:\n{self.text}")
+            return re.search(pattern, self.text)
+        return eventually(said, f"{pattern!r} in:\n{self.text}")
+
+    def ends(self):
+        try:
+            status = self.process.wait(DEADLINE)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            raise AssertionError(f"did not end; it said:\n{self.text}")
+        self.reader.join(DEADLINE)
+        return status
+
+    def children(self):
+        """Process ids of the clients that a master has started."""
+        found = []
+        for stat in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            try:
+                fields = stat.read_text().rpartition(")")[2].split()
+            except OSError:
+                continue  # ended meanwhile
+            if int(fields[1]) == self.process.pid and fields[0] != "Z":
+                found.append(int(stat.parent.name))
+        return sorted(found)
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+            self.process.wait()
+        self.reader.join()
+        self.process.stderr.close()
+
+
+def is_running(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except OSError:
+        return False
+
+
+class ClusterTest(unittest.TestCase):
+    """Starts programs in a temporary folder; ends them all when the test is over."""
+    maxDiff = None
+    SIZE = "96x72"
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="ninefold-cluster-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.runs = 0
+
+    def start(self, *command):
+        program = Program(command, self.folder)
+        self.addCleanup(program.close)
+        return program
+
+    def master(self, *options, scene="cornell", frames=8, prefix=()):
+        """A master that writes out<N>.exr and stats<N>.json."""
+        self.runs += 1
+        limit = ["--frames", frames] if frames else []
+        program = self.start(*prefix, BIN / "ninefold-master", SCENES / f"{scene}.glb", "--size",
+                             self.SIZE, *limit, "--output", f"out{self.runs}.exr", "--stats",
+                             f"stats{self.runs}.json", *options)
+        program.picture = self.folder / f"out{self.runs}.exr"
+        program.stats_file = self.folder / f"stats{self.runs}.json"
+        return program
+
+    def client(self, address, key="cluster.key", prefix=(), cache="none"):
+        return self.start(*prefix, BIN / "ninefold-client", "--master", address, "--key-file", key,
+                          "--threads", 1, "--cache", cache)
+
+    def new_key(self, name="cluster.key"):
+        maker = self.start(BIN / "ninefold-master", "--new-key", name)
+        self.assertEqual(maker.ends(), 0, maker.text)
+        return name
+
+    def address_of(self, master):
+        return master.waits_for(r"listening on (\S+)").group(1)
+
+    def finish(self, master):
+        """The statistics of a master that ends well."""
+        self.assertEqual(master.ends(), 0, master.text)
+        self.assertTrue(master.picture.exists())
+        return json.loads(master.stats_file.read_text())
+
+    def render(self, *options, **more):
+        return self.finish(self.master(*options, **more))
+
+    def send(self, pid, sig):
+        os.kill(pid, sig)
+
+
+__all__ = ["BIN", "SCENES", "ClusterTest", "eventually", "is_running", "signal"]

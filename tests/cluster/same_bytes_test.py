@@ -1,0 +1,57 @@
+"""The same job gives the same bytes, whoever renders it and whatever happens to them."""
+import unittest
+
+from programs import ClusterTest, eventually, is_running, signal
+
+
+class SameBytes(ClusterTest):
+    LONG = 60  # frames: enough to lose somebody in the middle
+
+    def test_any_number_of_clients_and_threads(self):
+        hashes = {}
+        for clients, threads in [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)]:
+            stats = self.render("--local-clients", clients, "--client-threads", threads,
+                                scene="table_room", frames=4)
+            self.assertTrue(stats["reproducible"])
+            hashes[clients, threads] = stats["image_hash"]
+        self.assertEqual(len(set(hashes.values())), 1, hashes)
+
+    def test_another_seed_is_another_picture(self):
+        one = self.render("--local-clients", 1, "--seed", 1, frames=2)
+        two = self.render("--local-clients", 1, "--seed", 2, frames=2)
+        self.assertNotEqual(one["image_hash"], two["image_hash"])
+
+    def test_a_killed_client_does_not_show(self):
+        undisturbed = self.render("--local-clients", 2, frames=self.LONG)
+        master = self.master("--local-clients", 2, frames=self.LONG)
+        master.waits_for(r"client \d+ is ready(.|\n)*client \d+ is ready")
+        victim = master.children()[0]
+        self.send(victim, signal.SIGKILL)
+        stats = self.finish(master)
+        self.assertIn("signal 9", master.text)
+        self.assertEqual(stats["image_hash"], undisturbed["image_hash"])
+
+    def test_a_frozen_client_does_not_show_and_is_not_left_behind(self):
+        undisturbed = self.render("--local-clients", 2, frames=self.LONG)
+        master = self.master("--local-clients", 2, frames=self.LONG)
+        master.waits_for(r"client \d+ is ready(.|\n)*client \d+ is ready")
+        clients = master.children()
+        self.send(clients[1], signal.SIGSTOP)
+        stats = self.finish(master)
+        self.assertEqual(stats["image_hash"], undisturbed["image_hash"])
+        for pid in clients:
+            eventually(lambda: not is_running(pid), f"end of client process {pid}")
+
+    def test_both_instruction_sets_are_reproducible(self):
+        if "avx512vl" not in open("/proc/cpuinfo").read():
+            self.skipTest("this machine lacks AVX-512")
+        for isa in ("avx2", "avx512"):
+            one = self.render("--local-clients", 1, "--isa", isa, frames=2)
+            two = self.render("--local-clients", 2, "--isa", isa, frames=2)
+            self.assertEqual(one["image_hash"], two["image_hash"])
+            self.assertEqual({c["isa"] for c in two["clients"]}, {isa})
+            self.assertTrue(two["reproducible"])
+
+
+if __name__ == "__main__":
+    unittest.main()
