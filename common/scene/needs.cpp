@@ -28,11 +28,6 @@ float largestMetallic(const Scene& scene, const Material& m) {
   return m.metallic == 0 ? 0 : m.metallic * channelRange(scene, m.metallicRoughnessMap, 2).high;
 }
 
-bool transmits(const Scene& scene, const Material& m) {
-  return m.transmission > 0 && channelRange(scene, m.transmissionMap, 0).high > 0 &&
-         (m.metallic < 1 || channelRange(scene, m.metallicRoughnessMap, 2).low < 1);
-}
-
 bool blends(const Scene& scene, const Material& m) {
   return m.alphaMode == AlphaMode::blend &&
          m.opacity * channelRange(scene, m.baseColorMap, 3).low < 1;
@@ -46,7 +41,7 @@ bool isTextured(const Material& m) {
 void addMaterial(const Scene& scene, const Material& m, Needs& needs) {
   // GGX alpha = roughness^2; below this it counts as smooth, as in bsdf/bsdf.h.
   constexpr float kSmallestAlpha = 1e-3f;
-  const bool glass = transmits(scene, m);
+  const bool glass = transmits(m);
   const bool lobe = glass || !foldsIntoDiffuse(scene, m);
   const float roughest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).high;
   needs.reflection |= lobe;
@@ -64,10 +59,11 @@ uint8_t Needs::layerMask() const {
                               (transmission ? kTransmissionBit : 0));
 }
 
+bool transmits(const Material& m) { return m.transmission > 0 && m.metallic < 1; }
+
 bool foldsIntoDiffuse(const Scene& scene, const Material& m) {
   const float metallic = largestMetallic(scene, m);
-  const bool noFresnel = m.specular == 0 || isBlack(m.specularColor) || m.ior == 1;
-  if (metallic == 0 && noFresnel) return true;
+  if (metallic == 0 && m.specular == 0) return true;
   const float smoothest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).low;
   return smoothest >= (metallic < 0.5f ? 0.6f : 0.85f);
 }

@@ -25,9 +25,14 @@ struct Needs {
   uint8_t layerMask() const;  // bits of image/layers.h
 };
 
+// True if the material is a dielectric interface that lets light through: no D but for the share
+// that it does not transmit, and a reflection lobe that is never folded.
+bool transmits(const Material& material);
+
 // True if the opaque reflection lobe of a material is folded into D: its smallest perceptual
-// roughness over the texture is at least 0.6 for dielectrics (metallic < 0.5), 0.85 for metals; or
-// its specular factor is 0.
+// roughness over the texture is at least 0.6 for dielectrics (metallic < 0.5 everywhere), 0.85 for
+// metals; or its specular factor is 0 and it is no metal at all. Looks at all texels: ask once per
+// material.
 bool foldsIntoDiffuse(const Scene& scene, const Material& material);
 
 // The layers that a task of this method carries; master and clients must agree on it.

@@ -3,8 +3,9 @@
 #include <tiny_obj_loader.h>
 
 #include <array>
+#include <istream>
 #include <map>
-#include <sstream>
+#include <streambuf>
 #include <unordered_map>
 
 #include "common/base/error.h"
@@ -33,10 +34,19 @@ std::string trimmed(std::string text) {
   return text;
 }
 
+// The parser wants a stream: this one reads from where the bytes are.
+class MemoryStream : private std::streambuf, public std::istream {
+ public:
+  explicit MemoryStream(std::string_view text) : std::istream(static_cast<std::streambuf*>(this)) {
+    char* begin = const_cast<char*>(text.data());  // only ever read
+    setg(begin, begin, begin + text.size());
+  }
+};
+
 // Takes the parser's events. Each group of faces makes one mesh for every material in it.
 class ObjBuilder {
  public:
-  ObjBuilder(const SceneFolder& folder) : materials_(folder, draft_.scene) {}
+  explicit ObjBuilder(const SceneFolder& folder) : materials_(folder, draft_.scene) {}
 
   SceneDraft build(std::span<const unsigned char> file);
 
@@ -101,9 +111,9 @@ tinyobj::callback_t ObjBuilder::callbacks() {
 }
 
 SceneDraft ObjBuilder::build(std::span<const unsigned char> file) {
-  const std::string text(file.begin(), file.end());
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
   for (const std::string& library : checkObj(text)) materials_.addLibrary(library);
-  std::istringstream stream(text);
+  MemoryStream stream(text);
   std::string warnings, errors;
   if (!tinyobj::LoadObjWithCallback(stream, callbacks(), this, nullptr, &warnings, &errors))
     fail("damaged OBJ file: {}", errors.substr(0, errors.find('\n')));
