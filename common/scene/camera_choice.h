@@ -1,13 +1,13 @@
 // camera_choice.h: which camera --camera means.
 //
-//   NAME               a camera of the file, by its name
-//   INDEX              a camera of the file, from 0; a name that is a number wins over it
-//   eye:target:fov     three numbers x,y,z each, in the file's coordinates, and the full vertical
-//   angle in
-//                      degrees; up is +y, or +z when looking straight up or down
-//   (empty)            the scene's first camera
+//   NAME             a camera of the file, by its name
+//   INDEX            a camera of the file, from 0; a name that is a number wins over it
+//   eye:target:fov   x,y,z and x,y,z in the file's coordinates, and the full vertical angle in
+//                    degrees; up is +y, or +z when looking straight up or down
+//   (empty)          the scene's first camera
 //
-// Errors: throws Error that lists the cameras.   Threads: pure.
+// Errors: throws Error that lists the cameras.
+// Threads: pure.
 #pragma once
 
 #include <string_view>

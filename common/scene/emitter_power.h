@@ -1,5 +1,5 @@
 // emitter_power.h: how much the lights of a scene emit; what Emitters builds its table from.
-// Threads: TriangleRadiance is used by one thread; the functions are pure.   Refers to the scene.
+// Threads: TriangleRadiance is used by one thread; the functions are pure. Refers to the scene.
 #pragma once
 
 #include <map>

@@ -1,14 +1,16 @@
 // emitters.h: all lights of a scene in one table, chosen in proportion to their power.
 //
-//   triangle     Phi = pi L A (twice that if double-sided), L by its material, textures averaged
-//   for the choice point        Phi = 4 pi I;   spot: Phi = I integrated over its cone with glTF's
-//   falloff directional  Phi = E0 pi R^2 environment  Phi = L 4 pi pi R^2  (constant radiance from
-//   outside)
+//   triangle     Phi = pi L A (twice that if double-sided); L of a texture is averaged
+//   point        Phi = 4 pi I
+//   spot         Phi = I integrated over its cone with glTF's falloff
+//   directional  Phi = E0 pi R^2
+//   environment  Phi = L 4 pi pi R^2  (constant radiance from outside)
 //
 // Power means the largest component of Phi [W]: no channel of a light is ever starved. A textured
 // triangle counts for at least a hundredth of what its brightest texel would make of it, so that
-// sampling by power misses none that emits at all. Each emissive triangle is an entry of its own.
-// Threads: const after construction. Refers to the Scene.
+// sampling by power misses none that emits at all; one that is black all over has no entry.
+// Each emissive triangle is an entry of its own. Refers to the Scene.
+// Threads: const after construction.
 #pragma once
 
 #include <vector>

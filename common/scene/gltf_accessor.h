@@ -1,7 +1,8 @@
 // gltf_accessor.h: checked access to the typed arrays of a glTF file: strides, sparse substitution
-// and normalized integers included. All ranges are checked when the view is made; elements are then
-// read in place, so a count that a file claims costs nothing. Errors: the constructor throws Error,
-// which names `what`.   Refers to the model.   Threads: const.
+// and normalized integers included. All ranges are checked when the view is made; elements are
+// then read in place, so a count that a file claims costs nothing.
+// Errors: the constructor throws Error, which names `what`. Refers to the model.
+// Threads: const.
 #pragma once
 
 #include <cstdint>

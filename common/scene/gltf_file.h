@@ -1,5 +1,6 @@
 // gltf_file.h: the parsed but unchecked content of a glTF file. Every file that it names is read
-// through the SceneFolder; images stay as the compressed bytes that they are. Errors: throws Error.
+// through the SceneFolder; images stay as the compressed bytes that they are.
+// Errors: throws Error.
 // Threads: reentrant.
 #pragma once
 

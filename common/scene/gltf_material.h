@@ -1,5 +1,7 @@
 // gltf_material.h: glTF materials and their textures, read when the first mesh that is used asks
-// for one. Errors: throws Error, naming the material.   Refers to model and scene.   Threads: one.
+// for one.
+// Errors: throws Error, naming the material. Refers to model and scene.
+// Threads: one.
 #pragma once
 
 #include <map>

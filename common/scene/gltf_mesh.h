@@ -1,6 +1,7 @@
 // gltf_mesh.h: the triangles of glTF meshes. A mesh of the file with several primitives becomes
-// several meshes of the scene. Each is read once, when the first node asks for it. Errors: throws
-// Error, naming mesh and primitive.   Refers to model, scene, materials.   Threads: one.
+// several meshes of the scene. Each is read once, when the first node asks for it.
+// Errors: throws Error, naming mesh and primitive. Refers to model, scene, materials.
+// Threads: one.
 #pragma once
 
 #include <map>

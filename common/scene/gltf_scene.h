@@ -1,6 +1,7 @@
 // gltf_scene.h: the node tree of a glTF file: what stands where. Only what the default scene
-// reaches is read. Matrices are multiplied in double precision. Errors: throws Error.   Threads:
-// reentrant.
+// reaches is read. Matrices are multiplied in double precision.
+// Errors: throws Error.
+// Threads: reentrant.
 #pragma once
 
 #include <span>

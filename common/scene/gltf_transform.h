@@ -1,5 +1,7 @@
 // gltf_transform.h: where glTF nodes stand: a matrix, or scale then rotation then translation; and
-// the copies of EXT_mesh_gpu_instancing. Errors: throws Error.   Threads: const.
+// the copies of EXT_mesh_gpu_instancing.
+// Errors: throws Error.
+// Threads: const.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,7 @@
 // gltf_value.h: reading the untyped JSON of glTF extensions. Absent members give the default;
-// members of the wrong type are errors. Errors: throws Error, naming the member.   Threads: pure.
-// For the glTF reader's .cpp files only.
+// members of the wrong type are errors.
+// Errors: throws Error, naming the member.
+// Threads: pure. For the glTF reader's .cpp files only.
 #pragma once
 
 #include <tiny_gltf.h>

@@ -1,6 +1,7 @@
 // image_library.h: the images of a scene while it is read: decoded once each, within one budget of
-// texels. An image used as colour (sRGB) and as data (linear) becomes two. Errors: throws Error,
-// naming the image.   Threads: one.   Refers to the images it fills.
+// texels. An image used as colour (sRGB) and as data (linear) becomes two.
+// Errors: throws Error, naming the image.
+// Threads: one. Refers to the images it fills.
 #pragma once
 
 #include <functional>

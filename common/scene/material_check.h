@@ -1,5 +1,6 @@
 // material_check.h: the ranges that a material's numbers may have; part of validate (reader.h).
-// Errors: throws Error, naming `what`.   Threads: pure.
+// Errors: throws Error, naming `what`.
+// Threads: pure.
 #pragma once
 
 #include <string>

@@ -2,7 +2,8 @@
 // timed.
 //
 // The folding rule, written down once: a reflection lobe so rough that it cannot be told from
-// diffuse is folded into D for the whole material, see foldsIntoDiffuse. Threads: pure functions.
+// diffuse is folded into D for the whole material, see foldsIntoDiffuse.
+// Threads: pure functions.
 #pragma once
 
 #include <string>

@@ -1,23 +1,22 @@
-// obj_material.h: MTL materials in terms of ours. MTL has no physical definition; these are the
+// obj_material.h: MTL materials in terms of ours. MTL has no physical definition: these are the
 // rules.
 //
-//   Kd, map_Kd           base colour. A black Kd under a map counts as white: exporters write it
-//   so. Ke, map_Ke           radiance; black under a map counts as white illum 4, 6, 7, 9     solid
-//   glass of index Ni (1.5 if not above 1), smooth. Tint = Tf / max Tf, white if
-//                        Tf is missing: files fill Tf with any grey, only its hue can be trusted.
-//   illum 3, 5           a smooth mirror of colour Ks, if Ks is brighter than Kd; else as below
-//   all others           diffuse Kd under a gloss: F0 = F0(Ni) min(1, 2 Ks), so that Ks 0.5, which
-//                        exporters write for an ordinary surface, is one; GGX alpha = sqrt(2 / (Ns
-//                        + 2))
-//   d, Tr                below 1 and no glass: alpha blending
-//   map_d                cuts holes (alpha mask, 0.5); its alpha channel, or else its first
-//   channel, counts norm                 tangent-space normal map. bump and disp are left out: they
-//   are no normal maps. -o -s -clamp         are followed; v grows upwards in the file, downwards
-//   here
+//   Kd, map_Kd     base colour. A black Kd under a map counts as white: exporters write it so.
+//   Ke, map_Ke     radiance; black under a map counts as white
+//   illum 4 6 7 9  solid glass of index Ni (1.5 if not above 1), smooth. Tint = Tf / max Tf, white
+//                  without Tf: files fill Tf with any grey, only its hue can be trusted.
+//   illum 3 5      a smooth mirror of colour Ks, if Ks is brighter than Kd; else as below
+//   all others     diffuse Kd under a gloss: F0 = F0(Ni) min(1, 2 Ks), because exporters write
+//                  Ks 0.5 for an ordinary surface; GGX alpha = sqrt(2 / (Ns + 2))
+//   d, Tr          below 1 and no glass: alpha blending
+//   map_d          cuts holes (alpha mask, 0.5); by its alpha channel, else its first channel
+//   norm           tangent-space normal map; bump and disp are none and are left out
+//   -o -s -clamp   are followed; v grows upwards in the file, downwards here
 //
 // Colours are clamped to [0, 1], Ke to >= 0. Emission leaves the front face only.
 // Source: Wavefront's Advanced Visualizer manual, appendix B; Walter et al. 2007 for alpha of Ns.
-// Errors: throws Error (a missing or bad texture).   Threads: one.
+// Errors: throws Error (a missing or bad texture).
+// Threads: one.
 #pragma once
 
 #include <map>

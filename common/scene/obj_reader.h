@@ -1,5 +1,6 @@
 // obj_reader.h: Wavefront OBJ with MTL materials.
-// Errors: throws Error.   Threads: reentrant.
+// Errors: throws Error.
+// Threads: reentrant.
 #pragma once
 
 #include <span>

@@ -2,8 +2,9 @@
 //
 // Errors: throws Error with one line (file, place, remedy) on anything bad: truncated, indices out
 // of range, NaN, no geometry, counts over the limits below, a URI that leads outside the scene's
-// folder, an unknown required extension. Warnings (unknown optional extension, missing camera, ...)
-// go to the log, one line each. Threads: reentrant.
+// folder, an unknown required extension. Warnings (unknown optional extension, missing camera,
+// ...) go to the log, one line each.
+// Threads: reentrant.
 #pragma once
 
 #include <filesystem>

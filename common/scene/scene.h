@@ -4,8 +4,9 @@
 // Coordinates: right-handed, y up, metres. Readers move the scene so that the middle of its bounds
 // is the origin (`origin` keeps what was subtracted): float precision is then best where it
 // matters. Everything in a Scene that left a reader or the wire is valid: finite numbers, indices
-// in range, unit directions, at least one triangle. Owner: value type. Threads: plain data, shared
-// read-only.
+// in range, unit directions, at least one triangle.
+// Owner: value type.
+// Threads: plain data, shared read-only.
 #pragma once
 
 #include <cstdint>

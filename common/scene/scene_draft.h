@@ -1,6 +1,6 @@
-// scene_draft.h: a scene as its file tells it, and what every reader does to it at the end: move it
-// to the origin, give it a camera and light if it has none, and check it. Threads: value type, pure
-// functions but for the log.
+// scene_draft.h: a scene as its file tells it, and what every reader does to it at the end: move
+// it to the origin, give it a camera and light if it has none, and check it.
+// Threads: value type, pure functions but for the log.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
-// world.h: from an instance's coordinates to the scene's. Everybody who needs a vertex in the scene
-// takes it from here, so that tracer, emitters and bounds agree to the last bit. Threads: pure
-// functions.
+// world.h: from an instance's coordinates to the scene's. Everybody who needs a vertex in the
+// scene takes it from here, so that tracer, emitters and bounds agree to the last bit.
+// Threads: pure functions.
 #pragma once
 
 #include "common/scene/scene.h"

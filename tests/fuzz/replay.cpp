@@ -3,8 +3,7 @@
 //
 //   fuzz_<name> [FILE...]
 //
-// Deterministic: the same inputs in every run. Prints the input's number as it goes wrong, see
-// onFailure.
+// Deterministic: the same inputs in every run. When one goes wrong, its number is printed.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
