@@ -1,5 +1,6 @@
 #include "client/render_job.h"
 
+#include "common/gi/light_set.h"
 #include "common/sampling/interleave.h"
 
 namespace ninefold {
@@ -44,6 +45,7 @@ msg::Result RenderJob::run(const FrameKey& frame, const msg::TaskItem& item, int
   result.setsMade = lights.madeHere ? 1 : 0;
   result.replaced = encoded.replaced;
   result.rays = desk.tile.rays;
+  if (lights.madeHere) result.rays += lights.set->rays;
   result.encoded = std::move(encoded.bytes);
   result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(now() - start).count());
   return result;

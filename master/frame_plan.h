@@ -4,14 +4,17 @@
 // light set and frames are independent, and
 //
 //     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 1/2       photon radius [m]
-//     w(i) = 1 / i                                                       weight of neighbours
+//     w(i) = min(1, K / i)                                               weight of neighbours
 //
 // so that the bias of both falls faster than the noise, and the film's mean tends to the true
-// picture. The paper's own pipeline keeps r and w = 1 fixed.
+// picture. The first K frames filter fully: until then a pixel has not met all K sets by itself.
+// The paper's own pipeline keeps r and w = 1 fixed.
 //
 // Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011 (r).
 // Proved: tests/master/frame_plan_test.cpp.   Threads: plain value.
 #pragma once
+
+#include <algorithm>
 
 #include "common/scene/settings.h"
 
@@ -19,7 +22,8 @@ namespace ninefold {
 
 class FramePlan {
  public:
-  FramePlan(Metres firstRadius, bool converging) : radius_(firstRadius), converging_(converging) {}
+  FramePlan(Metres firstRadius, int sets, bool converging)
+      : radius_(firstRadius), sets_(static_cast<float>(sets)), converging_(converging) {}
 
   // The next frame's key; indices are given out in order, from 0.
   FrameKey next();
@@ -27,12 +31,13 @@ class FramePlan {
 
   // w of a frame, by its index from 0.
   float neighbourWeight(uint32_t frame) const {
-    return converging_ ? 1.0f / static_cast<float>(frame + 1) : 1.0f;
+    return converging_ ? std::min(1.0f, sets_ / static_cast<float>(frame + 1)) : 1.0f;
   }
 
  private:
   uint32_t next_ = 0;
   double radius_;
+  float sets_;  // K
   bool converging_;
 };
 

@@ -24,7 +24,7 @@ constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure 
 
 class HeadlessRun {
  public:
-  HeadlessRun(const Options& options, const Job& job);
+  HeadlessRun(const Options& options, const Job& job, Listener::Keys keys);
   ~HeadlessRun();
 
   int run();
@@ -44,7 +44,7 @@ class HeadlessRun {
 
   const Options& options_;
   const Job& job_;
-  const std::shared_ptr<const Key> localKey_ = std::make_shared<const Key>(Key::random());
+  const Listener::Keys keys_;
   const StopRule rule_;
   const int decoders_;
   FramePlan plan_;            // the network thread's
@@ -62,12 +62,13 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job) {
           job.extraMask, options.surfaceTest, options.exposure};
 }
 
-HeadlessRun::HeadlessRun(const Options& options, const Job& job)
+HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys keys)
     : options_(options),
       job_(job),
+      keys_(std::move(keys)),
       rule_(options.stop),
       decoders_(1 + static_cast<int>(std::thread::hardware_concurrency()) / 8),
-      plan_(job.firstPhotonRadius, options.converging),
+      plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
       enough_(false),
       picture_(pictureSetup(options, job)),
       progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
@@ -83,20 +84,15 @@ HeadlessRun::~HeadlessRun() {
 }
 
 ClusterSetup HeadlessRun::clusterSetup() const {
-  std::shared_ptr<const Key> clusterKey;
-  if (options_.keyFile) clusterKey = std::make_shared<const Key>(Key::load(*options_.keyFile));
   LocalClients::Plan local;
   local.program = programBesideUs("ninefold-client");
   local.arguments = {fmt::format("--threads={}", options_.clientThreads), "--isa=" + options_.isa,
                      "--cache=none"};
-  local.key = localKey_;
+  local.key = keys_.local;
   local.count = options_.localClients;
-  ServerSetup server{parseEndpoint(options_.listen, "--listen"),
-                     {localKey_, clusterKey},
-                     job_.grid(),
-                     job_.extraMask,
+  ServerSetup server{parseEndpoint(options_.listen, "--listen"), keys_, job_.grid(), job_.extraMask,
                      options_.waitClients};
-  return {std::move(server), std::move(local), clusterKey != nullptr};
+  return {std::move(server), std::move(local), keys_.cluster != nullptr};
 }
 
 ServerDuty HeadlessRun::duty() {
@@ -190,12 +186,22 @@ void HeadlessRun::writeStatistics() const {
   writeStats(*options_.stats, stats);
 }
 
+Listener::Keys loadKeys(const Options& options) {
+  Listener::Keys keys;
+  keys.local = std::make_shared<const Key>(Key::random());
+  if (options.keyFile) keys.cluster = std::make_shared<const Key>(Key::load(*options.keyFile));
+  return keys;
+}
+
 }  // namespace
 
 int runHeadless(const Options& options) {
+  // What can be told at once comes before a scene is read, which may take long.
+  checkGuests(options);
   if (options.output) checkOutputPath(*options.output);
+  Listener::Keys keys = loadKeys(options);
   const Job job = makeJob(options);
-  HeadlessRun run(options, job);
+  HeadlessRun run(options, job, std::move(keys));
   return run.run();
 }
 

@@ -20,9 +20,8 @@ constexpr double kMaxSeconds = 1e9;
 void refuseWhatIsMissing(const RawOptions& raw) {
   if (raw.isOn("window")) failUsage("--window is not available in this release");
   if (raw.has("animate")) failUsage("--animate is not available in this release");
-  for (const auto& [flag, only] : {std::pair("method", "instant-radiosity"), {"view", "beauty"}})
-    if (const auto name = raw.text(flag); name && *name != only)
-      failUsage("--{} {} is not available in this release, only {}", flag, *name, only);
+  if (const auto view = raw.text("view"); view && *view != "beauty")
+    failUsage("--view {} is not available in this release, only beauty", *view);
 }
 
 // One of the names, as its place in the list.
@@ -55,6 +54,7 @@ void applyPreset(Options& o) {
     o.settings.randomization = Randomization::exclusiveOr;
     o.surfaceTest = SurfaceTest::paper;
     o.converging = false;
+    o.settings.compensate = o.settings.jitter = false;
   }
 }
 
@@ -63,6 +63,7 @@ void readSampling(const RawOptions& raw, Settings& s) {
     const auto [n, m] = parsePair("interleave", *interleave, 1, 16);
     s.interleave = {.n = n, .m = m};
   }
+  assign(s.method, choice(raw, "method", std::array{"instant-radiosity", "path-trace"}));
   assign(s.directVpls, raw.whole("direct-vpls", 0, 65536));
   assign(s.indirectVpls, raw.whole("indirect-vpls", 0, 65536));
   assign(s.photons, raw.whole("photons", 0, 16777216));

@@ -33,7 +33,9 @@ constexpr Flag kMethod[] = {
     {"preset", "NAME",
      "interactive, final (more of everything) or paper (the paper's numbers, sampling and filter); "
      "flags given beside it win (default interactive)"},
-    {"method", "NAME", "how light is computed: instant-radiosity (default)"},
+    {"method", "NAME",
+     "how light is computed: instant-radiosity (default) or path-trace (the slow, unbiased "
+     "reference)"},
     {"interleave", "NxM", "light sets side by side, each 1 to 16 (default 3x3)"},
     {"direct-vpls", "N", "virtual lights on the lights, per set, 0 to 65536 (default 4; final 16)"},
     {"indirect-vpls", "N",
@@ -42,7 +44,7 @@ constexpr Flag kMethod[] = {
     {"path-length", "N", "diffuse vertices of a path at most, 0 = no limit (default 0; paper 4)"},
     {"specular-depth", "N", "mirrors and glass in a row at most, 1 to 1024 (default 32)"},
     {"bound", "C", "bound of the geometry term b = C/R^2, above 0 (default 300)"},
-    {"photon-radius", "F", "first photon radius as a fraction of R, up to 1 (default 0.01)"},
+    {"photon-radius", "F", "first photon radius as a fraction of R, up to 1 (default 0.02)"},
     {"caustics", "off|direct|all",
      "photons from nowhere, from the lights, or from lit surfaces too (default all; paper direct)"},
     {"seed", "N", "of all randomness (default 1)"},

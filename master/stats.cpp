@@ -66,7 +66,8 @@ Json object(const Settings& s, const std::string& preset) {
           {"caustics", nameOf(s.caustics)},
           {"environment", list(s.environment)},
           {"randomization", s.randomization == Randomization::owen ? "owen" : "xor"},
-          {"jitter", s.jitter}};
+          {"jitter", s.jitter},
+          {"compensate", s.compensate}};
 }
 
 Json object(const std::vector<ClientStats>& clients) {

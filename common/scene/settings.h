@@ -26,12 +26,12 @@ struct Settings {
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row, 1..1024
   float bound = 300;           // c of b = c/R^2, > 0
-  float photonRadius = 0.01f;  // first photon radius as a fraction of R, > 0
+  float photonRadius = 0.02f;  // first photon radius as a fraction of R, > 0
   Caustics caustics = Caustics::all;
   Radiance environment{0};
   uint64_t seed = 1;
   Randomization randomization = Randomization::owen;
-  bool jitter = true;  // anti-aliasing: film positions spread over the pixel
+  bool jitter = true;      // anti-aliasing: film positions spread over the pixel
   bool compensate = true;  // give the bounded geometry term its energy back (compensation.h)
 };
 
