@@ -1,0 +1,52 @@
+// The plan of frames at rest: fresh randomization each frame, and two biases that die out faster
+// than the noise.
+#include "master/frame_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace ninefold {
+namespace {
+
+TEST(FramePlan, EveryFrameHasItsOwnRandomizationAndRotation) {
+  FramePlan plan(0.1f, 9, true);
+  for (uint32_t i = 0; i < 20; ++i) {
+    const FrameKey key = plan.next();
+    EXPECT_EQ(key.frame, i);
+    EXPECT_EQ(key.randomization, i);
+    EXPECT_EQ(key.rotation, i);
+  }
+  EXPECT_EQ(plan.opened(), 20);
+}
+
+// r^2(n) = r^2(1) prod_{i=1}^{n-1} (i + 1/2)/(i + 1), which falls as n^(-1/2).
+TEST(FramePlan, PhotonRadiusShrinksWithTheSquareRootOfTheFrames) {
+  FramePlan plan(0.2f, 9, true);
+  double expected = 0.2 * 0.2;
+  float last = 0;
+  for (int i = 1; i <= 1000; ++i) {
+    last = plan.next().photonRadius;
+    ASSERT_NEAR(last, std::sqrt(expected), 1e-6) << "frame " << i;
+    expected *= (i + 0.5) / (i + 1);
+  }
+  // Gamma(n + 1/2)/(Gamma(3/2) Gamma(n + 1)) tends to 2/sqrt(pi n).
+  EXPECT_NEAR(last * last, 0.04 * 2 / std::sqrt(std::acos(-1.0) * 1000), 0.04 * 1e-3);
+}
+
+TEST(FramePlan, NeighboursFadeOnceEveryPixelHasMetAllSets) {
+  const FramePlan plan(0.1f, 9, true);
+  EXPECT_EQ(plan.neighbourWeight(0), 1.0f);
+  EXPECT_EQ(plan.neighbourWeight(8), 1.0f);
+  EXPECT_EQ(plan.neighbourWeight(17), 0.5f);
+  EXPECT_EQ(plan.neighbourWeight(899), 0.01f);
+}
+
+TEST(FramePlan, ThePapersPipelineKeepsBoth) {
+  FramePlan plan(0.1f, 9, false);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(plan.next().photonRadius, 0.1f);
+  EXPECT_EQ(plan.neighbourWeight(99), 1.0f);
+}
+
+}  // namespace
+}  // namespace ninefold
