@@ -15,6 +15,9 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include <memory>
+#include <vector>
+
 #include "proto/event_loop.h"
 
 namespace ninefold {

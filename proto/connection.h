@@ -44,6 +44,7 @@ struct ConnectionOptions {
   Duration silence = std::chrono::seconds(20);  // no byte from the peer; heartbeats keep it busy
   Duration write = std::chrono::seconds(20);    // no byte accepted by the peer
   size_t queueBytes = 64 << 20;                 // waiting to be sent
+  int refusalLines = 10;                        // of a listener, in ten seconds; others are counted
   size_t pendingConnections = 64;               // of a listener: not yet authenticated
 };
 
@@ -82,8 +83,9 @@ class Listener {
   };
   struct Events {
     std::function<void(std::shared_ptr<Connection>)>
-        onConnection;                                        // authenticated; call start() on it
-    std::function<void(const std::string& line)> onRefused;  // one line about a peer that failed
+        onConnection;  // authenticated; call start() on it
+    std::function<void(const std::string& line)>
+        onRefused;  // one line about a peer that failed, for the log
   };
   // Throws Error: address in use, not an address of this machine, beyond loopback without a cluster
   // key.

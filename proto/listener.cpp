@@ -2,6 +2,7 @@
 #include <list>
 
 #include "proto/deadline.h"
+#include "proto/line_limiter.h"
 #include "proto/tcp_connection.h"
 
 namespace ninefold {
@@ -22,7 +23,8 @@ class Door : public std::enable_shared_from_this<Door> {
         acceptor_(io),
         tls_(TlsContext::forMaster(*keys.local, keys.cluster.get())),
         events_(std::move(events)),
-        options_(options) {}
+        options_(options),
+        refusals_(options.refusalLines, std::chrono::seconds(10)) {}
 
   uint16_t open(const tcp::endpoint& at) {
     NetError error;
@@ -54,6 +56,7 @@ class Door : public std::enable_shared_from_this<Door> {
   const std::shared_ptr<const TlsContext> tls_;
   Listener::Events events_;
   const ConnectionOptions options_;
+  LineLimiter refusals_;
   std::list<std::shared_ptr<Stranger>> strangers_;  // oldest first
   bool stopped_ = false;
 };
@@ -104,7 +107,8 @@ asio::awaitable<void> Door::shakeHands(std::shared_ptr<Stranger> stranger) {
   if (!stranger->dropped.empty()) why = stranger->dropped;
   if (!why.empty()) {
     stranger->socket->close();
-    events_.onRefused(fmt::format("refused {}: {}", stranger->socket->peer(), why));
+    const std::string line = fmt::format("refused {}: {}", stranger->socket->peer(), why);
+    if (const auto said = refusals_.admit(line, Clock::now())) events_.onRefused(*said);
     co_return;
   }
   events_.onConnection(

@@ -1,10 +1,13 @@
 #include "proto/secure_socket.h"
 
+#include <algorithm>
+
 namespace ninefold {
 namespace {
 
 constexpr size_t kHandshakeBytes = 4096;
 constexpr size_t kReceiveBytes = 256 << 10;
+constexpr uint64_t kBytesPerKey = 32ull << 30;  // small records included, far below AES-GCM's limit
 
 }  // namespace
 
@@ -66,6 +69,15 @@ asio::awaitable<size_t> SecureSocket::read(std::span<std::byte> into) {
     in_.resize(kReceiveBytes);
     co_await receive(in_.size());
   }
+}
+
+void SecureSocket::write(ByteView plain) {
+  underThisKey_ += plain.size();
+  if (underThisKey_ > kBytesPerKey) {
+    tls_.renewKeys();
+    underThisKey_ = 0;
+  }
+  tls_.write(plain);
 }
 
 asio::awaitable<void> SecureSocket::flush(std::function<void()> moved) {

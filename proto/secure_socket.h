@@ -26,7 +26,7 @@ class SecureSocket {
   // Plain bytes; 0 when the peer has ended its side in order.
   asio::awaitable<size_t> read(std::span<std::byte> into);
   // Queues plain bytes for flush().
-  void write(ByteView plain) { tls_.write(plain); }
+  void write(ByteView plain);
   // Encrypted bytes wait for flush().
   bool hasOutput() { return !tls_.output().empty(); }
   // Sends what is queued; `moved` is called whenever the network has taken some of it.
@@ -48,6 +48,7 @@ class SecureSocket {
   TlsSession tls_;
   std::string peer_;
   Bytes in_, sending_;
+  uint64_t underThisKey_ = 0;  // bytes written
   std::atomic<uint64_t> received_{0}, sent_{0};
 };
 

@@ -1,5 +1,8 @@
 #include "proto/tcp_connection.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace ninefold {
 namespace {
 

@@ -64,6 +64,8 @@ class TlsSession {
   size_t read(std::span<std::byte> into);
   bool ended() const;  // the peer has closed its side in order
   void write(ByteView plain);
+  // Encrypts what follows with a fresh key; AES-GCM wants that after some 2^24 records.
+  void renewKeys();
   void end();  // tells the peer that nothing more will be written
 
   // Encrypted bytes for the peer, also after an error (they tell the peer why): swap or clear them.

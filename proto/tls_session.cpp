@@ -72,8 +72,8 @@ bool TlsSession::handshake() {
   const int result = SSL_do_handshake(impl_->ssl.get());
   if (result == 1) {
     // Nothing but the shared key lets a peer in, whatever else OpenSSL would have accepted.
-    NINEFOLD_CHECK(SSL_session_reused(impl_->ssl.get()) == 1);
-    return true;
+    if (SSL_session_reused(impl_->ssl.get()) == 1) return true;
+    throw TlsError(Kind::foreign, "it did not use a shared key");
   }
   if (SSL_get_error(impl_->ssl.get(), result) == SSL_ERROR_WANT_READ) return false;
   handshakeFailed(impl_->context->impl().master, impl_->unknownIdentity);
@@ -97,6 +97,11 @@ void TlsSession::write(ByteView plain) {
   size_t written = 0;
   const int result = SSL_write_ex(impl_->ssl.get(), plain.data(), plain.size(), &written);
   if (result != 1 || written != plain.size()) streamFailed();
+}
+
+void TlsSession::renewKeys() {
+  ERR_clear_error();
+  if (SSL_key_update(impl_->ssl.get(), SSL_KEY_UPDATE_NOT_REQUESTED) != 1) streamFailed();
 }
 
 void TlsSession::end() {

@@ -4,6 +4,7 @@
 #include <random>
 #include <thread>
 
+#include "proto/line_limiter.h"
 #include "tests/proto/network_fixture.h"
 #include "tests/proto/raw_socket.h"
 
@@ -54,7 +55,9 @@ TEST_F(Intruders, AMasterWithoutClusterKeySaysSo) {
 }
 
 TEST_F(Intruders, RandomBytesHarmNothing) {
-  listen();
+  ConnectionOptions options;
+  options.refusalLines = 1000;
+  listen(options);
   std::mt19937 random(1);
   std::vector<RawSocket> sockets;
   for (int i = 0; i < 40; ++i) {
@@ -112,12 +115,35 @@ TEST_F(Intruders, BytesBeforeTheKeyAreFew) {
 TEST_F(Intruders, AFloodPushesOutItselfAndNotUs) {
   ConnectionOptions options;
   options.pendingConnections = 4;
+  options.refusalLines = 1000;
   listen(options);
   std::vector<RawSocket> flood;
   for (int i = 0; i < 20; ++i) flood.push_back(RawSocket::dial(listener->endpoint().port));
   EXPECT_FALSE(joinLocal().failure);
   ASSERT_TRUE(until([&] { return refused.size() >= 16; }));
   EXPECT_TRUE(contains(refused[0], "too many others")) << refused[0];
+}
+
+TEST_F(Intruders, TheLogIsNotFlooded) {
+  ConnectionOptions options;
+  options.refusalLines = 3;
+  listen(options);
+  for (int i = 0; i < 20; ++i) RawSocket::dial(listener->endpoint().port).send("knock knock");
+  EXPECT_FALSE(joinLocal().failure);
+  ASSERT_TRUE(until([&] { return refused.size() == 3; }));
+  EXPECT_FALSE(joinLocal().failure);
+  EXPECT_EQ(refused.size(), 3u);
+}
+
+TEST(LineLimiter, CountsWhatItSwallowsAndStartsAnew) {
+  LineLimiter limiter(2, std::chrono::seconds(10));
+  const Time start{};
+  EXPECT_EQ(limiter.admit("a", start), "a");
+  EXPECT_EQ(limiter.admit("b", start), "b");
+  EXPECT_EQ(limiter.admit("c", start), std::nullopt);
+  EXPECT_EQ(limiter.admit("d", start + std::chrono::seconds(9)), std::nullopt);
+  EXPECT_EQ(limiter.admit("e", start + std::chrono::seconds(10)), "e (and 2 more like it)");
+  EXPECT_EQ(limiter.admit("f", start + std::chrono::seconds(11)), "f");
 }
 
 TEST_F(Intruders, NobodyListensIsRefused) {

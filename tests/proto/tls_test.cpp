@@ -146,6 +146,18 @@ TEST(Tls, OneFlippedBitBreaksTheStream) {
   }
 }
 
+TEST(Tls, KeysAreRenewedInTheMiddleOfTheStream) {
+  const Key local = Key::random();
+  Pair pair(KeyUse::local, local, local, nullptr);
+  pair.shakeHands();
+  pair.client.write(viewOf("old key, "));
+  pair.client.renewKeys();
+  pair.client.write(viewOf("new key"));
+  EXPECT_EQ(readAll(pair.master, take(pair.client)), "old key, new key");
+  pair.master.write(viewOf("heard"));
+  EXPECT_EQ(readAll(pair.client, take(pair.master)), "heard");
+}
+
 TEST(Tls, AnEndInOrderIsToldFromACut) {
   const Key local = Key::random();
   Pair pair(KeyUse::local, local, local, nullptr);
