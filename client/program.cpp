@@ -170,10 +170,7 @@ void Program::on(act::Exit&& action) {
   ending_ = true;
   status_ = action.status;
   timer_.reset();
-  if (status_ != 0)
-    warn("{}", action.line);
-  else if (!local_)
-    log("{}", action.line);
+  if (status_ != 0 || !local_) log("{}", action.line);
   if (connection_)
     connection_->finish(action.line);
   else

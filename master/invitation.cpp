@@ -29,12 +29,20 @@ std::optional<std::string> clientCommand(const Options& options, const Endpoint&
                      *options.keyFile);
 }
 
-void invite(const Options& options, const Endpoint& at) {
-  const auto command = clientCommand(options, at, machineName());
-  if (!command && options.localClients == 0)
+void checkGuests(const Options& options) {
+  if (options.keyFile) return;
+  if (options.localClients == 0)
     failUsage("--local-clients 0 needs --key-file FILE, or no client could join");
+  if (options.waitClients > options.localClients)
+    failUsage(
+        "--wait-clients {}: only {} local client(s) are started, and more need --key-file FILE",
+        options.waitClients, options.localClients);
+}
+
+void invite(const Options& options, const Endpoint& at) {
   log("listening on {}", addressText(at.host, at.port));
-  if (command) log("more clients may join; with a copy of the key file: {}", *command);
+  if (const auto command = clientCommand(options, at, machineName()))
+    log("more clients may join; with a copy of the key file: {}", *command);
 }
 
 }  // namespace ninefold

@@ -1,5 +1,5 @@
 // invitation.h: the lines that say where the master listens, and what to type on other machines.
-// Errors: UsageError if nobody at all could join.
+// Errors: checkGuests throws UsageError if too few clients could ever join.
 #pragma once
 
 #include "master/options.h"
@@ -10,6 +10,9 @@ namespace ninefold {
 // What to type on another machine; nothing if the master hears only this one.
 std::optional<std::string> clientCommand(const Options& options, const Endpoint& at,
                                          const std::string& machine);
+
+// Whether the clients that the run waits for can come at all.
+void checkGuests(const Options& options);
 
 void invite(const Options& options, const Endpoint& at);
 

@@ -1,4 +1,5 @@
 """The same job gives the same bytes, whoever renders it and whatever happens to them."""
+import pathlib
 import unittest
 
 from programs import ClusterTest, eventually, is_running, signal
@@ -43,7 +44,7 @@ class SameBytes(ClusterTest):
             eventually(lambda: not is_running(pid), f"end of client process {pid}")
 
     def test_both_instruction_sets_are_reproducible(self):
-        if "avx512vl" not in open("/proc/cpuinfo").read():
+        if "avx512vl" not in pathlib.Path("/proc/cpuinfo").read_text():
             self.skipTest("this machine lacks AVX-512")
         for isa in ("avx2", "avx512"):
             one = self.render("--local-clients", 1, "--isa", isa, frames=2)
