@@ -13,7 +13,7 @@ void forEachPixel(const TileGrid& grid, int phase, const F& f) {
   size_t sub = 0;
   for (int j = 0; j < grid.subHeight(phase); ++j)
     for (int i = 0; i < grid.subWidth(phase); ++i, ++sub)
-      f(sub, static_cast<size_t>(grid.pixelY(phase, j)) * static_cast<size_t>(grid.width()) +
+      f(sub, pixelCount(grid.width(), grid.pixelY(phase, j)) +
                  static_cast<size_t>(grid.pixelX(phase, i)));
 }
 
@@ -64,7 +64,7 @@ AovFilm::AovFilm(const TileGrid& grid, uint8_t extraMask) : grid_(grid), extraMa
 }
 
 void AovFilm::clear() {
-  const size_t n = static_cast<size_t>(grid_.width()) * static_cast<size_t>(grid_.height());
+  const size_t n = pixelCount(grid_.width(), grid_.height());
   frames_ = 0;
   const auto clearRgb = [&](Rgb& sums, int mask) {
     for (std::vector<double>& sum : sums) sum.assign((extraMask_ & mask) != 0 ? n : 0, 0);

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "common/base/error.h"
+#include "common/image/image.h"
 
 namespace ninefold {
 namespace {
@@ -186,7 +187,7 @@ void DiscontinuityBuffer::reset(const TileGrid& grid, SurfaceTest test) {
   guides_.resize(test == SurfaceTest::surface ? static_cast<size_t>(grid.interleave().sets()) : 0);
   for (size_t p = 0; p < guides_.size(); ++p) {
     const int phase = static_cast<int>(p);
-    guides_[p].resize(static_cast<size_t>(grid.subWidth(phase) * grid.subHeight(phase)));
+    guides_[p].resize(pixelCount(grid.subWidth(phase), grid.subHeight(phase)));
   }
 }
 
@@ -203,7 +204,7 @@ void DiscontinuityBuffer::guideRows(const FrameBuffer& frame, const Camera& came
     const float px = static_cast<float>(grid.pixelX(phase, 0)) + 0.5f;
     const float py = static_cast<float>(grid.pixelY(phase, j)) + 0.5f;
     guideRow(plane, plane.corner + px * plane.stepX + py * plane.stepY, step, sub.width,
-             static_cast<size_t>(j * sub.width), sub.layers[kDiffuse], guides);
+             pixelCount(sub.width, j), sub.layers[kDiffuse], guides);
   }
 }
 
@@ -222,8 +223,7 @@ void DiscontinuityBuffer::filterChunk(const FrameBuffer& frame, int layer, int p
   const auto rowAt = [&](int p, int row) {
     const TileResult& sub = frame.phase(p);
     return rowOf(sub.layers[static_cast<size_t>(layer)],
-                 planes ? &guides_[static_cast<size_t>(p)] : nullptr,
-                 static_cast<size_t>(row * sub.width));
+                 planes ? &guides_[static_cast<size_t>(p)] : nullptr, pixelCount(sub.width, row));
   };
   const Row centre = rowAt(phase, j);
   const Interleave pattern = frame.grid().interleave();
@@ -241,7 +241,7 @@ void DiscontinuityBuffer::filterChunk(const FrameBuffer& frame, int layer, int p
       else
         addByLimits(centre, other, limitsOf(test_), span, weight, sums);
     }
-  const size_t to = static_cast<size_t>(j * frame.phase(phase).width + first);
+  const size_t to = pixelCount(frame.phase(phase).width, j) + static_cast<size_t>(first);
   finish(centre, sums, count, &out.r[to], &out.g[to], &out.b[to]);
 }
 

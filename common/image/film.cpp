@@ -38,7 +38,7 @@ Film::Film(int width, int height)
       height_(height),
       blockColumns_(ceilDivide(width, kErrorBlock)),
       blockRows_(ceilDivide(height, kErrorBlock)) {
-  const size_t blocks = static_cast<size_t>(blockColumns_) * static_cast<size_t>(blockRows_);
+  const size_t blocks = pixelCount(blockColumns_, blockRows_);
   blockMeans_.resize(blocks + 1);
   for (int by = 0; by < blockRows_; ++by)
     for (int bx = 0; bx < blockColumns_; ++bx)
@@ -50,7 +50,7 @@ Film::Film(int width, int height)
 
 void Film::clear() {
   frames_ = 0;
-  const size_t pixels = static_cast<size_t>(width_) * static_cast<size_t>(height_);
+  const size_t pixels = pixelCount(width_, height_);
   for (RunningMoments* m : {&r_, &g_, &b_}) m->resize(pixels);
   blocks_.resize(blockMeans_.size());
 }
@@ -66,10 +66,11 @@ void Film::add(const RgbImage& frame) {
 
 void Film::addBlocks(const RgbImage& frame) {
   std::fill(blockMeans_.begin(), blockMeans_.end(), 0.0);
-  for (int y = 0; y < height_; ++y)
+  for (int y = 0; y < height_; ++y) {
+    double* row = &blockMeans_[pixelCount(blockColumns_, y / kErrorBlock)];
     for (int x = 0; x < width_; ++x)
-      blockMeans_[static_cast<size_t>(y / kErrorBlock * blockColumns_ + x / kErrorBlock)] +=
-          static_cast<double>(luminance(frame.rgb(frame.at(x, y))));
+      row[x / kErrorBlock] += static_cast<double>(luminance(frame.rgb(frame.at(x, y))));
+  }
   double whole = 0;
   for (size_t b = 0; b + 1 < blockMeans_.size(); ++b) {
     whole += blockMeans_[b];

@@ -41,7 +41,7 @@ void FrameFilter::reset(const TileGrid& grid, uint8_t layerMask, SurfaceTest tes
     phases.resize(hasLayer(layerMask, layer) ? static_cast<size_t>(grid.interleave().sets()) : 0);
     for (size_t p = 0; p < phases.size(); ++p) {
       const int phase = static_cast<int>(p);
-      phases[p].resize(static_cast<size_t>(grid.subWidth(phase) * grid.subHeight(phase)));
+      phases[p].resize(pixelCount(grid.subWidth(phase), grid.subHeight(phase)));
     }
   }
 }
@@ -67,8 +67,8 @@ void FrameFilter::composeRows(const FrameBuffer& frame, int phase, int j0, int j
     for (int j = j0; j < j1; ++j) {
       const Pixels pixels{beauty.at(grid.pixelX(phase, 0), grid.pixelY(phase, j)),
                           static_cast<size_t>(grid.interleave().n)};
-      composeLayerRow(sub.layers[static_cast<size_t>(layer)], filtered,
-                      static_cast<size_t>(j * sub.width), sub.width, add, pixels, beauty.pixels);
+      composeLayerRow(sub.layers[static_cast<size_t>(layer)], filtered, pixelCount(sub.width, j),
+                      sub.width, add, pixels, beauty.pixels);
     }
     add = true;
   }

@@ -11,6 +11,10 @@
 
 namespace ninefold {
 
+inline size_t pixelCount(int width, int height) {
+  return static_cast<size_t>(width) * static_cast<size_t>(height);
+}
+
 struct RgbImage {
   int width = 0, height = 0;
   RgbPlane pixels;  // linear Rec. 709, radiance unless the holder says otherwise
@@ -18,12 +22,10 @@ struct RgbImage {
   // Sets the shape and makes all pixels black; keeps capacity.
   void reset(int w, int h) {
     width = w, height = h;
-    pixels.resize(static_cast<size_t>(w) * static_cast<size_t>(h));
+    pixels.resize(pixelCount(w, h));
   }
-  size_t count() const { return static_cast<size_t>(width) * static_cast<size_t>(height); }
-  size_t at(int x, int y) const {
-    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
-  }
+  size_t count() const { return pixelCount(width, height); }
+  size_t at(int x, int y) const { return pixelCount(width, y) + static_cast<size_t>(x); }
   Vec3 rgb(size_t i) const { return {pixels.r[i], pixels.g[i], pixels.b[i]}; }
   bool operator==(const RgbImage&) const = default;
 };

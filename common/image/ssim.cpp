@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "common/image/tone_map.h"
 
@@ -11,7 +10,7 @@ namespace {
 
 using Plane = std::vector<double>;
 
-constexpr int kRadius = 5;
+constexpr size_t kRadius = 5;
 constexpr double kSigma = 1.5, kC1 = 0.01 * 0.01, kC2 = 0.03 * 0.03;
 
 Plane codesOf(const RgbImage& image, double exposure) {
@@ -23,31 +22,38 @@ Plane codesOf(const RgbImage& image, double exposure) {
   return out;
 }
 
-// Gaussian window along one axis: `step` apart, `length` values in a line, `lines` starts each
-// `lineStep` apart.
+// Gaussian window along one axis: `lines` lines of `length` values each.
 struct Axis {
-  int length, step, lines, lineStep;
+  size_t length, step;     // from value to value
+  size_t lines, lineStep;  // from line to line
 };
 
-Plane blur(const Plane& in, Axis axis) {
+// Weighted mean around value i of a line that starts at `line`.
+double windowAt(const double* line, const Axis& axis, size_t i, const double* kernel) {
+  double sum = 0, weight = 0;
+  const size_t last = std::min(i + kRadius, axis.length - 1);
+  for (size_t k = i - std::min(i, kRadius); k <= last; ++k) {
+    const double w = kernel[k > i ? k - i : i - k];
+    sum += w * line[k * axis.step];
+    weight += w;
+  }
+  return sum / weight;
+}
+
+Plane blur(const Plane& in, const Axis& axis) {
   double kernel[kRadius + 1];
-  for (int k = 0; k <= kRadius; ++k) kernel[k] = std::exp(-0.5 * k * k / (kSigma * kSigma));
+  for (size_t k = 0; k <= kRadius; ++k)
+    kernel[k] = std::exp(-0.5 * static_cast<double>(k * k) / (kSigma * kSigma));
   Plane out(in.size());
-  for (int line = 0; line < axis.lines; ++line)
-    for (int i = 0; i < axis.length; ++i) {
-      double sum = 0, weight = 0;
-      for (int k = std::max(i - kRadius, 0); k <= std::min(i + kRadius, axis.length - 1); ++k) {
-        const double w = kernel[std::abs(k - i)];
-        sum += w * in[static_cast<size_t>(line * axis.lineStep + k * axis.step)];
-        weight += w;
-      }
-      out[static_cast<size_t>(line * axis.lineStep + i * axis.step)] = sum / weight;
-    }
+  for (size_t line = 0; line < axis.lines; ++line)
+    for (size_t i = 0; i < axis.length; ++i)
+      out[line * axis.lineStep + i * axis.step] =
+          windowAt(in.data() + line * axis.lineStep, axis, i, kernel);
   return out;
 }
 
 // Mean of a b under the window around each pixel.
-Plane windowMean(const Plane& a, const Plane* b, int width, int height) {
+Plane windowMean(const Plane& a, const Plane* b, size_t width, size_t height) {
   Plane product = a;
   if (b != nullptr)
     for (size_t i = 0; i < product.size(); ++i) product[i] *= (*b)[i];
@@ -60,7 +66,7 @@ double structuralSimilarity(const RgbImage& image, const RgbImage& reference,
                             double referenceMeanLuminance) {
   const double exposure = 0.18 / referenceMeanLuminance;
   const Plane x = codesOf(image, exposure), r = codesOf(reference, exposure);
-  const int w = image.width, h = image.height;
+  const size_t w = static_cast<size_t>(image.width), h = static_cast<size_t>(image.height);
   const Plane mx = windowMean(x, nullptr, w, h), mr = windowMean(r, nullptr, w, h);
   const Plane xx = windowMean(x, &x, w, h), rr = windowMean(r, &r, w, h);
   const Plane xr = windowMean(x, &r, w, h);
