@@ -112,7 +112,8 @@ int run(int argc, char** argv) {
     std::cout << kUsage << visible;
     return 0;
   }
-  const Metrics metrics = compareImages(readImage(options.image), readImage(options.reference));
+  const RgbImage image = readImage(options.image), reference = readImage(options.reference);
+  const Metrics metrics = compareImages(image, reference);
   std::cout << (options.json ? toJson(metrics).dump(2) + "\n" : toTable(metrics));
   return 0;
 }
