@@ -15,7 +15,7 @@ struct ShortRay {
 
 ShortRay shortRay(const Transport& t, const Receivers& r, size_t i, Vec2 u) {
   ShortRay ray;
-  ray.w = glm::normalize(Frame(r.ns(i)).toWorld(squareToCosineHemisphere(u)));
+  ray.w = glm::normalize(Basis(r.ns(i)).toWorld(squareToCosineHemisphere(u)));
   ray.cosX = glm::dot(ray.w, r.ng(i));
   ray.reach = ray.cosX > 0 ? std::sqrt(ray.cosX / t.bound) : 0.0f;
   return ray;

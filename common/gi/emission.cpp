@@ -45,7 +45,7 @@ struct LocalSource {
   }
   Vec3 ordinarySample(Vec2 u) const {
     if (kind == Kind::sphere) return squareToSphere(u);
-    const Frame frame(normal);
+    const Basis frame(normal);
     return frame.toWorld(kind == Kind::lambert ? squareToCosineHemisphere(u)
                                                : squareToCone(u, oneMinusCos));
   }
@@ -139,7 +139,7 @@ Particle aimFrom(const Transport& t, const LocalSource& source, Vec2 u, float uT
   const int chosen = chooseAim(aims, t.targets.size(), total, uTarget);
   const Vec3 w = chosen < 0
                      ? source.ordinarySample(u)
-                     : Frame(aims[static_cast<size_t>(chosen)].axis)
+                     : Basis(aims[static_cast<size_t>(chosen)].axis)
                            .toWorld(squareToCone(u, aims[static_cast<size_t>(chosen)].oneMinusCos));
   const float pdf = mixturePdf(source, aims, t.targets.size(), total, w);
   const Vec3 intensity = source.intensity(w);
@@ -168,7 +168,7 @@ Vec3 beamOrigin(const Transport& t, const Beam& beam, Vec3 across) {
 Particle beamParticle(const Transport& t, const Beam& beam, Vec2 u) {
   const float radius = 1.0001f * t.scene.bounds.radius();
   const Vec2 disk = radius * squareToDisk(u);
-  const Frame frame(beam.w);
+  const Basis frame(beam.w);
   const Vec3 across = disk.x * frame.tangent + disk.y * frame.bitangent;
   return {beamOrigin(t, beam, across), beam.w, kPi * radius * radius * beam.irradiance};
 }
@@ -181,7 +181,7 @@ Vec3 acrossBeam(const Transport& t, const Beam& beam, const AimTarget& target) {
 
 Particle aimBeam(const Transport& t, const Beam& beam, Vec2 u, float uTarget) {
   const float radius = 1.0001f * t.scene.bounds.radius();
-  const Frame frame(beam.w);
+  const Basis frame(beam.w);
   const float count = static_cast<float>(t.targets.size());
   const bool ordinary = uTarget < kOrdinaryShare;
   Vec3 centre(0);

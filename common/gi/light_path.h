@@ -86,7 +86,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     const Vec2 uDirection = sampler.get2D(index, d);
     if (u < choice.diffuse) {
       if (!goOn) return;
-      const Vec3 wi = Frame(p.ng).toWorld(squareToCosineHemisphere(uDirection));
+      const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
       particle.flux *= shadingFactor(p, p.wo) / choice.diffuse * p.bsdf.diffuse;
       particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
       fromSpecular = false, specularRun = 0, ++diffuseBefore;

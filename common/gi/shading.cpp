@@ -54,7 +54,7 @@ float Shader::indexOf(int material) const {
                                        : scene_->materials[static_cast<size_t>(material)].ior;
 }
 
-Frame Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
+Basis Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
   const Material& material = scene_->materials[static_cast<size_t>(s.material)];
   Vec3 n = s.shadingNormal;
   if (material.normalMap) {
@@ -68,7 +68,7 @@ Frame Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
   // A shading normal that turns away from the viewer cannot carry a BSDF: the geometric one takes
   // over.
   const bool usable = glm::dot(n, wo) > 1e-4f && glm::dot(n, ng) > 0;
-  return Frame(usable ? n : ng);
+  return Basis(usable ? n : ng);
 }
 
 Shader::FresnelEnds Shader::dielectricEnds(const Material& m, const SurfacePoint& s) const {

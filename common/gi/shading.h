@@ -19,7 +19,7 @@
 
 #include "common/bsdf/bsdf.h"
 #include "common/gi/media.h"
-#include "common/math/frame.h"
+#include "common/math/basis.h"
 #include "common/scene/scene.h"
 #include "common/tracing/surface.h"
 
@@ -30,7 +30,7 @@ struct ShadingPoint {
   SurfacePoint surface;
   Vec3 wo{0};                  // unit, towards where the path came from
   Vec3 ng{0};                  // geometric normal on wo's side
-  Frame frame{Vec3(0, 0, 1)};  // shading frame on wo's side: local wo.z > 0
+  Basis frame{Vec3(0, 0, 1)};  // shading frame on wo's side: local wo.z > 0
   Bsdf bsdf;
   bool front = true;  // wo is on the front side of the surface
 
@@ -79,7 +79,7 @@ class Shader {
     float meanFresnel = 0;   // of a transmitting material's interface
   };
   float indexOf(int material) const;
-  Frame shadingFrame(const SurfacePoint& surface, Vec3 ng, Vec3 wo) const;
+  Basis shadingFrame(const SurfacePoint& surface, Vec3 ng, Vec3 wo) const;
   void fillOpaque(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                   float metallic, float alpha, const SurfacePoint& s) const;
   void fillTransmitting(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,

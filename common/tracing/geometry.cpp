@@ -1,7 +1,7 @@
 #include "common/tracing/geometry.h"
 
 #include "common/base/error.h"
-#include "common/math/frame.h"
+#include "common/math/basis.h"
 #include "common/math/rounding.h"
 
 namespace ninefold {
@@ -131,7 +131,7 @@ void InstanceGeometry::setTangent(const Triangle& t, const Tracer::Corners& at, 
     p.tangentSign = glm::dot(right, gradient.alongT) > 0 ? -1.0f : 1.0f;
   }
   along -= glm::dot(along, p.shadingNormal) * p.shadingNormal;
-  p.tangent = unitOr(along, Frame(p.shadingNormal).tangent);
+  p.tangent = unitOr(along, Basis(p.shadingNormal).tangent);
 }
 
 }  // namespace ninefold

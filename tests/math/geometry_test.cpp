@@ -4,7 +4,7 @@
 #include <random>
 
 #include "common/math/bounds.h"
-#include "common/math/frame.h"
+#include "common/math/basis.h"
 #include "common/math/rounding.h"
 
 namespace ninefold {
@@ -22,7 +22,7 @@ TEST_F(Geometry, FramesAreOrthonormalAndRightHandedForEveryNormal) {
       {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {0, -1, 0}, glm::normalize(Vec3(1e-6f, 0, -1))};
   for (int i = 0; i < 1000; ++i) normals.push_back(glm::normalize(vector()));
   for (const Vec3& n : normals) {
-    const Frame frame(n);
+    const Basis frame(n);
     EXPECT_NEAR(glm::length(frame.tangent), 1, 1e-6f);
     EXPECT_NEAR(glm::length(frame.bitangent), 1, 1e-6f);
     EXPECT_NEAR(glm::dot(frame.tangent, n), 0, 1e-6f);

@@ -1,4 +1,4 @@
-// frame.h: an orthonormal frame around a unit normal, so that local z is the normal.
+// basis.h: an orthonormal frame around a unit normal, so that local z is the normal.
 // Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017 (branchless, stable at z = -1).
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace ninefold {
 
-struct Frame {
+struct Basis {
   Vec3 tangent, bitangent, normal;
 
-  explicit Frame(Vec3 n) : normal(n) {
+  explicit Basis(Vec3 n) : normal(n) {
     const float sign = std::copysign(1.0f, n.z);
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
