@@ -124,6 +124,21 @@ class Lan(ClusterTest):
             self.assertEqual(stats["image_hash"], here["image_hash"], attempt)
             self.assertTrue(any((self.folder / "cache").iterdir()))
 
+    def test_lines_that_delay_results_unevenly_do_not_show(self):
+        here = self.render("--local-clients", 1, frames=10)
+        tc = ["tc", "-n", self.hosts[1], "qdisc", "add", "dev", "lan", "root", "netem", "delay",
+              "15ms", "10ms"]
+        if not shutil.which("tc") or subprocess.run(tc, capture_output=True).returncode != 0:
+            self.skipTest("no netem here")
+        self.new_key()
+        master = self.master("--local-clients", 1, "--listen", "0.0.0.0:4700", "--key-file",
+                             "cluster.key", "--wait-clients", 2, frames=10, prefix=self.on(0))
+        master.waits_for("listening on")
+        client = self.client("10.77.0.1:4700", prefix=self.on(1))
+        stats = self.finish(master)
+        self.assertEqual(client.ends(), 0, client.text)
+        self.assertEqual(stats["image_hash"], here["image_hash"])
+
     def test_a_cut_cable_loses_the_client_and_not_the_run(self):
         here = self.render("--local-clients", 1, frames=60)
         self.new_key()

@@ -29,17 +29,17 @@ class ClientSessionTest : public testing::Test {
   ClientSession session() { return {++ids, "10.0.0.2:5555", offer, admission, now}; }
 
   template <typename A>
-  static std::vector<A> take(std::vector<todo::Action>& actions) {
+  static std::vector<A> take(const std::vector<todo::Action>& actions) {
     std::vector<A> found;
-    for (todo::Action& action : actions)
-      if (A* a = std::get_if<A>(&action)) found.push_back(std::move(*a));
+    for (const todo::Action& action : actions)
+      if (const A* a = std::get_if<A>(&action)) found.push_back(*a);
     return found;
   }
   template <typename M>
-  static std::vector<M> sent(std::vector<todo::Action>& actions) {
+  static std::vector<M> sent(const std::vector<todo::Action>& actions) {
     std::vector<M> found;
-    for (todo::Send& send : take<todo::Send>(actions))
-      if (M* m = std::get_if<M>(&send.message)) found.push_back(std::move(*m));
+    for (const todo::Send& send : take<todo::Send>(actions))
+      if (const M* m = std::get_if<M>(&send.message)) found.push_back(*m);
     return found;
   }
   ClientSession ready() {
