@@ -29,6 +29,12 @@ Mesh grid(const char* name, int side, uint32_t seed) {
   return mesh;
 }
 
+DMat4 scaled(double factor) {
+  DMat4 matrix(factor);
+  matrix[3][3] = 1;
+  return matrix;
+}
+
 Scene someScene() {
   Scene scene;
   scene.name = "room";
@@ -44,7 +50,7 @@ Scene someScene() {
   scene.materials = {m, Material{}};
   scene.meshes = {grid("small", 4, 1), grid("large", 60, 2), grid("last", 5, 3)};
   scene.meshes[2].normals.clear(), scene.meshes[2].tangents.clear(), scene.meshes[2].uv0.clear();
-  Instance instance{"table", 1, 7, DMat4(2.0)};
+  Instance instance{"table", 1, 7, scaled(2)};
   scene.instances = {instance, Instance{}};
   scene.lights = {{"lamp", LightKind::spot, Vec3(1), Vec3(0, -1, 0), Vec3(9), 0.1f, 0.2f}};
   scene.cameras = {Camera{}};
@@ -82,7 +88,7 @@ TEST(SceneBlobs, ASceneComesBackBitForBit) {
   EXPECT_EQ(scene.materials[1].attenuationDistance, std::numeric_limits<float>::infinity());
   EXPECT_EQ(scene.meshes[1].positions, someScene().meshes[1].positions);
   EXPECT_EQ(scene.meshes[2].triangles, someScene().meshes[2].triangles);
-  EXPECT_EQ(scene.instances[0].toWorld, DMat4(2.0));
+  EXPECT_EQ(scene.instances[0].toWorld, scaled(2));
   EXPECT_EQ(scene.lights[0].outerCone, 0.2f);
   EXPECT_EQ(scene.origin, DVec3(1e6, -2, 3));
 }
@@ -132,7 +138,7 @@ TEST(SceneBlobs, SmallMeshesShareABlobAndALargeOneHasItsOwn) {
 TEST(SceneBlobs, AnEditChangesOnlyItsOwnBlob) {
   Scene scene = someScene();
   const auto before = packScene(scene);
-  scene.instances[0].toWorld = DMat4(3.0);
+  scene.instances[0].toWorld = scaled(3);
   const auto after = packScene(scene);
   ASSERT_EQ(before.size(), after.size());
   for (size_t i = 0; i < before.size(); ++i)
