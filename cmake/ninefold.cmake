@@ -16,7 +16,8 @@ endif()
 add_library(ninefold_options INTERFACE)
 target_compile_options(ninefold_options INTERFACE
   -march=x86-64-v3 -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion -Werror
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>) # GCC 12 warns falsely inside std::string (bug 105329)
+  # GCC warns falsely inside std::string (12, bug 105329) and inside moved std::variants (14).
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-maybe-uninitialized>)
 target_include_directories(ninefold_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_link_libraries(ninefold_options INTERFACE Threads::Threads)
 if(NINEFOLD_SANITIZE)
