@@ -124,11 +124,11 @@ int HeadlessRun::run() {
 
 void HeadlessRun::gatherFrames() {
   while (!isDone()) {
+    tellProgress();
     if (const auto frame = assembly_.next(Clock::now() + kLook)) {
       add(*frame);
       assembly_.release(*frame);
     }
-    tellProgress();
   }
   enough_ = true;
   const std::string end = progress_.finish(progressState(), Clock::now());

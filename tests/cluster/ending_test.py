@@ -1,5 +1,6 @@
 """How a run ends: by Ctrl-C, by the loss of its master, by mistakes in the command line."""
 import os
+import shutil
 import time
 import unittest
 
@@ -47,6 +48,20 @@ class Ending(ClusterTest):
         self.assertEqual(master.ends(), 130)
         self.assertFalse(master.picture.exists())
         self.assertIn("nothing is written", master.text)
+
+    def test_local_clients_that_keep_dying_end_the_run_in_one_clear_line(self):
+        for content, reason in ((None, "cannot start"), ("#!/bin/sh\nexit 1\n", "given up")):
+            shutil.copy(BIN / "ninefold-master", self.folder)
+            if content:
+                client = self.folder / "ninefold-client"
+                client.write_text(content)
+                client.chmod(0o700)
+            master = self.start(self.folder / "ninefold-master", SCENES / "cornell.glb",
+                                "--local-clients", 2, "--output", "o.exr")
+            self.assertEqual(master.ends(), 1, master.text)
+            self.assertIn(reason, master.text)
+            self.assertTrue(master.lines[-1].startswith("ninefold-master: "), master.text)
+            self.assertFalse((self.folder / "o.exr").exists())
 
     def one_line(self, program):
         lines = [l for l in program.lines if l and not l.startswith("[")]

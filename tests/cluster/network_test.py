@@ -130,6 +130,12 @@ class Network(ClusterTest):
         self.finish(second)
         self.assertEqual(client.ends(), 0, client.text)
 
+    def test_ipv6_works_too(self):
+        if not socket.has_ipv6 or not os.path.exists("/proc/net/if_inet6"):
+            self.skipTest("no IPv6 here")
+        stats = self.render("--local-clients", 1, "--listen", "[::1]:0", frames=1)
+        self.assertEqual(stats["frames"], 1)
+
     def test_the_master_says_what_to_type_elsewhere(self):
         self.new_key()
         master = self.master("--local-clients", 0, "--key-file", "cluster.key", frames=2)
