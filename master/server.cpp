@@ -109,7 +109,7 @@ void Server::on(Handle& peer, todo::Finish&& a, Time now) {
 }
 
 void Server::lost(Handle& peer, const std::string& reason, Time now) {
-  log("client {} is lost: {}: {}", peer.first, describe(*peer.second.session), reason);
+  log("client {} is gone: {}: {}", peer.first, describe(*peer.second.session), reason);
   scheduler_.clientLost(peer.first, now);
 }
 

@@ -1,0 +1,187 @@
+// The server with real connections on one event loop; the clients are played by the test.
+#include "master/server.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace ninefold {
+namespace {
+
+using std::chrono::seconds;
+
+Settings smallPicture() {
+  Settings s;
+  s.width = 96, s.height = 72;
+  return s;
+}
+
+std::vector<Blob> anyScene() { return packScene(Scene()); }
+
+// Introduces itself, claims to be ready, and answers tasks as it is told.
+class PlayedClient {
+ public:
+  using OnTasks = std::function<void(PlayedClient&, const msg::Tasks&)>;
+
+  PlayedClient(EventLoop& loop, const Endpoint& master, std::shared_ptr<const Key> key,
+               OnTasks onTasks)
+      : onTasks_(std::move(onTasks)) {
+    connect(
+        loop, master, KeyUse::local, std::move(key),
+        [this](std::shared_ptr<Connection> connection) { begin(std::move(connection)); },
+        [](const ConnectFailure& failure) { ADD_FAILURE() << failure.line; });
+  }
+  void answer(const msg::Tasks& tasks, size_t index) {
+    msg::Result result;
+    result.jobVersion = tasks.jobVersion;
+    result.frame = tasks.frame.frame;
+    result.tile = tasks.items[index].tile;
+    result.phase = tasks.items[index].phase;
+    result.busyNs = 1000;
+    connection_->send(std::move(result));
+  }
+  void answerAll(const msg::Tasks& tasks) {
+    for (size_t i = 0; i < tasks.items.size(); ++i) answer(tasks, i);
+  }
+  void send(Message message) { connection_->send(std::move(message)); }
+
+  bool closed = false;
+  std::string refusal;
+
+ private:
+  void begin(std::shared_ptr<Connection> connection) {
+    connection_ = std::move(connection);
+    Connection::Events events;
+    events.onMessage = [this](Message&& message) { receive(message); };
+    events.onClosed = [this](const std::string&) { closed = true; };
+    connection_->start(std::move(events));
+    msg::Hello hello;
+    hello.name = "played", hello.isa = "avx2", hello.probeClass = "aaaa";
+    connection_->send(std::move(hello));
+  }
+  void receive(const Message& message) {
+    if (const auto* m = std::get_if<msg::Configure>(&message))
+      connection_->send(msg::Ready{m->sceneVersion, m->jobVersion});
+    if (const auto* m = std::get_if<msg::Tasks>(&message)) onTasks_(*this, *m);
+    if (const auto* m = std::get_if<msg::Refuse>(&message)) refusal = m->reason;
+  }
+
+  const OnTasks onTasks_;
+  std::shared_ptr<Connection> connection_;
+};
+
+class ServerTest : public testing::Test {
+ protected:
+  ServerTest() {
+    ServerDuty duty;
+    duty.nextFrame = [this]() -> std::optional<FrameKey> {
+      if (opened == frames) return std::nullopt;
+      FrameKey key;
+      key.frame = opened++;
+      return key;
+    };
+    duty.take = [this](ReceivedTile& tile) {  // "decodes" later, as an assembly would
+      loop.post([this, tile] { server->decoded(tile, judge(tile), Clock::now()); });
+      return true;
+    };
+    const ServerSetup setup{{"127.0.0.1", 0}, {key, nullptr}, grid, 0, 1};
+    server = std::make_unique<Server>(loop, setup, offer, std::move(duty));
+  }
+  ~ServerTest() override {
+    server->close("the test is over");
+    until([this] {
+      return !server->isConnected() &&
+             std::ranges::all_of(played, [](auto& c) { return c->closed; });
+    });
+  }
+
+  PlayedClient& play(PlayedClient::OnTasks onTasks) {
+    played.push_back(
+        std::make_unique<PlayedClient>(loop, server->endpoint(), key, std::move(onTasks)));
+    return *played.back();
+  }
+  // Runs the loop until the condition holds; the deadline only ends a broken test.
+  void until(const std::function<bool()>& condition) {
+    const Time end = Clock::now() + seconds(30);
+    std::unique_ptr<EventLoop::Timer> timer;
+    const std::function<void()> look = [&] {
+      server->tick(Clock::now());
+      if (condition() || Clock::now() > end) return loop.stop();
+      timer = loop.after(milliseconds(2), look);
+    };
+    look();
+    if (!condition()) loop.run();
+    EXPECT_TRUE(condition());
+  }
+
+  EventLoop loop;
+  const std::shared_ptr<const Key> key = std::make_shared<const Key>(Key::random());
+  const TileGrid grid{96, 72, {3, 3}};
+  const JobOffer offer{anyScene(), smallPicture()};
+  std::function<std::optional<std::string>(const ReceivedTile&)> judge = [](const ReceivedTile&) {
+    return std::nullopt;
+  };
+  uint32_t frames = 3, opened = 0;
+  std::unique_ptr<Server> server;
+  std::vector<std::unique_ptr<PlayedClient>> played;
+};
+
+TEST_F(ServerTest, RendersAllFramesWithWhoeverIsThere) {
+  play([](PlayedClient& c, const msg::Tasks& tasks) { c.answerAll(tasks); });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  const ServerTally tally = server->tally();
+  EXPECT_TRUE(tally.firstDispatch && tally.lastCompletion);
+  EXPECT_GT(tally.bytesReceived, 0u);
+  ASSERT_EQ(server->clients(Clock::now()).size(), 1u);
+  EXPECT_EQ(server->clients(Clock::now())[0].name, "played");
+}
+
+TEST_F(ServerTest, AMalformedResultIsCountedItsSenderExpelledAndTheWorkDoneByAnother) {
+  judge = [](const ReceivedTile& tile) {
+    return tile.client == 1 ? std::optional<std::string>("tile 0 cannot be decoded") : std::nullopt;
+  };
+  PlayedClient& bad = play([](PlayedClient& c, const msg::Tasks& tasks) { c.answerAll(tasks); });
+  until([&] { return bad.closed; });
+  EXPECT_NE(bad.refusal.find("cannot be decoded"), std::string::npos);
+  EXPECT_EQ(server->tally().tasks.completedFrames, 0u);
+  play([](PlayedClient& c, const msg::Tasks& tasks) { c.answerAll(tasks); });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  EXPECT_GE(server->tally().malformed, 1u);
+  EXPECT_GE(server->tally().tasks.reissued, 1u);
+}
+
+TEST_F(ServerTest, AClientThatLeavesInTheMiddleIsReplacedAtOnce) {
+  PlayedClient& leaving = play([](PlayedClient& c, const msg::Tasks& tasks) {
+    c.answer(tasks, 0);
+    c.send(msg::Goodbye{"enough"});
+  });
+  until([&] { return leaving.closed; });
+  play([](PlayedClient& c, const msg::Tasks& tasks) { c.answerAll(tasks); });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+}
+
+TEST_F(ServerTest, ResultsThatNobodyAskedForAreDroppedAndCounted) {
+  play([](PlayedClient& c, const msg::Tasks& tasks) {
+    c.answerAll(tasks);
+    c.answerAll(tasks);  // once more
+    msg::Tasks wild = tasks;
+    wild.frame.frame = 999;
+    c.answer(wild, 0);
+    wild.frame.frame = 0, wild.items[0].tile = 1 << 30;
+    c.answer(wild, 0);
+  });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  const SchedulerCounts& tasks = server->tally().tasks;
+  EXPECT_GE(tasks.droppedUnknown + tasks.droppedDuplicate + tasks.droppedStale, 2u);
+}
+
+TEST_F(ServerTest, SaysGoodbyeWhenItCloses) {
+  PlayedClient& client = play([](PlayedClient& c, const msg::Tasks& tasks) { c.answerAll(tasks); });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  server->close("done");
+  until([&] { return client.closed && !server->isConnected(); });
+}
+
+}  // namespace
+}  // namespace ninefold
