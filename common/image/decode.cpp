@@ -13,6 +13,23 @@
 namespace ninefold {
 namespace {
 
+// Reads the file's bytes and nothing else: the library's own reader does not mind positions before
+// the first byte, and damaged headers ask for them.
+class BoundedReader : public OIIO::Filesystem::IOMemReader {
+ public:
+  using IOMemReader::IOMemReader;
+  bool seek(int64_t offset) override { return offset >= 0 && IOMemReader::seek(offset); }
+  size_t read(void* to, size_t bytes) override {
+    const size_t got = pread(to, bytes, m_pos);
+    m_pos += static_cast<int64_t>(got);
+    return got;
+  }
+  size_t pread(void* to, size_t bytes, int64_t offset) override {
+    if (offset < 0 || static_cast<uint64_t>(offset) >= size()) return 0;
+    return IOMemReader::pread(to, std::min(bytes, size() - static_cast<size_t>(offset)), offset);
+  }
+};
+
 // No format here packs more than this many pixels into a byte (1-bit PNG: 8 * 1032 by deflate's
 // limit).
 constexpr uint64_t kMaxPixelsPerByte = 8256;
@@ -118,7 +135,7 @@ std::string firstLine(std::string text) {
 
 DecodedImage decodeImage(std::span<const std::byte> file, ImageLimits limits) {
   const char* format = formatOf(file);
-  OIIO::Filesystem::IOMemReader memory(file.data(), file.size());
+  BoundedReader memory(file.data(), file.size());
   OIIO::ImageSpec config, spec;
   config["oiio:UnassociatedAlpha"] = 1;
   OIIO::Filesystem::IOProxy* proxy = &memory;

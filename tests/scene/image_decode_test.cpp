@@ -41,6 +41,16 @@ TEST(ImageDecode, ReadsTga) {
   EXPECT_EQ(image.texels, (Bytes{3, 2, 1, 6, 5, 4}));
 }
 
+TEST(ImageDecode, ReadsBmp) {
+  Bytes bmp = {'B', 'M', 58, 0, 0, 0, 0, 0, 0, 0, 54, 0, 0, 0, 40,
+               0,   0,   0,  1, 0, 0, 0, 1, 0, 0, 0,  1, 0, 24};
+  bmp.resize(58);
+  bmp[54] = 1, bmp[55] = 2, bmp[56] = 3;
+  EXPECT_EQ(decode(bmp).texels, (Bytes{3, 2, 1}));
+  bmp[13] = 0xFF;  // its pixels begin before its first byte
+  EXPECT_FALSE(errorOf([&] { decode(bmp); }).empty());
+}
+
 TEST(ImageDecode, HoldsBothLimits) {
   const Bytes file = png(20, 10, 1, Bytes(200, 1));
   EXPECT_EQ(decode(file, {20, 200}).texels.size(), 200u);
