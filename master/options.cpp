@@ -54,6 +54,7 @@ void applyPreset(Options& o) {
     o.settings.randomization = Randomization::exclusiveOr;
     o.surfaceTest = SurfaceTest::paper;
     o.converging = false;
+    o.settings.bound = 300;
     o.settings.compensate = o.settings.jitter = false;
   }
 }

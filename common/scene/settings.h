@@ -25,7 +25,7 @@ struct Settings {
   int photons = 1000;          // caustic photons per set, 0..16777216
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row, 1..1024
-  float bound = 300;           // c of b = c/R^2, > 0
+  float bound = 30;            // c of b = c/R^2, > 0
   float photonRadius = 0.02f;  // first photon radius as a fraction of R, > 0
   Caustics caustics = Caustics::all;
   Radiance environment{0};
