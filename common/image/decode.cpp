@@ -18,7 +18,6 @@ namespace {
 class BoundedReader : public OIIO::Filesystem::IOMemReader {
  public:
   using IOMemReader::IOMemReader;
-  bool seek(int64_t offset) override { return offset >= 0 && IOMemReader::seek(offset); }
   size_t read(void* to, size_t bytes) override {
     const size_t got = pread(to, bytes, m_pos);
     m_pos += static_cast<int64_t>(got);
