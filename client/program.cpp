@@ -92,8 +92,7 @@ SceneBuilder::Answers Program::answers() {
 
 void Program::carryOut() {
   for (auto actions = session_.takeActions(); !actions.empty(); actions = session_.takeActions())
-    for (act::Action& action : actions)
-      std::visit([this](auto&& a) { on(std::move(a)); }, std::move(action));
+    for (act::Action& action : actions) std::visit([this](auto& a) { on(std::move(a)); }, action);
 }
 
 void Program::on(act::Connect&&) {

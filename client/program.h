@@ -31,7 +31,7 @@ class Program {
   void on(act::Disconnect&&);
   void on(act::FindBlobs&& a) { builder_.ask(std::move(a)); }
   void on(act::KeepBlob&& a) { builder_.ask(std::move(a)); }
-  void on(act::BuildScene&& a) { builder_.ask(std::move(a)); }
+  void on(act::BuildScene a) { builder_.ask(a); }
   void on(act::PrepareJob&& a) { builder_.ask(std::move(a)); }
   void on(act::StartTasks&&);
   void on(act::CancelTasks&&);

@@ -32,11 +32,11 @@ SceneBuilder::~SceneBuilder() {
 
 void SceneBuilder::ask(act::FindBlobs&& question) { queue(std::move(question)); }
 void SceneBuilder::ask(act::KeepBlob&& question) { queue(std::move(question)); }
-void SceneBuilder::ask(act::BuildScene&& question) { queue(std::move(question)); }
+void SceneBuilder::ask(act::BuildScene question) { queue(question); }
 void SceneBuilder::ask(act::PrepareJob&& question) { queue(std::move(question)); }
 
 template <typename Question>
-void SceneBuilder::queue(Question&& question) {
+void SceneBuilder::queue(Question question) {
   const uint32_t load = question.load;
   const auto held = std::make_shared<Question>(std::move(question));
   std::function<void()> work = [this, held] {

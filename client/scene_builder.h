@@ -37,12 +37,12 @@ class SceneBuilder {
 
   void ask(act::FindBlobs&& question);
   void ask(act::KeepBlob&& question);
-  void ask(act::BuildScene&& question);
+  void ask(act::BuildScene question);
   void ask(act::PrepareJob&& question);
 
  private:
   template <typename Question>
-  void queue(Question&& question);
+  void queue(Question question);
   void answer(act::FindBlobs& question);
   void answer(act::KeepBlob& question);
   void answer(const act::BuildScene& question);

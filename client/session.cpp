@@ -37,7 +37,7 @@ void Session::received(Message&& message, Time now) {
   if (!online()) return;
   heard_ = now;
   try {
-    std::visit([&](auto&& m) { on(std::move(m), now); }, std::move(message));
+    std::visit([&](auto& m) { on(std::move(m), now); }, message);
   } catch (const Error& error) {
     leave(fmt::format("the master sent something impossible: {}", error.what()), now);
   }
@@ -89,7 +89,7 @@ void Session::on(msg::BlobChunk&& m, Time now) {
 }
 
 void Session::continueFetch(Time now) {
-  for (msg::BlobRequest& request : fetch_.requests()) send(std::move(request));
+  for (const msg::BlobRequest& request : fetch_.requests()) send(request);
   if (!fetch_.complete()) return;
   scene_ = Scene::building;
   nextProgress_ = now;

@@ -31,7 +31,7 @@ void ClientSession::received(Message&& message, Time now) {
   heard_ = now;
   if (ready()) push(todo::Heard{});
   try {
-    std::visit([&](auto&& m) { on(std::move(m), now); }, std::move(message));
+    std::visit([&](auto& m) { on(std::move(m), now); }, message);
   } catch (const Error& error) {
     expel(error.what());
   }

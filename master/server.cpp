@@ -69,7 +69,7 @@ void Server::withPeer(ClientId id, Event event) {
 
 void Server::carryOut(Handle& peer, Time now) {
   for (todo::Action& action : peer.second.session->takeActions())
-    std::visit([&](auto&& a) { on(peer, std::move(a), now); }, std::move(action));
+    std::visit([&](auto& a) { on(peer, std::move(a), now); }, action);
 }
 
 void Server::on(Handle& peer, todo::Send&& a, Time) {
