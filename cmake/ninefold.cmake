@@ -23,7 +23,9 @@ target_include_directories(ninefold_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_link_libraries(ninefold_options INTERFACE Threads::Threads)
 if(NINEFOLD_SANITIZE)
   target_compile_options(ninefold_options INTERFACE
-    -fsanitize=${NINEFOLD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    -fsanitize=${NINEFOLD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
+    # Instrumented, GCC loses track of variants; and it warns of the fences inside Asio.
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-tsan>)
   target_link_options(ninefold_options INTERFACE -fsanitize=${NINEFOLD_SANITIZE})
 endif()
 
