@@ -12,7 +12,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
