@@ -25,7 +25,7 @@ if(NINEFOLD_SANITIZE)
   target_compile_options(ninefold_options INTERFACE
     -fsanitize=${NINEFOLD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer
     # Instrumented, GCC loses track of variants; and it warns of the fences inside Asio.
-    $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized -Wno-tsan>)
+    "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-tsan>")
   target_link_options(ninefold_options INTERFACE -fsanitize=${NINEFOLD_SANITIZE})
 endif()
 
