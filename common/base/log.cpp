@@ -20,9 +20,7 @@ spdlog::logger& logger() {
 
 }  // namespace
 
-void nameLog(std::string_view name) {
-  logger().set_pattern("[" + std::string(name) + "] %v");
-}
+void nameLog(std::string_view name) { logger().set_pattern("[" + std::string(name) + "] %v"); }
 
 void logLine(std::string_view text) { logger().info(text); }
 void warnLine(std::string_view text) { logger().warn("warning: {}", text); }

@@ -9,9 +9,9 @@ namespace ninefold {
 
 struct Camera {
   std::string name;
-  Vec3 eye{0, 0, 0};         // in scene coordinates, after recentring [m]
-  Vec3 forward{0, 0, -1};    // unit
-  Vec3 up{0, 1, 0};          // need not be unit or orthogonal to forward, must not be parallel to it
+  Vec3 eye{0, 0, 0};       // in scene coordinates, after recentring [m]
+  Vec3 forward{0, 0, -1};  // unit
+  Vec3 up{0, 1, 0};        // need not be unit or orthogonal to forward, must not be parallel to it
   float verticalFov = 0.8f;  // full angle [rad], in (0, pi)
 
   bool operator==(const Camera&) const = default;

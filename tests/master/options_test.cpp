@@ -181,8 +181,7 @@ TEST(Options, ListeningBeyondThisMachineNeedsAKey) {
 }
 
 TEST(Options, WhatThisReleaseDoesNotHaveSaysSo) {
-  for (const char* flags :
-       {"--window", "--animate 0:1:25", "--animate 0", "--view depth"})
+  for (const char* flags : {"--window", "--animate 0:1:25", "--animate 0", "--view depth"})
     EXPECT_NE(complaint(std::string("a.glb ") + flags).find("not available in this release"),
               std::string::npos)
         << flags;

@@ -13,12 +13,13 @@ namespace {
 Mesh awkwardTriangle(Dice& dice) {
   const float size = dice.magnitude(1e-4f, 1e6f);
   const float away = size * dice.magnitude(1e-2f, 1e3f);
-  const Vec3 at = away * dice.direction();
+  Vec3 at = away * dice.direction();
   Vec3 edge1 = size * dice.direction(), edge2 = size * dice.direction();
-  const int kind = dice.below(4);
+  const int kind = dice.below(5);
   if (kind == 1) edge2 = dice.uniform(-1, 2) * edge1 + dice.magnitude(1e-4f, 1e-1f) * edge2;
   if (kind == 2) edge2 = dice.magnitude(1e-4f, 1e-1f) * edge2;
-  if (kind == 3) edge1.y = edge2.y = 0;
+  if (kind >= 3) edge1.y = edge2.y = 0;
+  if (kind == 4) at.y = 0;
   return meshOf({at, at + edge1, at + edge2}, {{0, 1, 2}});
 }
 
