@@ -123,6 +123,7 @@ TEST(RobustOrigin, SegmentsBetweenSurfacesAreBlockedByNeitherEnd) {
       const SurfacePoint x = tracer.surface({0, 0, wx.y, wx.z, 0});
       const SurfacePoint y = tracer.surface({1, 0, wy.y, wy.z, 0});
       const Vec3 d = y.position - x.position;
+      if (glm::dot(d, x.geometricNormal) == 0 || glm::dot(d, y.geometricNormal) == 0) continue;
       const float far = y.error + kRayRounding * glm::length(d);
       const Vec3 start = offsetOrigin(x, d);
       const Vec3 end = offsetOrigin(y.position, y.geometricNormal, far, -d);
