@@ -183,6 +183,7 @@ void HeadlessRun::writeStatistics() const {
   stats.needs = job_.needs;
   stats.preset = nameOf(options_.preset);
   stats.settings = job_.settings;
+  stats.surfaceTest = options_.surfaceTest;
   writeStats(*options_.stats, stats);
 }
 

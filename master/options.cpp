@@ -73,6 +73,7 @@ void readSampling(const RawOptions& raw, Settings& s) {
   assign(s.bound, raw.real("bound", 1e-6, 1e12));
   assign(s.photonRadius, raw.real("photon-radius", 1e-6, 1));
   assign(s.caustics, choice(raw, "caustics", std::array{"off", "direct", "all"}));
+  assign(s.randomization, choice(raw, "randomization", std::array{"xor", "owen", "random"}));
   if (const auto seed = raw.text("seed"))
     s.seed = parseWhole("seed", *seed, 0, std::numeric_limits<uint64_t>::max());
 }
@@ -93,6 +94,7 @@ void readPicture(const RawOptions& raw, Options& o) {
     std::tie(o.settings.width, o.settings.height) = parsePair("size", *size, 1, kMaxSide);
   o.camera = raw.text("camera").value_or("");
   o.environment = readEnvironment(raw);
+  assign(o.surfaceTest, choice(raw, "filter", std::array{"none", "paper", "surface"}));
   assign(o.exposure, raw.real("exposure", -50, 50));
   o.aovs = raw.isOn("aovs");
 }

@@ -47,6 +47,12 @@ constexpr Flag kMethod[] = {
     {"photon-radius", "F", "first photon radius as a fraction of R, up to 1 (default 0.02)"},
     {"caustics", "off|direct|all",
      "photons from nowhere, from the lights, or from lit surfaces too (default all; paper direct)"},
+    {"randomization", "owen|xor|random",
+     "of the sample points: nested scrambling or exclusive-or of a Sobol' sequence, or none of it: "
+     "pseudo-random points (default owen; paper xor)"},
+    {"filter", "surface|paper|none",
+     "neighbours that the discontinuity buffer averages: on one smooth surface, within the paper's "
+     "thresholds, or none (default surface; paper paper)"},
     {"seed", "N", "of all randomness (default 1)"},
 };
 constexpr Flag kRun[] = {

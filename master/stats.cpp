@@ -50,7 +50,15 @@ const char* nameOf(Caustics c) {
   return c == Caustics::off ? "off" : c == Caustics::direct ? "direct" : "all";
 }
 
-Json object(const Settings& s, const std::string& preset) {
+const char* nameOf(Randomization r) {
+  return r == Randomization::owen ? "owen" : r == Randomization::exclusiveOr ? "xor" : "random";
+}
+
+const char* nameOf(SurfaceTest t) {
+  return t == SurfaceTest::surface ? "surface" : t == SurfaceTest::paper ? "paper" : "none";
+}
+
+Json object(const Settings& s, const std::string& preset, SurfaceTest filter) {
   return {{"preset", preset},
           {"width", s.width},
           {"height", s.height},
@@ -65,7 +73,8 @@ Json object(const Settings& s, const std::string& preset) {
           {"photon_radius", s.photonRadius},
           {"caustics", nameOf(s.caustics)},
           {"environment", list(s.environment)},
-          {"randomization", s.randomization == Randomization::owen ? "owen" : "xor"},
+          {"filter", nameOf(filter)},
+          {"randomization", nameOf(s.randomization)},
           {"jitter", s.jitter},
           {"compensate", s.compensate}};
 }
@@ -116,7 +125,7 @@ void addJob(const RunStats& s, Json& json) {
   json["relative_error"] = numberOrNull(s.relativeError);
   json["needs"] = object(s.needs);
   json["method"] = nameOf(s.settings.method);
-  json["settings"] = object(s.settings, s.preset);
+  json["settings"] = object(s.settings, s.preset, s.surfaceTest);
   json["seed"] = s.settings.seed;
   json["reproducible"] = s.reproducible;
   json["image_hash"] = s.imageHash;

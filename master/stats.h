@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/counters.h"
+#include "common/image/surface_test.h"
 #include "common/scene/needs.h"
 #include "common/scene/settings.h"
 
@@ -35,8 +36,9 @@ struct RunStats {
   uint64_t tasksReissued = 0;
   double relativeError = 0;  // not finite (less than two frames): null
   Needs needs;
-  std::string preset;  // settings.preset
-  Settings settings;   // method, settings, seed
+  std::string preset;                              // settings.preset
+  Settings settings;                               // method, settings, seed
+  SurfaceTest surfaceTest = SurfaceTest::surface;  // settings.filter
   bool reproducible = true;
   std::string imageHash;
 };

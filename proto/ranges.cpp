@@ -51,7 +51,7 @@ void checkRanges(const Settings& s) {
   if (s.environment.x < 0 || s.environment.y < 0 || s.environment.z < 0)
     fail("environment is negative");
   inRange("randomization", static_cast<int>(s.randomization), 0,
-          static_cast<int>(Randomization::owen));
+          static_cast<int>(Randomization::random));
 }
 
 void checkRanges(const FrameKey& frame) {

@@ -81,7 +81,7 @@ Settings fromWire(const pb::Settings& in) {
   s.caustics = toEnum("caustics", in.caustics(), Caustics::all);
   s.environment = fromWire(in.environment());
   s.seed = in.seed();
-  s.randomization = toEnum("randomization", in.randomization(), Randomization::owen);
+  s.randomization = toEnum("randomization", in.randomization(), Randomization::random);
   s.jitter = in.jitter();
   s.compensate = in.compensate();
   checkRanges(s);

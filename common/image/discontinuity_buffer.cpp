@@ -227,10 +227,11 @@ void DiscontinuityBuffer::filterChunk(const FrameBuffer& frame, int layer, int p
   };
   const Row centre = rowAt(phase, j);
   const Interleave pattern = frame.grid().interleave();
+  const Interleave window = test_ == SurfaceTest::none ? Interleave{.n = 1, .m = 1} : pattern;
   Sums sums;
   start(first, count, sums);
-  for (int dy = -(pattern.m - 1) / 2; dy <= pattern.m / 2; ++dy)
-    for (int dx = -(pattern.n - 1) / 2; dx <= pattern.n / 2; ++dx) {
+  for (int dy = -(window.m - 1) / 2; dy <= window.m / 2; ++dy)
+    for (int dx = -(window.n - 1) / 2; dx <= window.n / 2; ++dx) {
       const Neighbour at = neighbourAt(pattern, phase, dx, dy);
       const TileResult& sub = frame.phase(at.phase);
       if ((dx == 0 && dy == 0) || j + at.dj < 0 || j + at.dj >= sub.height) continue;

@@ -1,6 +1,7 @@
 // surface_test.h: do two pixels see the same smooth piece of surface? The test of the discontinuity
 // buffer. Symmetric, bit for bit: if p accepts q then q accepts p. A pixel without x never passes.
 //
+//   none     never: every pixel keeps its own E
 //   paper    |d_p - d_q| <= kPaperDistance min(d_p, d_q)  and  n_p . n_q >= kPaperNormal
 //   surface  in the first layer: n_p . n_q >= kSurfaceNormal, and the tangent planes at both ends
 //            predict the neighbour, as follows
@@ -31,7 +32,7 @@
 
 namespace ninefold {
 
-enum class SurfaceTest : uint8_t { paper, surface };
+enum class SurfaceTest : uint8_t { none, paper, surface };
 
 inline constexpr float kPaperDistance = 0.05f;
 inline constexpr float kPaperNormal = 0.95f;   // 18 degrees

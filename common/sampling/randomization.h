@@ -1,10 +1,10 @@
-// randomization.h: the two ways to randomize a Sobol' sequence, see sampler.h.
+// randomization.h: the ways to randomize samples, see sampler.h.
 #pragma once
 
 #include <cstdint>
 
 namespace ninefold {
 
-enum class Randomization : uint8_t { exclusiveOr, owen };
+enum class Randomization : uint8_t { exclusiveOr, owen, random };
 
 }  // namespace ninefold

@@ -11,6 +11,7 @@
 //                scrambling. Padding permutes indices by nested scrambling in both: Sobol' points
 //                are linear in the bits of the index, so an exclusive-or of indices would only be
 //                one more exclusive-or of the points, and would repeat the first dimensions.
+//                random: plain pseudo-random numbers instead of Sobol' points, to compare with.
 //
 // get2D takes dimensions of one replication: use even ones. Nothing is checked on this hot path.
 //
@@ -59,7 +60,10 @@ struct PaddedSobol {
     return (index & ~mask) | (owenScramble(index, static_cast<uint32_t>(seed)) & mask);
   }
   float value(uint32_t permuted, uint32_t dimension) const {
-    const auto seed = static_cast<uint32_t>(mixWord(key + 0x9e3779b97f4a7c15ull * (dimension + 1)));
+    const uint64_t word = mixWord(key + 0x9e3779b97f4a7c15ull * (dimension + 1));
+    if (kind == Randomization::random)
+      return unitFloat(static_cast<uint32_t>(mixWord(word + permuted)));
+    const auto seed = static_cast<uint32_t>(word);
     const uint32_t x = sobolPoint(permuted, dimension % kSobolDimensions);
     return unitFloat(kind == Randomization::owen ? owenScramble(x, seed) : x ^ seed);
   }

@@ -145,6 +145,21 @@ TEST(DiscontinuityBuffer, CopiesWhenNeighboursWeighNothing) {
                       static_cast<size_t>(j * grid.subWidth(p) + i)));
 }
 
+TEST(DiscontinuityBuffer, CopiesWithoutATest) {
+  for (const Case& c : kCases)
+    for (const int layer : {int(kDiffuse), int(kTransmission)}) {
+      const TileGrid grid(c.width, c.height, c.pattern);
+      const FrameBuffer frame = randomFrame(grid, kDiffuseBit | kTransmissionBit);
+      const Filtered filtered(frame, SurfaceTest::none, 1, layer);
+      for (int y = 0; y < c.height; ++y)
+        for (int x = 0; x < c.width; ++x) {
+          const TileResult& sub = frame.phase(grid.phaseOfPixel(x, y));
+          const LayerPlanes& planes = sub.layers[static_cast<size_t>(layer)];
+          ASSERT_EQ(filtered.rgb(x, y), get(planes.irradiance, subIndex(grid, x, y)));
+        }
+    }
+}
+
 TEST(DiscontinuityBuffer, GivesTheSameBytesHoweverRowsAreSharedOut) {
   const TileGrid grid(301, 97, {3, 3});
   const auto light = [](int x, int y, const Point&) {

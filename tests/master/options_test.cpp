@@ -67,7 +67,8 @@ TEST(Options, EveryFlagIsRead) {
       "--interleave 2x4 --direct-vpls 5 --indirect-vpls 6 --photons 7 --path-length 8 "
       "--specular-depth 9 --bound 10.5 --photon-radius 0.25 --caustics off --environment 1,2,3.5 "
       "--frames 11 --seconds 1.5 --until-error 0.01 --aovs --exposure -1.5 --view beauty "
-      "--headless --seed 18446744073709551615 --isa avx2 --stats s.json room.glb");
+      "--headless --filter none --randomization random --seed 18446744073709551615 --isa avx2 "
+      "--stats s.json room.glb");
   EXPECT_EQ(o.scene, "room.glb");
   EXPECT_EQ(o.settings.width, 320);
   EXPECT_EQ(o.settings.height, 200);
@@ -93,6 +94,8 @@ TEST(Options, EveryFlagIsRead) {
   EXPECT_EQ(o.stop.untilError, 0.01);
   EXPECT_TRUE(o.aovs);
   EXPECT_FLOAT_EQ(o.exposure, -1.5f);
+  EXPECT_EQ(o.surfaceTest, SurfaceTest::none);
+  EXPECT_EQ(o.settings.randomization, Randomization::random);
   EXPECT_EQ(o.settings.seed, UINT64_MAX);
   EXPECT_EQ(o.isa, "avx2");
   EXPECT_EQ(o.stats, "s.json");
@@ -124,6 +127,9 @@ TEST(Options, PresetsSetDefaultsThatFlagsOverride) {
   EXPECT_EQ(paper.settings.caustics, Caustics::direct);
   EXPECT_EQ(paper.surfaceTest, SurfaceTest::paper);
   EXPECT_FALSE(paper.converging);
+  const Options mixed = parse("room.glb --preset paper --filter surface --randomization owen");
+  EXPECT_EQ(mixed.surfaceTest, SurfaceTest::surface);
+  EXPECT_EQ(mixed.settings.randomization, Randomization::owen);
   const Options final = parse("--preset final --direct-vpls 2 room.glb");
   EXPECT_EQ(final.settings.directVpls, 2);
   EXPECT_GT(final.settings.indirectVpls, 18);
@@ -136,17 +142,23 @@ TEST(Options, OneStopIsEnough) {
 
 TEST(Options, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
   const std::pair<const char*, const char*> cases[] = {
-      {"--size", "0x480"},      {"--size", "16385x1"},     {"--size", "640"},
-      {"--interleave", "17x1"}, {"--interleave", "0x3"},   {"--direct-vpls", "65537"},
-      {"--direct-vpls", "-1"},  {"--indirect-vpls", "x"},  {"--photons", "16777217"},
-      {"--path-length", "1.5"}, {"--specular-depth", "0"}, {"--bound", "0"},
-      {"--bound", "nan"},       {"--photon-radius", "2"},  {"--caustics", "some"},
-      {"--environment", "1,2"}, {"--environment", "-1"},   {"--environment", "blue"},
-      {"--frames", "0"},        {"--seconds", "0"},        {"--until-error", "0"},
-      {"--until-error", "2"},   {"--exposure", "1000"},    {"--seed", "-1"},
-      {"--isa", "sse"},         {"--local-clients", "-1"}, {"--client-threads", "0"},
-      {"--wait-clients", "0"},  {"--listen", "4700"},      {"--listen", "0.0.0.0:99999"},
-      {"--preset", "fast"},     {"--method", "voodoo"},
+      {"--size", "0x480"},       {"--size", "16385x1"},
+      {"--size", "640"},         {"--interleave", "17x1"},
+      {"--interleave", "0x3"},   {"--direct-vpls", "65537"},
+      {"--direct-vpls", "-1"},   {"--indirect-vpls", "x"},
+      {"--photons", "16777217"}, {"--path-length", "1.5"},
+      {"--specular-depth", "0"}, {"--bound", "0"},
+      {"--bound", "nan"},        {"--photon-radius", "2"},
+      {"--caustics", "some"},    {"--environment", "1,2"},
+      {"--environment", "-1"},   {"--environment", "blue"},
+      {"--frames", "0"},         {"--seconds", "0"},
+      {"--until-error", "0"},    {"--until-error", "2"},
+      {"--exposure", "1000"},    {"--seed", "-1"},
+      {"--isa", "sse"},          {"--local-clients", "-1"},
+      {"--client-threads", "0"}, {"--wait-clients", "0"},
+      {"--listen", "4700"},      {"--listen", "0.0.0.0:99999"},
+      {"--preset", "fast"},      {"--method", "voodoo"},
+      {"--filter", "blur"},      {"--randomization", "dice"},
   };
   for (const auto& [flag, value] : cases) {
     const std::string line = complaint(std::string("room.glb ") + flag + " " + value);
@@ -204,7 +216,7 @@ TEST(Options, HelpNamesEveryFlagOfTheInterface) {
                            "frames",        "seconds",       "until-error",   "animate",
                            "output",        "aovs",          "exposure",      "view",
                            "window",        "headless",      "seed",          "isa",
-                           "stats",         "help"})
+                           "stats",         "randomization", "filter",        "help"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;

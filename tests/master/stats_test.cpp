@@ -80,6 +80,15 @@ TEST(Stats, RatesFollowFromCounts) {
   EXPECT_EQ(json["seed"].get<uint64_t>(), std::numeric_limits<uint64_t>::max());
 }
 
+TEST(Stats, SettingsNameRandomizationAndFilterAsTheFlagsDo) {
+  RunStats s = example();
+  s.settings.randomization = Randomization::random;
+  s.surfaceTest = SurfaceTest::none;
+  const Json settings = Json::parse(toJson(s))["settings"];
+  EXPECT_EQ(settings["randomization"], "random");
+  EXPECT_EQ(settings["filter"], "none");
+}
+
 TEST(Stats, ARunWithoutFramesIsStillValidJson) {
   RunStats empty;
   empty.relativeError = std::numeric_limits<double>::infinity();

@@ -28,7 +28,7 @@ Settings oddSettings() {
   s.caustics = Caustics::direct;
   s.environment = Vec3(1e6f, 0, 1e-6f);
   s.seed = ~0ull;
-  s.randomization = Randomization::exclusiveOr;
+  s.randomization = Randomization::random;
   s.jitter = false;
   s.compensate = false;
   return s;
@@ -132,7 +132,7 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"height", [](Settings& s) { s.height = 16385; }},
       {"method", [](Settings& s) { s.method = static_cast<Method>(2); }},
       {"caustics", [](Settings& s) { s.caustics = static_cast<Caustics>(3); }},
-      {"randomization", [](Settings& s) { s.randomization = static_cast<Randomization>(2); }},
+      {"randomization", [](Settings& s) { s.randomization = static_cast<Randomization>(3); }},
       {"interleave columns", [](Settings& s) { s.interleave.n = 17; }},
       {"interleave rows", [](Settings& s) { s.interleave.m = 0; }},
       {"direct-vpls", [](Settings& s) { s.directVpls = 65537; }},

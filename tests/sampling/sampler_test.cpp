@@ -13,6 +13,8 @@ namespace ninefold {
 namespace {
 
 constexpr Randomization kBoth[] = {Randomization::exclusiveOr, Randomization::owen};
+constexpr Randomization kAll[] = {Randomization::exclusiveOr, Randomization::owen,
+                                  Randomization::random};
 
 // The points of `count` sets from `first` on, in the first `s` dimensions of replication `group`.
 PointSet lightPoints(uint32_t first, uint32_t count, int m, uint32_t group, uint32_t s,
@@ -56,7 +58,7 @@ TEST(LightSampler, UnionsOfTwoToTheJBlocksAreNetsToo) {
 }
 
 TEST(LightSampler, SamplesDoNotDependOnTheOrderOfAsking) {
-  for (const Randomization kind : kBoth) {
+  for (const Randomization kind : kAll) {
     const LightSampler sampler(1, SampleUse::photon, 9, 4, 6, kind);
     std::map<std::pair<uint32_t, uint32_t>, float> forward;
     for (uint32_t i = 0; i < 64; ++i) {
@@ -114,7 +116,7 @@ double meetings(const LightSampler& sampler, uint32_t a, uint32_t b) {
 }
 
 TEST(LightSampler, ReplicationsAreNotShiftsOfEachOther) {
-  for (const Randomization kind : kBoth) {
+  for (const Randomization kind : kAll) {
     for (const auto& [a, b] : {std::pair{0u, 4u}, {1u, 5u}, {4u, 8u}, {2u, 6u}, {0u, 12u}}) {
       double mean = 0, product = 0;
       constexpr uint32_t kRandomizations = 100;
@@ -145,7 +147,7 @@ TEST(LightSampler, OtherAddressesGiveOtherSamples) {
 
 // Over the frames each sample is uniform, so that any estimate has the right mean.
 TEST(LightSampler, EachSampleIsUniformOverRandomizations) {
-  for (const Randomization kind : kBoth) {
+  for (const Randomization kind : kAll) {
     for (const uint32_t dimension : {0u, 3u, 6u}) {
       std::vector<int> counts(16);
       for (uint32_t r = 0; r < 16000; ++r) {
@@ -156,6 +158,22 @@ TEST(LightSampler, EachSampleIsUniformOverRandomizations) {
       for (const int c : counts) chi2 += (c - 1000.0) * (c - 1000.0) / 1000.0;
       EXPECT_LT(chi2, 44.3) << dimension;  // 15 degrees of freedom, p = 1e-4
     }
+  }
+}
+
+// Points that know nothing of each other: how many of 16 fall into a half is binomial, with variance
+// 16/4; of a net exactly 8 do. The tolerance is five standard deviations of the variance's estimate.
+TEST(LightSampler, RandomPointsAreIndependent) {
+  for (const uint32_t dimension : {0u, 3u, 6u}) {
+    double variance = 0;
+    constexpr uint32_t kBlocks = 4000;
+    for (uint32_t r = 0; r < kBlocks; ++r) {
+      const LightSampler sampler(5, SampleUse::photon, r, 1, 4, Randomization::random);
+      int low = 0;
+      for (uint32_t i = 0; i < 16; ++i) low += sampler.get1D(i, dimension) < 0.5f;
+      variance += (low - 8.0) * (low - 8.0) / kBlocks;
+    }
+    EXPECT_NEAR(variance, 4, 0.45) << dimension;
   }
 }
 
@@ -180,7 +198,7 @@ TEST(PixelSampler, EveryAlignedRunOfFramesIsANetInEveryReplication) {
 }
 
 TEST(PixelSampler, NeighbouringPixelsAreUncorrelated) {
-  for (const Randomization kind : kBoth) {
+  for (const Randomization kind : kAll) {
     const auto sample = [&](uint32_t x, uint32_t y, uint32_t d) {
       return PixelSampler(3, SampleUse::eyePath, x, y, 0, kind).get1D(d);
     };
