@@ -46,7 +46,9 @@ Receiver receiverAt(const ShadingPoint& y, uint32_t pixel) {
 
 void compensate(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
                 int pathVertices, Scratch& scratch, Receivers& receivers, RayCounts& rays) {
-  Receivers& next = scratch.bounced[static_cast<size_t>(pathVertices) - 1];
+  const auto level = static_cast<size_t>(pathVertices) - 1;
+  if (level == scratch.bounced.size()) scratch.bounced.emplace_back();
+  Receivers& next = scratch.bounced[level];
   next.clear();
   std::vector<Bounce> bounces;
   const auto dimension = 4 * static_cast<uint32_t>(pathVertices - 1);
@@ -62,7 +64,7 @@ void compensate(const Transport& t, const LightSet& lights, const ReceiverSample
     if (weight <= 0) continue;
     receivers.addIrradiance(i, kPi * weight * emittedRadiance(t, y));
     const Vec3 factor = weight * y.bsdf.diffuse;
-    const float q = std::min(maxComponent(factor), 1.0f);
+    const float q = std::min(maxComponent(factor), kMaxSurvival);
     if (!t.allows(pathVertices + 1) || sampler.get1D(dimension + 2) >= q) continue;
     next.add(receiverAt(y, receivers.pixel[i]));
     bounces.push_back({i, factor / q});

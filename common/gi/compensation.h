@@ -10,14 +10,15 @@
 //   compensated (recursion)
 //
 // W is zero beyond t = sqrt(cos_x / b): the rays are short and cheap, and few of them hit anything.
-// A hit is followed with probability q = min(1, largest channel of W rho_y) and divided by it.
+// A hit is followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided
+// by it: as often as it takes, for in a narrow gap all of the light comes this way.
 // Light that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray
 // that meets nothing, and S lobes at y, return nothing.
 //
 // Source:  Kollig and Keller, "Illumination in the Presence of Weak Singularities", 2004.
-// Proved:  tests/gi (furnace in a corner: exact with it, too dark without; agreement with the path
-// tracer). Threads: reentrant with one scratch a thread.   Errors: none; at most kMaxBounces
-// levels.
+// Proved:  tests/gi (furnace in a corner and in a slit: exact with it, too dark without; agreement
+// with the path tracer). Threads: reentrant with one scratch a thread.   Errors: none; at most
+// kMaxVertices levels.
 #pragma once
 
 #include "common/gi/light_set.h"

@@ -18,7 +18,7 @@ void gatherIrradiance(const Transport& t, const LightSet& lights, const Receiver
       if (caustic != nullptr) (*caustic)[i] = e;
     }
   }
-  if (t.settings.compensate && pathVertices <= kMaxBounces)
+  if (t.settings.compensate && pathVertices < kMaxVertices)
     compensate(t, lights, samples, pathVertices, scratch, receivers, rays);
 }
 

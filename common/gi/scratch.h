@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <vector>
 
 #include "common/gi/receivers.h"
@@ -10,13 +11,11 @@
 
 namespace ninefold {
 
-inline constexpr int kMaxBounces = 16;  // of the compensation's recursion
-
 struct Scratch {
   std::array<Receivers, kLayers> receivers;
   std::array<std::vector<uint32_t>, kLayers>
-      places;                                  // index in the task's rectangle of each receiver
-  std::array<Receivers, kMaxBounces> bounced;  // compensation: one level a bounce
+      places;                     // index in the task's rectangle of each receiver
+  std::deque<Receivers> bounced;  // compensation: one level a bounce, as deep as it ever went
 };
 
 }  // namespace ninefold
