@@ -1,0 +1,64 @@
+"""Runs ninefold-master and ninefold-compare and gives back what they say. No figure is computed here."""
+import dataclasses
+import json
+import os
+import subprocess
+import sys
+
+
+class Failure(Exception):
+    """A program failed; the text is its last line on stderr."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Job:
+    """A picture to make, without how long and with which seed."""
+    scene: object  # scenes.Scene
+    size: tuple  # (width, height)
+    flags: tuple = ()
+
+    def arguments(self):
+        return [self.scene.file, "--size", "%dx%d" % self.size, *self.scene.flags, *self.flags]
+
+
+class Programs:
+    def __init__(self, folder, clients, progress):
+        self.folder, self.clients, self.progress = folder, clients, progress
+        for name in ("ninefold-master", "ninefold-client", "ninefold-compare"):
+            if not os.access(os.path.join(folder, name), os.X_OK):
+                raise Failure(f"{folder} has no program {name}; build it, or name its folder by --programs")
+
+    def render(self, job, seed, stop, picture):
+        """Writes `picture` (.exr) and returns the object of --stats. stop: ("--seconds", 4) or ("--frames", 16)."""
+        stats = os.path.splitext(picture)[0] + ".json"
+        os.makedirs(os.path.dirname(picture), exist_ok=True)
+        self.progress(f"{job.scene.name} {' '.join(job.flags)} seed {seed} {stop[0]} {stop[1]}")
+        self._call("ninefold-master", *job.arguments(), "--seed", str(seed), stop[0], str(stop[1]),
+                   "--local-clients", str(self.clients), "--wait-clients", str(self.clients),
+                   "--output", picture, "--stats", stats)
+        with open(stats, encoding="utf-8") as file:
+            return json.load(file)
+
+    def compare(self, image, reference):
+        """The object of ninefold-compare --json."""
+        return json.loads(self._call("ninefold-compare", image, reference, "--json"))
+
+    def _call(self, name, *arguments):
+        command = [os.path.join(self.folder, name), *arguments]
+        done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                              text=True, check=False)
+        if done.returncode != 0:
+            last = (done.stderr.strip().splitlines() or ["no word on stderr"])[-1]
+            raise Failure(f"{' '.join(command)}: status {done.returncode}: {last}")
+        return done.stdout
+
+
+class Progress:
+    """Lines on stderr: what runs, and how long the report has been at it."""
+
+    def __init__(self, clock):
+        self.clock, self.begin = clock, clock()
+
+    def __call__(self, text):
+        minutes, seconds = divmod(int(self.clock() - self.begin), 60)
+        print(f"report: {minutes:3d}:{seconds:02d}  {text}", file=sys.stderr, flush=True)

@@ -1,0 +1,96 @@
+"""Section: error over time, for each scene and method, and pictures at equal time."""
+import os
+
+from report_lib import pictures, plots
+from report_lib.measure import can_tell, measure, net_relmse, net_rmse_percent
+from report_lib.programs import Job
+from report_lib.scenes import TARGETS
+from report_lib.section import Picture, Section
+from report_lib.seconds_to_error import WANTED, has_met_all, targets_table
+from report_lib.tables import Table, figure, percent, signed_percents
+
+INSTANT, PAPER, TRACER = "instant radiosity", "the paper's pipeline", "path tracer"
+METHODS = {INSTANT: (), PAPER: ("--preset", "paper"), TRACER: ("--method", "path-trace")}
+HEAD = ["scene", "method", "budget [s]", "time [s]", "frames", "Mrays", "RMSE %", "less noise", "relMSE", "less noise",
+        "trimmed", "bias R G B [%]", "SSIM", "error as stated", "reference's error"]
+TEXT = [
+    "Each line is a run of its own (--seconds), with its own seed, on all cores of the machine; time is from the first "
+    "task sent out to the last frame complete. All figures are ninefold-compare's. The reference has noise of its own, "
+    "which adds to each of them; 'less noise' has it taken off: RMSE'^2 = RMSE^2 - noise^2 and relMSE' = relMSE - noise, "
+    "which has the right mean because reference and picture are independent ('-': too little is left to be measured). "
+    "The noise is found by holding two halves of the reference against each other. Plots and seconds to error use 'less noise'.",
+    "The paper's pipeline (--preset paper) has known bias: four diffuse vertices at most, a filter and a photon radius that "
+    "stay, a bound that loses energy, no anti-aliasing."]
+
+
+def run(context):
+    section = Section("speed", "Error over time", list(TEXT))
+    table = Table("speed", HEAD)
+    references = {}
+    for scene in context.scenes:
+        references[scene.name] = context.references.get(scene, scene.size(context.options.width))
+        for method in METHODS:
+            table.data += _series(context, scene, method, references[scene.name])
+        section.pictures += _sheets(context, scene, references[scene.name])
+    table.rows = [_row(entry) for entry in table.data]
+    section.tables += [targets_table(table.data, references, unbiased=(INSTANT, TRACER)), table]
+    section.pictures[:0] = _plots(context, table.data, references)
+    return section
+
+
+def _series(context, scene, method, reference):
+    entries = [_measure(context, scene, method, budget, reference) for budget in context.options.budgets]
+    if scene.name in TARGETS and method != PAPER:
+        budget = 2 * max(context.options.budgets)
+        within_reach = [wanted for wanted in WANTED if can_tell(reference, wanted[0], wanted[2])]
+        while budget <= context.options.target_seconds and not has_met_all(entries, within_reach):
+            entries.append(_measure(context, scene, method, budget, reference))
+            budget *= 2
+    return entries
+
+
+def _path(context, scene, method, budget):
+    return os.path.join(context.folder, "runs", f"{scene.name}_{list(METHODS).index(method)}_{budget:g}s.exr")
+
+
+def _measure(context, scene, method, budget, reference):
+    job = Job(scene, scene.size(context.options.width), METHODS[method])
+    seed = 1 + round(1000 * budget)
+    made = measure(context, job, seed, ("--seconds", budget), reference, _path(context, scene, method, budget))
+    return {"scene": scene.name, "method": method, "budget": budget, **made}
+
+
+def _row(e):
+    return [e["scene"], e["method"], figure(e["budget"]), figure(e["seconds"]), str(e["frames"]),
+            figure(e["rays"] / 1e6), figure(e["rmse_percent"]), figure(net_rmse_percent(e)), figure(e["relmse"]),
+            figure(net_relmse(e)), figure(e["relmse_trimmed"]),
+            signed_percents([e["bias_r"], e["bias_g"], e["bias_b"]]), figure(e["ssim"]), percent(e["error_stated"]),
+            percent(e["reference_error"])]
+
+
+def _plots(context, data, references):
+    shown = []
+    for net, label, slope, noise in ((net_rmse_percent, "RMSE %", -0.5, "noise_rmse_percent"),
+                                     (net_relmse, "relMSE", -1, "noise_relmse")):
+        series = {}
+        for e in data:
+            points = series.setdefault(e["scene"], {}).setdefault(e["method"], [])
+            if net(e) is not None:
+                points.append((e["seconds"], net(e)))
+        name = net.__name__[4:] + ".png"
+        plots.error_over_time(os.path.join(context.folder, name), series, label, slope,
+                              {scene: getattr(reference, noise) for scene, reference in references.items()})
+        shown.append(Picture(name, f"{label} over time, the reference's noise taken off", plot=True))
+    return shown
+
+
+def _sheets(context, scene, reference):
+    shown = []
+    truth = pictures.read(reference.picture)
+    for budget in dict.fromkeys((min(context.options.budgets), max(context.options.budgets))):
+        made = [pictures.read(_path(context, scene, method, budget)) for method in METHODS]
+        name = f"{scene.name}_{budget:g}s.png"
+        pictures.write(os.path.join(context.folder, name), pictures.beside_reference(truth, made))
+        shown.append(Picture(name, f"{scene.name} after {budget:g} s: reference, {', '.join(METHODS)}; "
+                                   "below them the signed error (full colour at 50 %)"))
+    return shown

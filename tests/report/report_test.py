@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+"""The report's own arithmetic, on numbers whose answer is known; no renderer. Needs scripts/install_packages report.
+
+Run it from anywhere: tests/report/report_test.py
+"""
+import os
+import pathlib
+import sys
+import tempfile
+import unittest
+
+import numpy
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+
+from report_lib import blocks, measure, pictures, seconds_to_error, tables  # noqa: E402
+from report_lib.references import Reference  # noqa: E402
+
+
+class StudentsT(unittest.TestCase):
+    def test_tails_are_those_of_the_tables(self):
+        # Two-sided 5 % and 1 % points of any table of Student's t.
+        for freedom, t, tail in ((1, 12.706, 0.05), (7, 2.3646, 0.05), (7, 3.4995, 0.01), (30, 2.0423, 0.05),
+                                 (1e6, 1.95996, 0.05)):
+            self.assertAlmostEqual(blocks.two_sided(t, freedom), tail, delta=2e-4)
+
+
+class Blocks(unittest.TestCase):
+    def test_sums_of_a_size_that_is_no_multiple_of_a_block(self):
+        sums = blocks.block_sums(numpy.ones((20, 40)))
+        self.assertEqual(sums.tolist(), [[256, 256, 128], [64, 64, 32]])
+
+    def test_equal_truths_differ_as_often_as_chance_says(self):
+        random = numpy.random.default_rng(1)
+        beyond, chance, ratios = [], [], []
+        for _ in range(40):
+            apart = blocks.difference(self.noisy(random, 6, 0.3), self.noisy(random, 4, 0.1))
+            seen, expected = apart.beyond(2)
+            beyond.append(seen)
+            chance.append(expected)
+            ratios.append((apart.relative ** 2).mean() / apart.expected ** 2)
+        # 40 x 48 blocks: the standard deviations are below 0.008 and 0.04.
+        self.assertAlmostEqual(numpy.mean(beyond), numpy.mean(chance), delta=0.03)
+        self.assertAlmostEqual(numpy.mean(ratios), 1, delta=0.16)
+
+    def test_a_wrong_block_stands_out(self):
+        random = numpy.random.default_rng(2)
+        x, r = self.noisy(random, 8, 0.1), self.noisy(random, 8, 0.1)
+        x.mean[3, 5] += 2
+        apart = blocks.difference(x, r)
+        self.assertEqual(apart.worst(), (5, 3))
+        self.assertGreater(apart.t[3, 5], 20)
+
+    @staticmethod
+    def noisy(random, count, deviation):
+        """Means and errors of `count` pictures with 6 x 8 blocks of mean 10."""
+        values = 10 + deviation * random.standard_normal((count, 6, 8))
+        error = values.std(axis=0, ddof=1) / count ** 0.5
+        return blocks.Blocks(values.mean(axis=0), error, numpy.full((6, 8), 256), None, None, count)
+
+    def test_pictures_give_the_error_between_them(self):
+        with tempfile.TemporaryDirectory() as folder:
+            paths = []
+            for number, value in enumerate((1.0, 2.0, 3.0)):
+                paths.append(os.path.join(folder, f"{number}.exr"))
+                pictures.write(paths[-1], numpy.full((20, 40, 3), value, numpy.float32))
+            found = blocks.of_pictures(paths)
+        # Mean 2, deviation 1, error 1/sqrt 3 in each block.
+        self.assertAlmostEqual(found.relative_error(), 0.5 / 3 ** 0.5, places=5)
+        self.assertAlmostEqual(found.channel_error[1], 1 / 3 ** 0.5, places=5)
+
+
+def entry(seconds, relmse, noise=0.0):
+    return {"scene": "s", "method": "m", "seconds": seconds, "relmse": relmse + noise, "noise_relmse": noise,
+            "rmse_percent": 1000.0, "noise_rmse_percent": 0.0}
+
+
+class SecondsToError(unittest.TestCase):
+    def test_a_series_that_falls_as_one_over_t_meets_its_limit_where_it_must(self):
+        points = [(t, 0.3 / t) for t in (1, 2, 4, 8, 16)]
+        self.assertAlmostEqual(seconds_to_error.crossing(points, 0.1), 3)
+        self.assertEqual(seconds_to_error.crossing(points, 0.5), 1)
+        self.assertIsNone(seconds_to_error.crossing(points, 0.001))
+
+    def test_the_table_tells_what_was_not_measured(self):
+        data = [entry(t, 0.3 / t, noise=0.02) for t in (1, 2, 4, 8)]
+        reference = Reference("", [], 1, 1, 0.001, 1.0, 0.02)
+        row = seconds_to_error.targets_table(data, {"s": reference}, unbiased=("m",)).rows[0]
+        self.assertEqual(row, ["s", "m", "3", "> 8 (~ 30)", "reference too noisy", "> 8 (~ 8000000)"])
+
+    def test_the_references_noise_is_taken_off(self):
+        self.assertAlmostEqual(measure.net_relmse(entry(1, 0.3, noise=0.1)), 0.3)
+        self.assertIsNone(measure.net_relmse(entry(1, 0.02, noise=0.1)))
+
+
+class Pictures(unittest.TestCase):
+    def test_the_curve_is_that_of_the_programs(self):
+        # common/image/tone_map.h: black, the knee, far above it.
+        codes = pictures.shown(numpy.array([[[0.0, 0.18, 0.8], [1.0, 100.0, -1.0]]]))
+        self.assertEqual(codes.tolist(), [[[0, 118, 231], [247, 255, 0]]])
+
+    def test_too_bright_is_red_and_too_dark_is_blue(self):
+        reference = numpy.ones((1, 3, 3), numpy.float32)
+        picture = reference * numpy.array([2.0, 1.0, 0.0], numpy.float32).reshape(1, 3, 1)
+        self.assertEqual(pictures.signed_error(picture, reference, 0.5)[0].tolist(), [[255, 0, 0], [255, 254, 254], [0, 0, 255]])
+
+
+class Tables(unittest.TestCase):
+    def test_figures(self):
+        self.assertEqual([tables.figure(x) for x in (0.0012345, 12.345, 123456.0, None, float("inf"))],
+                         ["0.00123", "12.3", "123456", "-", "-"])
+
+
+if __name__ == "__main__":
+    unittest.main()
