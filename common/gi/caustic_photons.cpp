@@ -71,8 +71,10 @@ std::vector<Photon> makeCausticPhotons(const Transport& t, const FrameKey& frame
       if (vpl.diffuseCount > 0) sources.push_back(&vpl);
   // The split does not depend on what this set's walks happened to find: that would bias both
   // halves.
-  const int fromVpls = s.caustics == Caustics::all && t.allows(2) ? s.photons / 2 : 0;
-  photonsFromEmitters(t, frame, k, s.photons - fromVpls, rays, photons);
+  // A single photon has no half: it becomes one of each.
+  const bool all = s.caustics == Caustics::all && t.allows(2);
+  const int fromVpls = all ? std::max(s.photons / 2, 1) : 0;
+  photonsFromEmitters(t, frame, k, std::max(s.photons - fromVpls, 1), rays, photons);
   if (fromVpls > 0) photonsFromVpls(t, frame, k, fromVpls, sources, rays, photons);
   return photons;
 }

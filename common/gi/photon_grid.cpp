@@ -8,15 +8,24 @@
 
 namespace ninefold {
 
+namespace {
+
+// The distance test works with rounded positions, so a query reaches a little further than r; and
+// what it covers must not be wider than a cell.
+constexpr double kReach = 1.0001, kHalfCell = 1.0002;  // [r]
+
+}  // namespace
+
 PhotonGrid::PhotonGrid(std::vector<Photon> photons, Metres radius)
-    : radius_(radius), inverseCell_(0.5 / static_cast<double>(radius)) {
+    : radius_(std::max(radius, kMinRadius)),
+      inverseCell_(0.5 / (kHalfCell * static_cast<double>(radius_))) {
   if (photons.empty()) return;
   mask_ = std::bit_ceil(2 * static_cast<uint32_t>(photons.size())) - 1;
   std::vector<uint32_t> slots(photons.size());
   starts_.assign(static_cast<size_t>(mask_) + 2, 0);
   for (size_t i = 0; i < photons.size(); ++i) {
     const Vec3 p = photons[i].position;
-    slots[i] = slotOf(cell(p.x), cell(p.y), cell(p.z));
+    slots[i] = slotOf(cell(double(p.x)), cell(double(p.y)), cell(double(p.z)));
     ++starts_[slots[i] + 1];
   }
   for (size_t s = 1; s < starts_.size(); ++s) starts_[s] += starts_[s - 1];
@@ -26,8 +35,8 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, Metres radius)
   for (size_t i = 0; i < photons.size(); ++i) photons_[next[slots[i]]++] = photons[i];
 }
 
-int64_t PhotonGrid::cell(float coordinate) const {
-  const double c = std::floor(static_cast<double>(coordinate) * inverseCell_);
+int64_t PhotonGrid::cell(double coordinate) const {
+  const double c = std::floor(coordinate * inverseCell_);
   return static_cast<int64_t>(std::clamp(c, -0x1p62, 0x1p62));
 }
 
@@ -37,17 +46,18 @@ uint32_t PhotonGrid::slotOf(int64_t cx, int64_t cy, int64_t cz) const {
          mask_;
 }
 
-int PhotonGrid::slotsAround(Vec3 x, std::array<uint32_t, 8>& slots) const {
-  // A little wider than r: the distance test below works with rounded positions.
-  const float reach = radius_ * 1.0001f;
-  const int64_t x0 = cell(x.x - reach), x1 = cell(x.x + reach);
-  const int64_t y0 = cell(x.y - reach), y1 = cell(x.y + reach);
-  const int64_t z0 = cell(x.z - reach), z1 = cell(x.z + reach);
+int PhotonGrid::slotsAround(Vec3 x, Slots& slots) const {
+  const double reach = kReach * static_cast<double>(radius_);
+  const DVec3 at(x);
+  const auto end = [&](double last, int64_t first) { return std::min(cell(last), first + 2); };
+  const int64_t x0 = cell(at.x - reach), x1 = end(at.x + reach, x0);
+  const int64_t y0 = cell(at.y - reach), y1 = end(at.y + reach, y0);
+  const int64_t z0 = cell(at.z - reach), z1 = end(at.z + reach, z0);
   int count = 0;
   for (int64_t cz = z0; cz <= z1; ++cz)
     for (int64_t cy = y0; cy <= y1; ++cy)
       for (int64_t cx = x0; cx <= x1; ++cx)
-        if (count < 8) slots[static_cast<size_t>(count++)] = slotOf(cx, cy, cz);
+        slots[static_cast<size_t>(count++)] = slotOf(cx, cy, cz);
   std::sort(slots.begin(), slots.begin() + count);
   return static_cast<int>(std::unique(slots.begin(), slots.begin() + count) - slots.begin());
 }

@@ -1,11 +1,12 @@
-// photon_grid.h: photons in a hashed grid of cell size 2r: a sphere of radius r meets at most eight
-// cells, and a cell's photons lie side by side. Knows nothing of light: items are (position,
-// index).
+// photon_grid.h: photons in a hashed grid of cells a hair wider than 2r: a sphere of radius r meets at
+// most eight cells (27 where rounding is as large as r), and a cell's photons lie side by side.
+// Knows nothing of light: items are (position, index).
 //
 // Cells are hashed into a table of twice the photon count (a power of two). Two cells that collide
 // share a slot; a query visits each slot once, so nothing is met twice, and the distance test
 // rejects strangers. Coordinates: cells are numbered by 64-bit integers from floor(position / 2r),
-// so negative and huge coordinates are safe as long as |position| / 2r < 2^62.
+// so negative and huge coordinates are safe as long as |position| / 2r < 2^62. A radius below
+// kMinRadius counts as that: r^2, by which flux is divided, stays a normal float.
 //
 // Source:  Teschner et al. 2003 (spatial hashing).   Proved: tests/gi (against brute force).
 // Threads: const after build.   Errors: none; an empty grid finds nothing.
@@ -29,6 +30,8 @@ struct Photon {
 
 class PhotonGrid {
  public:
+  static constexpr Metres kMinRadius = 1e-15f;
+
   PhotonGrid() = default;
   // Takes the photons and sorts them by cell. radius > 0.
   PhotonGrid(std::vector<Photon> photons, Metres radius);
@@ -42,7 +45,7 @@ class PhotonGrid {
   template <typename Visit>
   void near(Vec3 x, Visit&& visit) const {
     if (photons_.empty()) return;
-    std::array<uint32_t, 8> slots;
+    Slots slots;
     const int count = slotsAround(x, slots);
     const float r2 = radius_ * radius_;
     for (int s = 0; s < count; ++s) {
@@ -55,10 +58,10 @@ class PhotonGrid {
   }
 
  private:
-  int slotsAround(Vec3 x,
-                  std::array<uint32_t, 8>& slots) const;  // distinct, sorted; returns how many
+  using Slots = std::array<uint32_t, 27>;
+  int slotsAround(Vec3 x, Slots& slots) const;  // distinct, sorted; returns how many
   uint32_t slotOf(int64_t cx, int64_t cy, int64_t cz) const;
-  int64_t cell(float coordinate) const;
+  int64_t cell(double coordinate) const;
 
   std::vector<Photon> photons_;   // by slot
   std::vector<uint32_t> starts_;  // first photon of each slot, and the end
