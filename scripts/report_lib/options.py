@@ -7,7 +7,7 @@ from report_lib import scenes
 SECTIONS = ("agreement", "speed", "interleaving", "randomization", "needs")
 
 FULL = dict(budgets="0.5,1,2,4,8,16,32", short_budgets="1,4", target_seconds=256, reference_seconds=1200, runs=8,
-            run_seconds=60, seeds=8, frames="1,16", rounds=10, few="table_room,office")
+            run_seconds=30, seeds=8, frames="1,16", rounds=10, few="table_room,office")
 QUICK = dict(budgets="0.5,1,2", short_budgets="1", target_seconds=2, reference_seconds=10, runs=4, run_seconds=3, seeds=2,
              frames="4", rounds=0, few="table_room", scenes="cornell,table_room,egg_room")
 
@@ -33,7 +33,7 @@ def parse(words):
                         help=f"how long runs of {' and '.join(scenes.TARGETS)} get at most for the smallest errors (default 256)")
     parser.add_argument("--short-budgets", help="seconds of each run of the section interleaving (default 1,4)")
     parser.add_argument("--runs", type=int, help="runs a scene of the section agreement, at least 2 (default 8)")
-    parser.add_argument("--run-seconds", type=float, help="of each of them (default 60)")
+    parser.add_argument("--run-seconds", type=float, help="of each of them (default 30)")
     parser.add_argument("--seeds", type=int, help="runs of each kind in the sections interleaving and randomization, at least 2 (default 8)")
     parser.add_argument("--frames", help="frames of each run of the section randomization (default 1,16)")
     parser.add_argument("--rounds", type=int, help="of timing what unused features cost; 0: do not (default 10)")
