@@ -10,7 +10,7 @@ from report_lib.section import Picture, Section
 from report_lib.tables import Table, figure, percent, signed_percents
 
 HEAD = ["scene", "runs x frames", "error between runs", "error as stated", "reference's error", "bias R G B [%]",
-        "its error [%]", "blocks beyond 2 (chance)", "beyond 3 (chance)", "block difference (noise alone)",
+        "error of that [%]", "blocks beyond 2 (chance)", "beyond 3 (chance)", "block difference (noise alone)",
         "worst block: t, difference"]
 TEXT = [
     "Several runs of instant radiosity with different seeds, their mean held against a path-traced reference. "

@@ -61,14 +61,15 @@ def _error(values):
 class Difference:
     """Of two sets of pictures of one scene, block by block."""
     t: numpy.ndarray
-    freedom: numpy.ndarray
+    freedom: numpy.ndarray  # 0 where both sides are the same without any noise: nothing to test
     relative: numpy.ndarray  # (x - r)/mean r of the image
     expected: float  # root mean square of `relative` if there is nothing but the stated errors
 
     def beyond(self, limit):
         """The fraction of blocks with |t| > limit, and the fraction that chance alone would put there."""
-        return float((numpy.abs(self.t) > limit).mean()), float(numpy.mean([two_sided(limit, f)
-                                                                            for f in self.freedom.flat]))
+        tested = self.freedom > 0
+        chance = [two_sided(limit, freedom) for freedom in self.freedom[tested]]
+        return float((numpy.abs(self.t[tested]) > limit).mean()), float(numpy.mean(chance))
 
     def worst(self):
         """(column, row) of the block with the largest |t|."""
@@ -78,11 +79,14 @@ class Difference:
 
 def difference(x, r):
     variance = x.error ** 2 + r.error ** 2
-    e = numpy.sqrt(numpy.maximum(variance, 1e-300))
-    freedom = variance ** 2 / numpy.maximum(x.error ** 4 / (x.count - 1) + r.error ** 4 / (r.count - 1), 1e-300)
     mean = (r.pixels * r.mean).sum() / r.pixels.sum()
-    t = numpy.where(x.mean == r.mean, 0, (x.mean - r.mean) / e)
-    return Difference(t, numpy.maximum(freedom, 1), (x.mean - r.mean) / mean,
+    least = (1e-9 * mean) ** 2  # of rounding
+    same = (variance < least) & (numpy.abs(x.mean - r.mean) < 1e-6 * mean)
+    e = numpy.sqrt(numpy.maximum(variance, least))
+    freedom = e ** 4 / numpy.maximum(x.error ** 4 / (x.count - 1) + r.error ** 4 / (r.count - 1),
+                                     e ** 4 / (x.count + r.count - 2))
+    t = numpy.where(same, 0, (x.mean - r.mean) / e)
+    return Difference(t, numpy.where(same, 0, freedom), (x.mean - r.mean) / mean,
                       math.sqrt(float(variance.mean())) / mean)
 
 

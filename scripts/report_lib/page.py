@@ -4,7 +4,7 @@ import html
 import os
 
 STYLE = """
-body { font: 15px/1.5 sans-serif; color: #222; background: #fff; margin: 2em auto; max-width: 1200px; padding: 0 1em; }
+body { font: 15px/1.5 sans-serif; color: #222; background: #fff; margin: 2em auto; max-width: 1500px; padding: 0 1em; }
 h1, h2 { font-weight: 600; }
 table { border-collapse: collapse; font-size: 13px; display: block; overflow-x: auto; margin: 1em 0; }
 th, td { padding: 2px 8px; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }

@@ -52,6 +52,17 @@ class Blocks(unittest.TestCase):
         self.assertEqual(apart.worst(), (5, 3))
         self.assertGreater(apart.t[3, 5], 20)
 
+    def test_blocks_without_noise_are_not_counted(self):
+        random = numpy.random.default_rng(3)
+        x, r = self.noisy(random, 4, 0.1), self.noisy(random, 4, 0.1)
+        for side in (x, r):
+            side.mean[1:], side.error[1:] = 7, 0
+        x.mean[0] += 100
+        apart = blocks.difference(x, r)
+        self.assertEqual(apart.beyond(3)[0], 1)
+        self.assertLess(apart.beyond(3)[1], 0.06)  # 3 degrees of freedom or more
+        self.assertTrue((apart.t[1:] == 0).all())
+
     @staticmethod
     def noisy(random, count, deviation):
         """Means and errors of `count` pictures with 6 x 8 blocks of mean 10."""
