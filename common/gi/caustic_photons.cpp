@@ -18,7 +18,8 @@ void tracePhoton(const Transport& t, const Particle& start, const MediumStack& m
                 [&](const Arrival& a) {
                   const ShadingPoint& p = *a.point;
                   if (a.fromSpecular && !isBlack(p.bsdf.diffuse)) {
-                    const Flux flux = share * shadingFactor(p, p.wo) * a.flux;
+                    const Flux flux =
+                        share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.wo) * a.flux;
                     if (!isBlack(flux))
                       out.push_back({p.surface.position, p.ng, flux, a.diffuseBefore});
                   }
@@ -49,8 +50,9 @@ void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Distribution::Choice choice = byFlux.choose(sampler.get1D(i, 0));
     const Vpl& vpl = *sources[choice.index];
-    const LambertSource source{vpl.position, vpl.normal, vpl.error,
-                               kPi / choice.probability * vpl.power};
+    const LambertSource source{
+        vpl.position, vpl.normal, vpl.error,
+        kPi * t.shader.squaredIndex(vpl.media) / choice.probability * vpl.power};
     const Particle start = emitAimed(t, source, sampler.get2D(i, 2), sampler.get1D(i, 1));
     tracePhoton(t, start, vpl.media, vpl.diffuseCount, 1.0f / static_cast<float>(count), sampler, i,
                 rays, out);

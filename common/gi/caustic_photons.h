@@ -1,7 +1,7 @@
 // caustic_photons.h: photons for the last leg from an S vertex, L S+ D and ...D S+ D.
 //
 //   E(x) = 1/(pi r^2) sum Phi_i    over photons within r, landed on x's side, normals within 60
-//   degrees   [W/m^2]
+//   degrees   [W/m^2]; Phi_i = flux / n^2 in a medium of index n
 //
 // Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are
 // stored at the first D vertex if there was an S before it. With `all`, half of them leave the

@@ -24,7 +24,8 @@ namespace ninefold {
 inline constexpr float kMaxSurvival = 0.99f;
 inline constexpr int kMaxVertices = 4096;
 
-// Where a particle arrives. flux is that of the arriving particle [W], attenuated by the medium.
+// Where a particle arrives. flux is that of the arriving particle [W], attenuated by the medium; what
+// it adds to the (basic) irradiance there is flux / n^2.
 struct Arrival {
   const ShadingPoint* point;
   Flux flux;
@@ -72,6 +73,11 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
                                      std::numeric_limits<float>::infinity());
     if (!hit) return;
     const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -particle.direction, media);
+    if (t.shader.neverEntered(p, media)) {  // it started inside: the light was taken for one in air
+      particle.flux /= t.shader.squaredIndex(media);
+      media.enter(p.surface.material);
+      particle.flux *= t.shader.squaredIndex(media);
+    }
     particle.flux *= t.shader.attenuation(p, media, hit.t);
     const bool goOn = visit(Arrival{&p, particle.flux, media, fromSpecular, diffuseBefore});
 

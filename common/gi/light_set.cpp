@@ -90,12 +90,13 @@ void walkIndirect(const Transport& t, SampleUse use, uint32_t randomization, int
   }
 }
 
-Vpl indirectVpl(const Arrival& a, float share) {
+Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
   const ShadingPoint& p = *a.point;
   Vpl vpl;
   vpl.position = p.surface.position, vpl.error = p.surface.error;
   vpl.normal = p.ng;
-  vpl.power = share * kInvPi * shadingFactor(p, p.wo) * p.bsdf.diffuse * a.flux;
+  vpl.power = share / t.shader.squaredIndex(a.media) * kInvPi * shadingFactor(p, p.wo) *
+              p.bsdf.diffuse * a.flux;
   vpl.diffuseCount = a.diffuseBefore + 1;
   vpl.media = a.media;
   return vpl;
@@ -121,7 +122,7 @@ LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int path
   if (pathsLog2 >= 0) {
     const float share = 1 / static_cast<float>(1u << pathsLog2);
     walkIndirect(t, SampleUse::lightPath, frame.randomization, k, pathsLog2, set.rays,
-                 [&](const Arrival& a) { set.vpls.push_back(indirectVpl(a, share)); });
+                 [&](const Arrival& a) { set.vpls.push_back(indirectVpl(t, a, share)); });
     std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power); });
   }
   std::vector<Photon> photons = makeCausticPhotons(t, frame, k, set.vpls, set.rays);

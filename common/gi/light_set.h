@@ -7,7 +7,8 @@
 //   cos_x                                sun, and samples of the environment
 //
 // Direct VPLs: N samples of the emitters in proportion to power; equal punctual ones are merged
-// into one. Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / 2^m. m is
+// into one. Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / (n^2 2^m),
+// n = index of the medium around (radiance is basic, the particles' flux is not). m is
 // such that the mean number of VPLs is nearest (in ratio) to the wanted one; walks are never cut to
 // a count. Caustic photons: see caustic_photons.h.
 //

@@ -1,9 +1,12 @@
 // media.h: which solid transmitting materials a path is inside of, innermost last, so that nested
-// dielectrics (a glass ball in water) meet with the right relative index of refraction.
+// dielectrics (a glass ball in water) meet with the right relative index of refraction. Where two
+// overlap, the one entered last counts, and leaving the other one there changes nothing; where two
+// touch, both are crossed at once (tracing/contacts.h).
 //
 // Air (index 1) is around everything. Entering pushes a material, leaving removes its innermost
-// entry; leaving what was never entered (a light or a camera inside glass) changes nothing. Deeper
-// nests than kMaxNested forget the outermost entry. Threads: plain value.
+// entry; leaving what was never entered (a light inside glass) changes nothing, so a light inside two
+// nested solids is taken for one in the inner solid alone. Deeper nests than kMaxNested forget the
+// outermost entry. Threads: plain value.
 #pragma once
 
 namespace ninefold {
@@ -16,11 +19,10 @@ class MediumStack {
   // Material index of the innermost medium, or kAir.
   int innermost() const { return count_ == 0 ? kAir : material_[count_ - 1]; }
 
-  // The innermost medium once `material` is left.
-  int innermostWithout(int material) const {
-    MediumStack copy = *this;
-    copy.leave(material);
-    return copy.innermost();
+  bool contains(int material) const {
+    for (int i = 0; i < count_; ++i)
+      if (material_[i] == material) return true;
+    return false;
   }
   void enter(int material) {
     if (count_ == kMaxNested) {

@@ -16,16 +16,15 @@ MediumStack mediaAround(const Transport& t, Vec3 eye) {
     const Hit hit = t.tracer.closest(origin, direction, std::numeric_limits<float>::infinity());
     if (!hit) break;
     const SurfacePoint s = t.tracer.surface(hit);
-    const Material& m = t.scene.materials[static_cast<size_t>(s.material)];
-    if (m.solid && m.transmission > 0) {
-      const bool leaves = glm::dot(direction, s.geometricNormal) > 0;
-      if (!leaves)
-        entered.enter(s.material);
-      else if (entered.innermost() == s.material)
-        entered.leave(s.material);
+    const bool fromFront = glm::dot(direction, s.geometricNormal) < 0;
+    t.shader.forEachCrossed(s, fromFront, [&](int material, bool enters) {
+      if (enters)
+        entered.enter(material);
+      else if (entered.contains(material))
+        entered.leave(material);
       else
-        outwards.push_back(s.material);
-    }
+        outwards.push_back(material);
+    });
     origin = offsetOrigin(s, direction);
   }
   MediumStack media;

@@ -138,9 +138,8 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   p.bsdf.thin = !m.solid;
   if (prepared.transmits) {
     fillTransmitting(p.bsdf, m, prepared, base, metallic, s);
-    const int beyond = p.front ? s.material : media.innermostWithout(s.material);
-    const int here = p.front ? media.innermost() : s.material;
-    p.bsdf.eta = p.bsdf.thin ? m.ior : indexOf(beyond) / indexOf(here);
+    p.bsdf.eta =
+        p.bsdf.thin ? m.ior : indexOf(pass(p, media).innermost()) / indexOf(before(p, media));
   } else {
     fillOpaque(p.bsdf, m, prepared, base, metallic, alpha, s);
   }
@@ -154,9 +153,7 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
 }
 
 Vec3 Shader::attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const {
-  const Material& m = scene_->materials[static_cast<size_t>(end.surface.material)];
-  const int inside =
-      !end.front && m.solid && m.transmission > 0 ? end.surface.material : media.innermost();
+  const int inside = before(end, media);
   if (inside == MediumStack::kAir) return Vec3(1);
   const Vec3 sigma = materials_[static_cast<size_t>(inside)].sigma;
   if (isBlack(sigma)) return Vec3(1);
@@ -164,14 +161,28 @@ Vec3 Shader::attenuation(const ShadingPoint& end, const MediumStack& media, floa
               std::exp(-sigma.z * distance));
 }
 
-MediumStack Shader::pass(const ShadingPoint& point, MediumStack media) const {
-  const int material = point.surface.material;
-  const Material& m = scene_->materials[static_cast<size_t>(material)];
-  if (!m.solid || !materials_[static_cast<size_t>(material)].transmits) return media;
-  if (point.front)
-    media.enter(material);
-  else
-    media.leave(material);
+bool Shader::isSolid(int material) const {
+  return scene_->materials[static_cast<size_t>(material)].solid &&
+         materials_[static_cast<size_t>(material)].transmits;
+}
+
+bool Shader::neverEntered(const ShadingPoint& p, const MediumStack& media) const {
+  return !p.front && isSolid(p.surface.material) && !media.contains(p.surface.material);
+}
+
+int Shader::before(const ShadingPoint& p, const MediumStack& media) const {
+  return neverEntered(p, media) ? p.surface.material : media.innermost();
+}
+
+float Shader::squaredIndex(const MediumStack& media) const {
+  const float n = indexOf(media.innermost());
+  return n * n;
+}
+
+MediumStack Shader::pass(const ShadingPoint& p, MediumStack media) const {
+  forEachCrossed(p.surface, p.front, [&](int material, bool enters) {
+    enters ? media.enter(material) : media.leave(material);
+  });
   return media;
 }
 

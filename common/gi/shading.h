@@ -64,8 +64,29 @@ class Shader {
   // point.
   Vec3 attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const;
 
-  // The media after passing through the surface away from wo.
+  // The media after passing through the surface away from wo, and through all in contact with it.
   MediumStack pass(const ShadingPoint& point, MediumStack media) const;
+
+  // Calls visit(material, enters) for each solid that a path through `surface` crosses, what it
+  // leaves before what it enters: between solids in contact there is no air. fromFront: the path
+  // comes from the front of the surface.
+  template <typename Visit>
+  void forEachCrossed(const SurfacePoint& surface, bool fromFront, Visit&& visit) const {
+    for (const bool enters : {false, true}) {
+      if (isSolid(surface.material) && fromFront == enters) visit(surface.material, enters);
+      for (int i = 0; i < surface.contactCount; ++i) {
+        const SolidContact& contact = surface.contacts[static_cast<size_t>(i)];
+        if ((contact.sameSide == fromFront) == enters) visit(contact.material, enters);
+      }
+    }
+  }
+
+  // True if `point` leaves a solid that the path is not known to be in: it started there.
+  bool neverEntered(const ShadingPoint& point, const MediumStack& media) const;
+
+  // n^2 of the innermost medium. Radiance is basic radiance L/n^2, but particles carry flux [W]: what
+  // they bring to a D vertex, or an emitter gives them, is n^2 times what basic radiance says.
+  float squaredIndex(const MediumStack& media) const;
 
   // True if the material of an instance keeps an S lobe (photons aim at it).
   bool isSpecular(int material) const { return materials_[static_cast<size_t>(material)].specular; }
@@ -79,6 +100,8 @@ class Shader {
     float meanFresnel = 0;   // of a transmitting material's interface
   };
   float indexOf(int material) const;
+  bool isSolid(int material) const;
+  int before(const ShadingPoint& point, const MediumStack& media) const;  // medium on wo's side
   Basis shadingFrame(const SurfacePoint& surface, Vec3 ng, Vec3 wo) const;
   void fillOpaque(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                   float metallic, float alpha, const SurfacePoint& s) const;

@@ -83,6 +83,13 @@ Tracer::Corners InstanceGeometry::corners(uint32_t triangle) const {
   return {vertices_[t.x], vertices_[t.y], vertices_[t.z]};
 }
 
+Vec3 InstanceGeometry::frontNormal(uint32_t triangle) const {
+  const Tracer::Corners at = corners(triangle);
+  const DVec3 normal = exactNormal(at.a, at.b, at.c);
+  const double length = glm::length(normal);
+  return length > 0 ? Vec3(double(handedness_) / length * normal) : Vec3(0);
+}
+
 void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint& p) const {
   const Triangle& t = mesh_->triangles[triangle];
   const Tracer::Corners at = corners(triangle);
@@ -91,7 +98,7 @@ void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint
   p.material = mesh_->material;
   p.position = pointOnTriangle(at.a, at.b, at.c, weights.y, weights.z);
   setTexture(t, weights, p);
-  setNormals(t, at, weights, p);
+  setNormals(triangle, weights, p);
   setTangent(t, at, weights, p);
   p.error = triangleError(at.a, at.b, at.c, p.geometricNormal, p.position);
 }
@@ -101,14 +108,13 @@ void InstanceGeometry::setTexture(const Triangle& t, const Vec3& weights, Surfac
   p.uv1 = mesh_->uv1.empty() ? Vec2(0) : interpolate(mesh_->uv1, t, weights);
 }
 
-void InstanceGeometry::setNormals(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
-                                  SurfacePoint& p) const {
-  const DVec3 normal = exactNormal(at.a, at.b, at.c);
-  const double length = glm::length(normal);
-  p.geometricNormal = length > 0 ? Vec3(double(handedness_) / length * normal) : Vec3(0, 0, 1);
+void InstanceGeometry::setNormals(uint32_t triangle, const Vec3& weights, SurfacePoint& p) const {
+  const Vec3 normal = frontNormal(triangle);
+  p.geometricNormal = isBlack(normal) ? Vec3(0, 0, 1) : normal;
   p.shadingNormal = p.geometricNormal;
   if (mesh_->normals.empty()) return;
-  const Vec3 turned = normalToWorld_ * interpolate(mesh_->normals, t, weights);
+  const Vec3 turned =
+      normalToWorld_ * interpolate(mesh_->normals, mesh_->triangles[triangle], weights);
   p.shadingNormal = unitOr(turned, p.geometricNormal);
   const float side = glm::dot(p.shadingNormal, p.geometricNormal);
   if (side < 0) p.shadingNormal = -p.shadingNormal;

@@ -26,6 +26,7 @@ class InstanceGeometry {
   // reads.
   const Vec3* vertices() const { return vertices_.data(); }
   Tracer::Corners corners(uint32_t triangle) const;
+  Vec3 frontNormal(uint32_t triangle) const;  // unit; 0 for a triangle without area
 
   // The surface at barycentrics (u, v); they are clamped into the triangle. Leaves p.instance
   // alone.
@@ -34,8 +35,7 @@ class InstanceGeometry {
  private:
   void flatten(const Instance& instance);
   void setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
-  void setNormals(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
-                  SurfacePoint& p) const;
+  void setNormals(uint32_t triangle, const Vec3& weights, SurfacePoint& p) const;
   void setTangent(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
                   SurfacePoint& p) const;
 

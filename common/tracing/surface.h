@@ -8,6 +8,7 @@
 // Based Rendering" 3.9 (error bounds of intersection points). Threads: plain values.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "common/math/vec.h"
@@ -24,7 +25,15 @@ struct Hit {
   explicit operator bool() const { return instance != ~0u; }
 };
 
+// A solid (a dielectric with an inside) whose surface lies in the one that was hit, see contacts.h.
+struct SolidContact {
+  int material = 0;
+  bool sameSide = true;  // its front is on the same side
+};
+
 struct SurfacePoint {
+  static constexpr int kMaxContacts = 3;
+
   Vec3 position{0};
   Vec3 geometricNormal{0};  // unit; front side by winding (mirrored instances are turned right)
   Vec3 shadingNormal{0};    // unit, interpolated; on the geometric normal's side; no normal map yet
@@ -34,6 +43,8 @@ struct SurfacePoint {
   uint32_t instance = 0, triangle = 0;
   int material = 0;
   float error = 0;  // bound of the distance of `position` from the exact surface [m]
+  std::array<SolidContact, kMaxContacts> contacts;
+  int contactCount = 0;
 };
 
 // Start of a ray from `p` into `direction`: moved to the side of the surface into which it goes.

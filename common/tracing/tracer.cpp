@@ -1,9 +1,10 @@
 #include "common/tracing/tracer.h"
 
 #include <new>
+#include <optional>
 
 #include "common/base/error.h"
-#include "common/tracing/alpha_mask.h"
+#include "common/tracing/contacts.h"
 #include "common/tracing/device.h"
 #include "common/tracing/geometry.h"
 #include "common/tracing/packet.h"
@@ -28,6 +29,7 @@ struct Tracer::Impl {
   std::vector<AlphaMask> masks;
   Device device;
   Hierarchy hierarchy;
+  std::optional<Contacts> contacts;
   std::string isaName;
   bool wide;  // Embree has 16-wide kernels here
 
@@ -53,6 +55,7 @@ struct Tracer::Impl {
     for (size_t i = 0; i < geometries.size(); ++i) attach(i);
     rtcCommitScene(hierarchy.get());
     throwOnError(device.get(), "building the ray hierarchy");
+    contacts.emplace(scene, geometries, masks, hierarchy.get());
   }
 
   void attach(size_t i) {
@@ -84,7 +87,8 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   embree::intersect1(impl_->hierarchy.get(), &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit::none();
-  return {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar};
+  return impl_->contacts->which(
+      {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar});
 }
 
 void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits) const {
@@ -97,7 +101,8 @@ void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits) const {
     hits[i] = Hit::none();
     if ((lanes >> i & 1) == 0 || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     rays.farT[i] = query.ray.tfar[i];
-    hits[i] = Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]};
+    hits[i] =
+        impl_->contacts->which(Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]});
   }
 }
 
@@ -120,6 +125,7 @@ SurfacePoint Tracer::surface(const Hit& hit) const {
   SurfacePoint p;
   p.instance = hit.instance;
   impl_->geometries[hit.instance].surface(hit.triangle, hit.u, hit.v, p);
+  impl_->contacts->addTo(hit, p);
   return p;
 }
 

@@ -1,0 +1,164 @@
+#include "common/tracing/contacts.h"
+
+#include "common/math/rounding.h"
+#include "common/scene/needs.h"
+
+namespace ninefold {
+namespace {
+
+// Errors of triangles that are no slivers stay below this share of the scene's radius.
+constexpr float kMargin = 100 * kUnitRoundoff;
+// How far outside of a triangle, in barycentrics, a point still is in it: none falls between two.
+constexpr double kSlack = 1e-6;
+
+bool isSolid(const Material& m) { return m.solid && transmits(m); }
+
+int opacity(const Material& m) {
+  if (m.alphaMode == AlphaMode::blend || (transmits(m) && !m.solid)) return 0;
+  return isSolid(m) ? 1 : 2;
+}
+
+// Calls visit(instance, triangle) for every triangle whose box is near p.
+template <typename Visit>
+void forEachNear(RTCScene hierarchy, Vec3 p, float radius, Visit visit) {
+  RTCPointQuery query{p.x, p.y, p.z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  const auto callback = [](RTCPointQueryFunctionArguments* found) {
+    (*static_cast<Visit*>(found->userPtr))(found->geomID, found->primID);
+    return false;
+  };
+  rtcPointQuery(hierarchy, &query, &context, callback, &visit);
+}
+
+Vec3 lowOf(const Tracer::Corners& t) { return glm::min(t.a, glm::min(t.b, t.c)); }
+Vec3 highOf(const Tracer::Corners& t) { return glm::max(t.a, glm::max(t.b, t.c)); }
+
+float errorAt(const Tracer::Corners& t, Vec3 normal, Vec3 p) {
+  return triangleError(t.a, t.b, t.c, normal, p);
+}
+
+// Distance from t's plane.
+float planeDistance(const Tracer::Corners& t, Vec3 normal, Vec3 p) {
+  return static_cast<float>(std::abs(glm::dot(DVec3(p) - DVec3(t.a), DVec3(normal))));
+}
+
+bool liesInPlane(const Tracer::Corners& t, const Tracer::Corners& plane, Vec3 n, Vec3 planeN) {
+  for (const Vec3& p : {t.a, t.b, t.c})
+    if (planeDistance(plane, planeN, p) > errorAt(t, n, p) + errorAt(plane, planeN, p))
+      return false;
+  return true;
+}
+
+bool boxesMeet(const Tracer::Corners& s, const Tracer::Corners& t, float margin) {
+  return glm::all(glm::lessThanEqual(lowOf(s), highOf(t) + margin)) &&
+         glm::all(glm::lessThanEqual(lowOf(t), highOf(s) + margin));
+}
+
+// Barycentrics of p's foot point in t.
+glm::dvec2 barycentrics(const Tracer::Corners& t, Vec3 p) {
+  const DVec3 a(t.a), e1 = DVec3(t.b) - a, e2 = DVec3(t.c) - a, w = DVec3(p) - a;
+  const DVec3 n = glm::cross(e1, e2);
+  const double n2 = glm::dot(n, n);
+  return {glm::dot(glm::cross(w, e2), n) / n2, glm::dot(glm::cross(e1, w), n) / n2};
+}
+
+}  // namespace
+
+Contacts::Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geometries,
+                   const std::vector<AlphaMask>& masks, RTCScene hierarchy)
+    : scene_(&scene),
+      geometries_(&geometries),
+      masks_(&masks),
+      hierarchy_(hierarchy),
+      margin_(kMargin * scene.bounds.radius()),
+      touching_(geometries.size()) {
+  for (uint32_t i = 0; i < geometries.size(); ++i)
+    if (opacity(material(i)) < 2) findFrom(i);
+}
+
+const Material& Contacts::material(uint32_t instance) const {
+  return *(*masks_)[instance].material;
+}
+
+Contacts::Face Contacts::face(uint32_t instance, uint32_t triangle) const {
+  const InstanceGeometry& geometry = (*geometries_)[instance];
+  return {instance, triangle, geometry.corners(triangle), geometry.frontNormal(triangle)};
+}
+
+void Contacts::mark(const Face& f) {
+  std::vector<bool>& flags = touching_[f.instance];
+  if (flags.empty()) flags.resize((*geometries_)[f.instance].mesh().triangles.size());
+  flags[f.triangle] = true;
+}
+
+void Contacts::findFrom(uint32_t instance) {
+  const size_t count = (*geometries_)[instance].mesh().triangles.size();
+  for (uint32_t i = 0; i < count; ++i) {
+    const Face one = face(instance, i);
+    const Vec3 low = lowOf(one.at), high = highOf(one.at);
+    const auto visit = [&](uint32_t otherInstance, uint32_t otherTriangle) {
+      const Face other = face(otherInstance, otherTriangle);
+      const float cosine = glm::dot(one.normal, other.normal);
+      if (std::abs(cosine) < 0.9f || (otherInstance == instance && cosine > 0)) return;
+      if (!boxesMeet(one.at, other.at, margin_)) return;
+      if (liesInPlane(one.at, other.at, one.normal, other.normal) ||
+          liesInPlane(other.at, one.at, other.normal, one.normal))
+        mark(one), mark(other);
+    };
+    forEachNear(hierarchy_, 0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_,
+                visit);
+  }
+}
+
+std::vector<Contacts::Contact> Contacts::at(const Hit& hit, Vec3 p) const {
+  const Face own = face(hit.instance, hit.triangle);
+  const float ownError = errorAt(own.at, own.normal, p);
+  std::vector<Contact> found;
+  const auto visit = [&](uint32_t instance, uint32_t triangle) {
+    const Face f = face(instance, triangle);
+    const bool sameSide = glm::dot(own.normal, f.normal) > 0;
+    if ((instance == own.instance && sameSide) || isBlack(f.normal)) return;
+    const float distance = planeDistance(f.at, f.normal, p), error = errorAt(f.at, f.normal, p);
+    if (distance > std::min(ownError + error, margin_)) return;
+    const glm::dvec2 uv = barycentrics(f.at, p);
+    if (uv.x < -kSlack || uv.y < -kSlack || uv.x + uv.y > 1 + kSlack) return;
+    const auto u = static_cast<float>(uv.x), v = static_cast<float>(uv.y);
+    if ((*masks_)[instance].material->alphaMode == AlphaMode::mask &&
+        (*masks_)[instance].isOpen(triangle, u, v))
+      return;
+    found.push_back({instance, triangle, u, v, sameSide, distance + error});
+  };
+  forEachNear(hierarchy_, p, margin_, visit);
+  // One face of each side of an instance, also on the edge between two.
+  const auto key = [](const Contact& c) { return std::tuple(c.instance, c.sameSide, c.triangle); };
+  std::sort(found.begin(), found.end(),
+            [&](const Contact& a, const Contact& b) { return key(a) < key(b); });
+  const auto last = std::unique(found.begin(), found.end(), [](const Contact& a, const Contact& b) {
+    return a.instance == b.instance && a.sameSide == b.sameSide;
+  });
+  found.erase(last, found.end());
+  return found;
+}
+
+Hit Contacts::mostOpaque(const Hit& hit) const {
+  const Tracer::Corners own = (*geometries_)[hit.instance].corners(hit.triangle);
+  Hit best = hit;
+  for (const Contact& c : at(hit, pointOnTriangle(own.a, own.b, own.c, hit.u, hit.v))) {
+    const int here = opacity(material(c.instance)), there = opacity(material(best.instance));
+    if (here > there || (here == there && c.instance < best.instance))
+      best = {c.instance, c.triangle, c.u, c.v, hit.t};
+  }
+  return best;
+}
+
+void Contacts::addSolids(const Hit& hit, SurfacePoint& p) const {
+  for (const Contact& c : at(hit, p.position)) {
+    p.error = std::max(p.error, c.reach);
+    if (!isSolid(material(c.instance)) || p.contactCount == SurfacePoint::kMaxContacts) continue;
+    p.contacts[static_cast<size_t>(p.contactCount++)] = {(*geometries_)[c.instance].mesh().material,
+                                                         c.sameSide};
+  }
+}
+
+}  // namespace ninefold

@@ -1,0 +1,70 @@
+// contacts.h: surfaces that lie in one another, of which at least one lets light pass: a glass that
+// stands on a table, water in a glass, a pane against a wall.
+//
+// A ray meets one of them, whichever rounding puts first, and the next ray starts beyond both
+// (surface.h). So at the hit all of them must be known:
+//   which()   the hit is on the one that lets least pass: opaque before solid before thin or
+//             blended, among equals on the one that comes first in the scene
+//   addTo()   names the solids at a point, so that all are left and entered together, and widens
+//             the point's error so that new rays start outside all of them
+// Two triangles are in contact at a point if both hold it and their planes there are no further
+// apart than the sum of their errors (math/rounding.h). Triangles of one instance are if they look
+// in opposite directions.
+//
+// Which triangles touch any is found at load; a hit on another one costs a look-up.
+// Proved:  tests/tracing/contacts_test.cpp, tests/gi/glass_test.cpp.
+// Private to this folder. Threads: const after construction. Owner: refers to its arguments.
+// Errors: none; of more than SurfacePoint::kMaxContacts solids at one point the rest is forgotten.
+#pragma once
+
+#include <vector>
+
+#include "common/tracing/alpha_mask.h"
+
+namespace ninefold {
+
+class Contacts {
+ public:
+  // `hierarchy` holds all geometries, is committed, and its triangles are numbered as theirs.
+  Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geometries,
+           const std::vector<AlphaMask>& masks, RTCScene hierarchy);
+
+  Hit which(const Hit& hit) const { return touches(hit) ? mostOpaque(hit) : hit; }
+  void addTo(const Hit& hit, SurfacePoint& p) const {
+    if (touches(hit)) addSolids(hit, p);
+  }
+
+ private:
+  // A triangle with its plane.
+  struct Face {
+    uint32_t instance, triangle;
+    Tracer::Corners at;
+    Vec3 normal;  // of the front, unit; 0 for a triangle without area
+  };
+  struct Contact {
+    uint32_t instance, triangle;
+    float u, v;
+    bool sameSide;
+    float reach;  // distance of its plane and error there [m]
+  };
+
+  bool touches(const Hit& hit) const {
+    return !touching_[hit.instance].empty() && touching_[hit.instance][hit.triangle];
+  }
+  void findFrom(uint32_t instance);
+  void mark(const Face& face);
+  Hit mostOpaque(const Hit& hit) const;
+  void addSolids(const Hit& hit, SurfacePoint& p) const;
+  std::vector<Contact> at(const Hit& hit, Vec3 position) const;
+  Face face(uint32_t instance, uint32_t triangle) const;
+  const Material& material(uint32_t instance) const;
+
+  const Scene* scene_;
+  const std::vector<InstanceGeometry>* geometries_;
+  const std::vector<AlphaMask>* masks_;
+  RTCScene hierarchy_;
+  float margin_;                             // larger than any two errors [m]
+  std::vector<std::vector<bool>> touching_;  // [instance][triangle]; empty where nothing touches
+};
+
+}  // namespace ninefold
