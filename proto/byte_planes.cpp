@@ -8,7 +8,8 @@ namespace {
 
 enum Mode : uint8_t { kZero = 0, kConstant = 1, kPlain = 2, kDifferences = 3 };
 
-// How often a difference or value meets itself again: the larger, the fewer bits zstd needs.
+// How often a difference or value meets itself again: the larger, the fewer bits zstd needs. Every
+// fourth byte tells enough.
 uint64_t repetition(const std::array<uint32_t, 256>& histogram) {
   uint64_t sum = 0;
   for (const uint64_t count : histogram) sum += count * count;
@@ -17,21 +18,21 @@ uint64_t repetition(const std::array<uint32_t, 256>& histogram) {
 
 bool differencesPay(std::span<const uint8_t> plane) {
   std::array<uint32_t, 256> values{}, differences{};
-  uint8_t last = 0;
-  for (const uint8_t value : plane) {
-    ++values[value];
-    ++differences[static_cast<uint8_t>(value - last)];
-    last = value;
+  for (size_t i = 1; i < plane.size(); i += 4) {
+    ++values[plane[i]];
+    ++differences[static_cast<uint8_t>(plane[i] - plane[i - 1])];
   }
   return repetition(differences) > repetition(values);
 }
 
-// Backwards, so that each byte still sees its neighbour's own value.
-void takeDifferences(std::span<uint8_t> plane, size_t width) {
-  for (size_t i = plane.size(); i-- > 1;) {
-    const size_t before = i % width != 0 ? i - 1 : i - width;
-    plane[i] = static_cast<uint8_t>(plane[i] - plane[before]);
-  }
+void writeDifferences(std::span<const uint8_t> plane, size_t width, Bytes& out) {
+  const size_t first = out.size();
+  out.resize(first + plane.size());
+  auto* to = reinterpret_cast<uint8_t*>(out.data() + first);
+  to[0] = plane[0];
+  for (size_t i = 1; i < plane.size(); ++i) to[i] = static_cast<uint8_t>(plane[i] - plane[i - 1]);
+  for (size_t row = width; row < plane.size(); row += width)
+    to[row] = static_cast<uint8_t>(plane[row] - plane[row - width]);
 }
 
 void addDifferences(std::span<uint8_t> plane, size_t width) {
@@ -44,7 +45,7 @@ void addDifferences(std::span<uint8_t> plane, size_t width) {
 
 }  // namespace
 
-void writePlane(std::span<uint8_t> plane, size_t width, Bytes& out) {
+void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out) {
   NINEFOLD_CHECK(!plane.empty() && plane.size() % width == 0);
   ByteWriter writer(out);
   const uint8_t first = plane.front();
@@ -54,10 +55,14 @@ void writePlane(std::span<uint8_t> plane, size_t width, Bytes& out) {
     return;
   }
   const bool differences = differencesPay(plane);
-  if (differences) takeDifferences(plane, width);
   writer.number<uint8_t>(differences ? kDifferences : kPlain);
-  writer.raw(plane.data(), plane.size());
+  if (differences)
+    writeDifferences(plane, width, out);
+  else
+    writer.raw(plane.data(), plane.size());
 }
+
+void writeZeroPlane(Bytes& out) { ByteWriter(out).number<uint8_t>(kZero); }
 
 void readPlane(ByteReader& in, size_t width, std::span<uint8_t> plane) {
   const auto mode = in.number<uint8_t>("plane mode");

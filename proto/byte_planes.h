@@ -17,8 +17,10 @@
 
 namespace ninefold {
 
-// `plane` is `width` bytes times any number of rows; it is used as scratch and left undefined.
-void writePlane(std::span<uint8_t> plane, size_t width, Bytes& out);
+// `plane` is `width` bytes times any number of rows.
+void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out);
+// What writePlane writes for a plane of zeros.
+void writeZeroPlane(Bytes& out);
 
 void readPlane(ByteReader& in, size_t width, std::span<uint8_t> plane);
 

@@ -20,6 +20,16 @@ struct FieldSizes {
   void words(const std::vector<uint32_t>&) { planes += 4; }
 };
 
+// Most tiles have no light in most layers; all bits are looked at, so that NaN and -0 are not zero.
+bool isZero(const std::vector<float>& values) {
+  uint32_t bits = 0;
+  for (const float value : values) bits |= std::bit_cast<uint32_t>(value);
+  return bits == 0;
+}
+bool isZero(const RgbPlane& values) {
+  return isZero(values.r) && isZero(values.g) && isZero(values.b);
+}
+
 }  // namespace
 
 size_t mostFieldBytes(size_t pixels, uint8_t layerMask, uint8_t extraMask) {
@@ -43,7 +53,13 @@ void FieldWriter::flush(int planes) {
   ++field_;
 }
 
+void FieldWriter::flushZero(int planes) {
+  for (int i = 0; i < planes; ++i) writeZeroPlane(out_);
+  ++field_;
+}
+
 void FieldWriter::fraction(const RgbPlane& values, float top) {
+  if (isZero(values)) return flushZero(3);
   const SquareCode code(top);
   auto& [r, g, b, unused] = scratch_.plane;
   for (size_t i = 0; i < pixels_; ++i) {
@@ -56,6 +72,7 @@ void FieldWriter::fraction(const RgbPlane& values, float top) {
 }
 
 void FieldWriter::light(const RgbPlane& values) {
+  if (isZero(values)) return flushZero(4);
   auto& [r, g, b, e] = scratch_.plane;
   for (size_t i = 0; i < pixels_; ++i) {
     const SharedExponent code = SharedExponent::encode(usable(values.r[i]), usable(values.g[i]),

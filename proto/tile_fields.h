@@ -69,6 +69,7 @@ class FieldWriter {
   }
   float usable(float value);
   void flush(int planes);
+  void flushZero(int planes);
 
   const size_t width_, pixels_;
   const uint64_t dither_;

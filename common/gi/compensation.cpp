@@ -1,36 +1,35 @@
 #include "common/gi/compensation.h"
 
+#include <bit>
+
 #include "common/gi/direct_light.h"
 #include "common/gi/irradiance.h"
 
 namespace ninefold {
 namespace {
 
-// A short ray from receiver i: where it goes and how far it matters.
-struct ShortRay {
-  Vec3 w{0};
-  float cosX = 0;
-  float reach = 0;  // sqrt(cos_x / b) [m]
+// The short rays of sixteen receivers: where they go and how far they matter, sqrt(cos_x / b) [m].
+struct ShortRays {
+  RayPacket packet{};
+  float cosX[kPacket];
+  uint32_t active = 0;
+
+  Vec3 direction(size_t lane) const {
+    return Vec3(packet.directionX[lane], packet.directionY[lane], packet.directionZ[lane]);
+  }
 };
 
-ShortRay shortRay(const Transport& t, const Receivers& r, size_t i, Vec2 u) {
-  ShortRay ray;
-  ray.w = glm::normalize(Basis(r.ns(i)).toWorld(squareToCosineHemisphere(u)));
-  ray.cosX = glm::dot(ray.w, r.ng(i));
-  ray.reach = ray.cosX > 0 ? std::sqrt(ray.cosX / t.bound) : 0.0f;
-  return ray;
+void aim(const Transport& t, const Receivers& r, size_t i, Vec2 u, size_t lane, ShortRays& rays) {
+  const Vec3 w = glm::normalize(Basis(r.ns(i)).toWorld(squareToCosineHemisphere(u)));
+  rays.cosX[lane] = glm::dot(w, r.ng(i));
+  if (rays.cosX[lane] <= 0) return;
+  rays.packet.set(static_cast<int>(lane), r.origin(i), w, 0, std::sqrt(rays.cosX[lane] / t.bound));
+  rays.active |= 1u << lane;
 }
 
-// A hit that is followed: E(y) times `factor` goes to receiver `parent`.
-struct Bounce {
-  size_t parent;
-  Vec3 factor;
-};
-
 // W of the hit; 0 where the geometry term is within its bound.
-float excess(const Transport& t, const ShortRay& ray, const ShadingPoint& y, float distance) {
-  const float cosY = -glm::dot(ray.w, y.ng);
-  const float g = ray.cosX * cosY / (distance * distance);
+float excess(const Transport& t, float cosX, float cosY, float distance) {
+  const float g = cosX * cosY / (distance * distance);
   return g > t.bound ? 1 - t.bound / g : 0.0f;
 }
 
@@ -42,37 +41,63 @@ Receiver receiverAt(const ShadingPoint& y, uint32_t pixel) {
   return r;
 }
 
+// One level of the recursion: the receivers, and what their short rays met that is to be followed.
+struct Level {
+  const Transport& t;
+  const ReceiverSamples& samples;
+  uint32_t dimension;
+  bool mayFollow;
+  Receivers& receivers;
+  Bounces& next;
+
+  // Receiver i met `hit` in direction w.
+  void meet(size_t i, float cosX, Vec3 w, const Hit& hit) {
+    const SurfacePoint s = t.tracer.surface(hit);
+    const float weight = excess(t, cosX, std::abs(glm::dot(w, s.geometricNormal)), hit.t);
+    if (weight <= 0) return;
+    const ShadingPoint y = t.shader.shade(s, -w, {});
+    receivers.addIrradiance(i, kPi * weight * emittedRadiance(t, y));
+    const Vec3 factor = weight * y.bsdf.diffuse;
+    const float q = std::min(maxComponent(factor), kMaxSurvival);
+    const uint32_t pixel = receivers.pixel[i];
+    if (!mayFollow || samples.of(pixel).get1D(dimension + 2) >= q) return;
+    next.points.add(receiverAt(y, pixel));
+    next.parents.push_back({i, factor / q});
+  }
+
+  // The receivers first ... first + 15.
+  void trace(size_t first, RayCounts& rays) {
+    ShortRays shorts;
+    const size_t lanes = std::min<size_t>(kPacket, receivers.size() - first);
+    for (size_t lane = 0; lane < lanes; ++lane) {
+      const size_t i = first + lane;
+      aim(t, receivers, i, samples.of(receivers.pixel[i]).get2D(dimension), lane, shorts);
+    }
+    rays.compensation += static_cast<uint64_t>(std::popcount(shorts.active));
+    Hit hits[kPacket];
+    t.tracer.closest16(shorts.packet, shorts.active, hits, false);
+    for (size_t lane = 0; lane < lanes; ++lane)
+      if ((shorts.active >> lane & 1u) != 0 && hits[lane] && hits[lane].t > 0)
+        meet(first + lane, shorts.cosX[lane], shorts.direction(lane), hits[lane]);
+  }
+};
+
 }  // namespace
 
 void compensate(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
                 int pathVertices, Scratch& scratch, Receivers& receivers, RayCounts& rays) {
-  const auto level = static_cast<size_t>(pathVertices) - 1;
-  if (level == scratch.bounced.size()) scratch.bounced.emplace_back();
-  Receivers& next = scratch.bounced[level];
+  const auto depth = static_cast<size_t>(pathVertices) - 1;
+  if (depth == scratch.bounced.size()) scratch.bounced.emplace_back();
+  Bounces& next = scratch.bounced[depth];
   next.clear();
-  std::vector<Bounce> bounces;
-  const auto dimension = 4 * static_cast<uint32_t>(pathVertices - 1);
-  for (size_t i = 0; i < receivers.size(); ++i) {
-    const PixelSampler sampler = samples.of(receivers.pixel[i]);
-    const ShortRay ray = shortRay(t, receivers, i, sampler.get2D(dimension));
-    if (ray.reach <= 0) continue;
-    ++rays.compensation;
-    const Hit hit = t.tracer.closest(receivers.origin(i), ray.w, ray.reach);
-    if (!hit || hit.t <= 0) continue;
-    const ShadingPoint y = t.shader.shade(t.tracer.surface(hit), -ray.w, {});
-    const float weight = excess(t, ray, y, hit.t);
-    if (weight <= 0) continue;
-    receivers.addIrradiance(i, kPi * weight * emittedRadiance(t, y));
-    const Vec3 factor = weight * y.bsdf.diffuse;
-    const float q = std::min(maxComponent(factor), kMaxSurvival);
-    if (!t.allows(pathVertices + 1) || sampler.get1D(dimension + 2) >= q) continue;
-    next.add(receiverAt(y, receivers.pixel[i]));
-    bounces.push_back({i, factor / q});
-  }
-  if (bounces.empty()) return;
-  gatherIrradiance(t, lights, samples, pathVertices + 1, scratch, next, nullptr, rays);
-  for (size_t j = 0; j < bounces.size(); ++j)
-    receivers.addIrradiance(bounces[j].parent, bounces[j].factor * next.irradiance(j));
+  Level level{t,         samples, 4 * static_cast<uint32_t>(depth), t.allows(pathVertices + 1),
+              receivers, next};
+  for (size_t first = 0; first < receivers.size(); first += kPacket) level.trace(first, rays);
+  if (next.parents.empty()) return;
+  gatherIrradiance(t, lights, samples, pathVertices + 1, scratch, next.points, nullptr, rays);
+  for (size_t j = 0; j < next.parents.size(); ++j)
+    receivers.addIrradiance(next.parents[j].receiver,
+                            next.parents[j].factor * next.points.irradiance(j));
 }
 
 }  // namespace ninefold

@@ -8,7 +8,7 @@ namespace ninefold {
 void gatherIrradiance(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
                       int pathVertices, Scratch& scratch, Receivers& receivers,
                       std::vector<Irradiance>* caustic, RayCounts& rays) {
-  receivers.pad(kPacket);
+  receivers.pad();
   gatherVpls(t, lights.vpls, pathVertices, receivers, rays.shadow);
   if (!lights.photons.empty()) {
     for (size_t i = 0; i < receivers.size(); ++i) {

@@ -41,9 +41,11 @@ int64_t PhotonGrid::cell(double coordinate) const {
 }
 
 uint32_t PhotonGrid::slotOf(int64_t cx, int64_t cy, int64_t cz) const {
-  return static_cast<uint32_t>(hashWords(static_cast<uint64_t>(cx), static_cast<uint64_t>(cy),
-                                         static_cast<uint64_t>(cz))) &
-         mask_;
+  // A linear form keeps neighbours apart; the mixing spreads them over the table.
+  const uint64_t form = static_cast<uint64_t>(cx) * 0x9e3779b97f4a7c15u +
+                        static_cast<uint64_t>(cy) * 0xc2b2ae3d27d4eb4fu +
+                        static_cast<uint64_t>(cz) * 0x165667b19e3779f9u;
+  return static_cast<uint32_t>(mixWord(form)) & mask_;
 }
 
 int PhotonGrid::slotsAround(Vec3 x, Slots& slots) const {
@@ -56,8 +58,10 @@ int PhotonGrid::slotsAround(Vec3 x, Slots& slots) const {
   int count = 0;
   for (int64_t cz = z0; cz <= z1; ++cz)
     for (int64_t cy = y0; cy <= y1; ++cy)
-      for (int64_t cx = x0; cx <= x1; ++cx)
-        slots[static_cast<size_t>(count++)] = slotOf(cx, cy, cz);
+      for (int64_t cx = x0; cx <= x1; ++cx) {
+        const uint32_t slot = slotOf(cx, cy, cz);
+        if (starts_[slot] != starts_[slot + 1]) slots[static_cast<size_t>(count++)] = slot;
+      }
   std::sort(slots.begin(), slots.begin() + count);
   return static_cast<int>(std::unique(slots.begin(), slots.begin() + count) - slots.begin());
 }

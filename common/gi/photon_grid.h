@@ -59,7 +59,7 @@ class PhotonGrid {
 
  private:
   using Slots = std::array<uint32_t, 27>;
-  int slotsAround(Vec3 x, Slots& slots) const;  // distinct, sorted; returns how many
+  int slotsAround(Vec3 x, Slots& slots) const;  // those with photons, sorted; returns how many
   uint32_t slotOf(int64_t cx, int64_t cy, int64_t cz) const;
   int64_t cell(double coordinate) const;
 

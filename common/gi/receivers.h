@@ -2,6 +2,7 @@
 // at once. One array a component; capacity is kept between tasks. Threads: one thread's scratch.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -21,19 +22,18 @@ struct Receiver {
 
 class Receivers {
  public:
-  void clear() {
-    for (auto* plane : planes()) plane->clear();
-    pixel.clear();
-  }
+  void clear() { size_ = 0; }
   void add(const Receiver& r) {
-    const float values[] = {
-        r.position.x, r.position.y, r.position.z, r.ng.x,     r.ng.y, r.ng.z, r.ns.x, r.ns.y,
-        r.ns.z,       r.origin.x,   r.origin.y,   r.origin.z, r.gain, 0.0f,   0.0f,   0.0f};
-    size_t i = 0;
-    for (auto* plane : planes()) plane->push_back(values[i++]);
-    pixel.push_back(r.pixel);
+    if (size_ == pixel.size()) grow();
+    const size_t i = size_++;
+    px[i] = r.position.x, py[i] = r.position.y, pz[i] = r.position.z;
+    gx[i] = r.ng.x, gy[i] = r.ng.y, gz[i] = r.ng.z;
+    sx[i] = r.ns.x, sy[i] = r.ns.y, sz[i] = r.ns.z;
+    ox[i] = r.origin.x, oy[i] = r.origin.y, oz[i] = r.origin.z;
+    gain[i] = r.gain, er[i] = 0, eg[i] = 0, eb[i] = 0;
+    pixel[i] = r.pixel;
   }
-  size_t size() const { return pixel.size(); }
+  size_t size() const { return size_; }
   Vec3 position(size_t i) const { return Vec3(px[i], py[i], pz[i]); }
   Vec3 ng(size_t i) const { return Vec3(gx[i], gy[i], gz[i]); }
   Vec3 ns(size_t i) const { return Vec3(sx[i], sy[i], sz[i]); }
@@ -41,13 +41,13 @@ class Receivers {
   Vec3 irradiance(size_t i) const { return Vec3(er[i], eg[i], eb[i]); }
   void addIrradiance(size_t i, Vec3 e) { er[i] += e.x, eg[i] += e.y, eb[i] += e.z; }
 
-  // Fills up to a multiple of sixteen with copies of the last receiver; size() stays.
-  void pad(size_t lanes) {
-    if (pixel.empty()) return;
-    const size_t wanted = (size() + lanes - 1) / lanes * lanes;
-    for (auto* plane : planes()) plane->resize(wanted, plane->back());
+  // Copies the last receiver up to the next multiple of sixteen; size() stays.
+  void pad() {
+    for (size_t i = size_; i % kRoom != 0; ++i)
+      for (auto* plane : planes()) (*plane)[i] = (*plane)[i - 1];
   }
 
+  // Longer than size(): room for what is added, and a multiple of sixteen.
   std::vector<float> px, py, pz;  // position [m]
   std::vector<float> gx, gy, gz;  // geometric normal
   std::vector<float> sx, sy, sz;  // shading normal
@@ -57,9 +57,18 @@ class Receivers {
   std::vector<uint32_t> pixel;
 
  private:
+  static constexpr size_t kRoom = 16;  // lanes of a packet
+
+  void grow() {
+    const size_t room = std::max<size_t>(64 * kRoom, 2 * pixel.size());
+    for (auto* plane : planes()) plane->resize(room);
+    pixel.resize(room);
+  }
   std::array<std::vector<float>*, 16> planes() {
     return {&px, &py, &pz, &gx, &gy, &gz, &sx, &sy, &sz, &ox, &oy, &oz, &gain, &er, &eg, &eb};
   }
+
+  size_t size_ = 0;
 };
 
 }  // namespace ninefold

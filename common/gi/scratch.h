@@ -11,11 +11,23 @@
 
 namespace ninefold {
 
+// What the compensation's rays met, and where its irradiance goes: `factor` times it to `receiver`.
+struct Bounces {
+  struct Parent {
+    size_t receiver;
+    Vec3 factor;
+  };
+  Receivers points;
+  std::vector<Parent> parents;
+
+  void clear() { points.clear(), parents.clear(); }
+};
+
 struct Scratch {
   std::array<Receivers, kLayers> receivers;
   std::array<std::vector<uint32_t>, kLayers>
-      places;                     // index in the task's rectangle of each receiver
-  std::deque<Receivers> bounced;  // compensation: one level a bounce, as deep as it ever went
+      places;                   // index in the task's rectangle of each receiver
+  std::deque<Bounces> bounced;  // compensation: one level a bounce, as deep as it ever went
 };
 
 }  // namespace ninefold

@@ -78,8 +78,8 @@ void followLayer(TaskContext& c, const ShadingPoint& first, Lobe lobe, float dis
     addReceiver(c, layer, end.x, pixel, end.throughput, end.gain, end.distance, end.chain);
 }
 
-void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, size_t pixel,
-                   const PixelSampler& sampler) {
+void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, int i, int j) {
+  const auto pixel = static_cast<size_t>(j * c.rect.width + i);
   LayerPlanes& diffuse = c.out.layers[kDiffuse];
   if (!hit) {
     put(diffuse.unfiltered, pixel, c.t.emitters.environment());
@@ -91,6 +91,8 @@ void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, size_t pixel,
     fillExtras(c, p, pixel, hit.t * glm::dot(direction, c.t.settings.camera.forward));
   put(diffuse.unfiltered, pixel, through * emittedRadiance(c.t, p));
   if (!isBlack(p.bsdf.diffuse)) addReceiver(c, kDiffuse, p, pixel, through, 1, hit.t, 0);
+  if (!p.bsdf.reflects && !p.bsdf.transmits()) return;
+  const PixelSampler sampler = c.sampler(c.pixelX(i), c.pixelY(j));
   if (p.bsdf.reflects) followLayer(c, p, Lobe::reflection, hit.t, pixel, sampler);
   if (p.bsdf.transmits()) followLayer(c, p, Lobe::transmission, hit.t, pixel, sampler);
 }
@@ -116,8 +118,7 @@ void traceBlock(TaskContext& c, int bi, int bj) {
     ++c.out.rays.eye;
     const int i = bi + lane % kBlock, j = bj + lane / kBlock;
     const Vec3 direction(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
-    shadeFirstHit(c, hits[lane], direction, static_cast<size_t>(j * c.rect.width + i),
-                  c.sampler(c.pixelX(i), c.pixelY(j)));
+    shadeFirstHit(c, hits[lane], direction, i, j);
   }
 }
 

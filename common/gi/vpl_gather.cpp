@@ -7,10 +7,14 @@
 namespace ninefold {
 namespace {
 
-// Scalar weight of the VPL's power at sixteen receivers, and the segments to test.
-struct alignas(64) PacketWeights {
+// Sixteen shadow rays to one VPL, and the weight of its power at their receivers; 0 = no ray.
+struct alignas(64) VplRays {
+  RayPacket rays;
   float weight[kPacket];
-  float toX[kPacket], toY[kPacket], toZ[kPacket];  // from shadow ray origin to its end
+
+  VplRays() {
+    for (int lane = 0; lane < kPacket; ++lane) rays.set(lane, Vec3(0), Vec3(0), 0, 0);
+  }
 };
 
 // Where shadow rays to a surface VPL end: off its surface, on the emitting side, by what rounding
@@ -22,7 +26,9 @@ Vec3 rayTarget(const Transport& t, const Vpl& vpl) {
 
 // Straight-line loops over planar arrays: the compiler turns them into vector code.
 void surfaceWeights(const Vpl& vpl, Vec3 target, float bound, const Receivers& r, size_t first,
-                    PacketWeights& out) {
+                    VplRays& out) {
+  RayPacket& rays = out.rays;
+#pragma GCC ivdep
   for (size_t lane = 0; lane < kPacket; ++lane) {
     const size_t i = first + lane;
     const float dx = vpl.position.x - r.px[i], dy = vpl.position.y - r.py[i],
@@ -31,19 +37,23 @@ void surfaceWeights(const Vpl& vpl, Vec3 target, float bound, const Receivers& r
     const float cosXd = dx * r.gx[i] + dy * r.gy[i] + dz * r.gz[i];  // cos * d
     const float cosSd = dx * r.sx[i] + dy * r.sy[i] + dz * r.sz[i];
     const float cosYd = -(dx * vpl.normal.x + dy * vpl.normal.y + dz * vpl.normal.z);
-    const bool faces = cosXd > 0 && cosSd > 0 && cosYd > 0 && d2 > 0;
+    const bool faces = (cosXd > 0) & (cosSd > 0) & (cosYd > 0) & (d2 > 0);
     const float inverse2 = 1 / d2;
     const float g = cosXd * inverse2 * cosYd * inverse2;
     const float unbounded = cosSd * inverse2 * cosYd * inverse2;
     const float bounded = bound * (cosSd / cosXd);
     out.weight[lane] = faces ? (g > bound ? bounded : unbounded) : 0.0f;
-    out.toX[lane] = target.x - r.ox[i], out.toY[lane] = target.y - r.oy[i],
-    out.toZ[lane] = target.z - r.oz[i];
+    rays.originX[lane] = r.ox[i], rays.directionX[lane] = target.x - r.ox[i];
+    rays.originY[lane] = r.oy[i], rays.directionY[lane] = target.y - r.oy[i];
+    rays.originZ[lane] = r.oz[i], rays.directionZ[lane] = target.z - r.oz[i];
+    rays.farT[lane] = 1;
   }
 }
 
-void punctualWeights(const Vpl& vpl, const Receivers& r, size_t first, PacketWeights& out) {
+void punctualWeights(const Vpl& vpl, const Receivers& r, size_t first, VplRays& out) {
+  RayPacket& rays = out.rays;
   const bool spot = vpl.kind == Vpl::Kind::spot;
+#pragma GCC ivdep
   for (size_t lane = 0; lane < kPacket; ++lane) {
     const size_t i = first + lane;
     const float dx = vpl.position.x - r.px[i], dy = vpl.position.y - r.py[i],
@@ -55,47 +65,45 @@ void punctualWeights(const Vpl& vpl, const Receivers& r, size_t first, PacketWei
     const float axis = -(dx * vpl.normal.x + dy * vpl.normal.y + dz * vpl.normal.z) * inverse;
     const float ramp = std::min(std::max(axis * vpl.coneScale + vpl.coneOffset, 0.0f), 1.0f);
     const float falloff = spot ? ramp * ramp : 1.0f;
-    const bool faces = cosX > 0 && cosS > 0 && d2 > 0;
+    const bool faces = (cosX > 0) & (cosS > 0) & (d2 > 0);
     out.weight[lane] = faces ? falloff * cosS * inverse * inverse : 0.0f;
-    out.toX[lane] = vpl.position.x - r.ox[i], out.toY[lane] = vpl.position.y - r.oy[i],
-    out.toZ[lane] = vpl.position.z - r.oz[i];
+    rays.originX[lane] = r.ox[i], rays.directionX[lane] = vpl.position.x - r.ox[i];
+    rays.originY[lane] = r.oy[i], rays.directionY[lane] = vpl.position.y - r.oy[i];
+    rays.originZ[lane] = r.oz[i], rays.directionZ[lane] = vpl.position.z - r.oz[i];
+    rays.farT[lane] = 1;
   }
 }
 
-void directionalWeights(const Vpl& vpl, const Receivers& r, size_t first, PacketWeights& out) {
+void directionalWeights(const Vpl& vpl, const Receivers& r, size_t first, VplRays& out) {
+  RayPacket& rays = out.rays;
   const Vec3 w = vpl.normal;
+#pragma GCC ivdep
   for (size_t lane = 0; lane < kPacket; ++lane) {
     const size_t i = first + lane;
     const float cosX = w.x * r.gx[i] + w.y * r.gy[i] + w.z * r.gz[i];
     const float cosS = w.x * r.sx[i] + w.y * r.sy[i] + w.z * r.sz[i];
-    out.weight[lane] = cosX > 0 && cosS > 0 ? cosS : 0.0f;
-    out.toX[lane] = w.x, out.toY[lane] = w.y, out.toZ[lane] = w.z;
+    out.weight[lane] = (cosX > 0) & (cosS > 0) ? cosS : 0.0f;
+    rays.originX[lane] = r.ox[i], rays.directionX[lane] = w.x;
+    rays.originY[lane] = r.oy[i], rays.directionY[lane] = w.y;
+    rays.originZ[lane] = r.oz[i], rays.directionZ[lane] = w.z;
+    rays.farT[lane] = std::numeric_limits<float>::infinity();
   }
 }
 
-// Lanes that matter, with their rays set up.
-uint32_t setUpRays(const PacketWeights& weights, const Receivers& r, size_t first, float tFar,
-                   RayPacket& rays) {
-  const size_t valid = std::min<size_t>(kPacket, r.size() - first);
-  uint32_t active = 0;
-  for (size_t lane = 0; lane < valid; ++lane)
-    active |= (weights.weight[lane] > 0 ? 1u : 0u) << lane;
-  if (active == 0) return 0;
-  for (size_t lane = 0; lane < kPacket; ++lane) {
-    const size_t i = first + lane;
-    rays.originX[lane] = r.ox[i], rays.originY[lane] = r.oy[i], rays.originZ[lane] = r.oz[i];
-    rays.directionX[lane] = weights.toX[lane], rays.directionY[lane] = weights.toY[lane];
-    rays.directionZ[lane] = weights.toZ[lane];
-    rays.nearT[lane] = 0, rays.farT[lane] = tFar;
-    rays.time[lane] = 0, rays.mask[lane] = ~0u, rays.id[lane] = 0, rays.flags[lane] = 0;
-  }
-  return active;
+// Lanes whose rays matter.
+uint32_t activeLanes(const VplRays& packet, size_t valid) {
+  uint32_t bits[kPacket], active = 0;
+  for (uint32_t lane = 0; lane < kPacket; ++lane)
+    bits[lane] = packet.weight[lane] > 0 ? 1u << lane : 0u;
+  for (const uint32_t bit : bits) active |= bit;
+  return valid >= kPacket ? active : active & ((1u << valid) - 1);
 }
 
-void addVisible(const Vpl& vpl, const PacketWeights& weights, uint32_t visible, Receivers& r,
+void addVisible(const Vpl& vpl, const VplRays& packet, uint32_t visible, Receivers& r,
                 size_t first) {
+#pragma GCC ivdep
   for (size_t lane = 0; lane < kPacket; ++lane) {
-    const float w = (visible >> lane & 1u) != 0 ? weights.weight[lane] : 0.0f;
+    const float w = (visible >> lane & 1u) != 0 ? packet.weight[lane] : 0.0f;
     r.er[first + lane] += w * vpl.power.x;
     r.eg[first + lane] += w * vpl.power.y;
     r.eb[first + lane] += w * vpl.power.z;
@@ -106,24 +114,22 @@ void addVisible(const Vpl& vpl, const PacketWeights& weights, uint32_t visible, 
 
 void gatherVpls(const Transport& t, const std::vector<Vpl>& vpls, int pathVertices,
                 Receivers& receivers, uint64_t& shadowRays) {
-  RayPacket rays;
-  PacketWeights weights;
+  VplRays packet;
   for (const Vpl& vpl : vpls) {
     if (!t.allows(vpl.diffuseCount + pathVertices)) continue;
     const Vec3 target = rayTarget(t, vpl);
-    const bool directional = vpl.kind == Vpl::Kind::directional;
-    const float tFar = directional ? std::numeric_limits<float>::infinity() : 1.0f;
     for (size_t first = 0; first < receivers.size(); first += kPacket) {
       if (vpl.kind == Vpl::Kind::surface)
-        surfaceWeights(vpl, target, t.bound, receivers, first, weights);
-      else if (directional)
-        directionalWeights(vpl, receivers, first, weights);
+        surfaceWeights(vpl, target, t.bound, receivers, first, packet);
+      else if (vpl.kind == Vpl::Kind::directional)
+        directionalWeights(vpl, receivers, first, packet);
       else
-        punctualWeights(vpl, receivers, first, weights);
-      const uint32_t active = setUpRays(weights, receivers, first, tFar, rays);
+        punctualWeights(vpl, receivers, first, packet);
+      const uint32_t active = activeLanes(packet, receivers.size() - first);
       if (active == 0) continue;
       shadowRays += static_cast<uint64_t>(std::popcount(active));
-      addVisible(vpl, weights, active & ~t.tracer.occluded16(rays, active), receivers, first);
+      const uint32_t visible = active & ~t.tracer.occluded16(packet.rays, active);
+      addVisible(vpl, packet, visible, receivers, first);
     }
   }
 }

@@ -12,7 +12,7 @@ DVec3 exactNormal(Vec3 a, Vec3 b, Vec3 c) {
   return glm::cross(DVec3(b) - origin, DVec3(c) - origin);
 }
 
-float triangleError(Vec3 a, Vec3 b, Vec3 c, Vec3 n, Vec3 p) {
+float planeError(Vec3 a, Vec3 b, Vec3 c, Vec3 n) {
   const Vec3 box = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
   // The products whose differences are the components of the normal, of the pair of edges that has
   // the smaller ones: that is the pair that the ray test chooses.
@@ -26,7 +26,7 @@ float triangleError(Vec3 a, Vec3 b, Vec3 c, Vec3 n, Vec3 p) {
   // An origin that lies exactly in an axis-aligned plane is met again at t = 0: never no distance
   // at all.
   const float least = std::max(box.x, std::max(box.y, box.z));
-  return storageError(p, n) + kUnitRoundoff * (edges + cross + least);
+  return kUnitRoundoff * (edges + cross + least);
 }
 
 }  // namespace ninefold

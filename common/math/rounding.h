@@ -34,8 +34,12 @@ inline constexpr float kRayRounding = 16 * kUnitRoundoff;
 
 // Bound of the distance [m] from the plane of triangle (a, b, c) at which a point p = a + u(b-a) +
 // v(c-a), computed with care (pointOnTriangle) and stored in floats, may be taken to lie on the
-// wrong side. n: unit normal of the triangle, of either sign.
-float triangleError(Vec3 a, Vec3 b, Vec3 c, Vec3 n, Vec3 p);
+// wrong side: planeError, which is the same all over the triangle, and the storing of p. n: unit
+// normal of the triangle, of either sign.
+float planeError(Vec3 a, Vec3 b, Vec3 c, Vec3 n);
+inline float triangleError(Vec3 a, Vec3 b, Vec3 c, Vec3 n, Vec3 p) {
+  return storageError(p, n) + planeError(a, b, c, n);
+}
 
 // The point with barycentrics u (of b) and v (of c), rounded only once.
 Vec3 pointOnTriangle(Vec3 a, Vec3 b, Vec3 c, float u, float v);

@@ -13,27 +13,31 @@ namespace ninefold::embree {
 
 #if NINEFOLD_EMBREE == 4
 
+inline RTCRayQueryFlags queryFlags(bool coherent) {
+  return coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+}
+
 inline void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, ray, nullptr); }
 inline void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, ray, nullptr); }
 
-inline void intersect16(RTCScene scene, const int* valid, RTCRayHit16* rays) {
+inline void intersect16(RTCScene scene, const int* valid, RTCRayHit16* rays, bool coherent) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.flags = queryFlags(coherent);
   rtcIntersect16(valid, scene, rays, &arguments);
 }
 
-inline void intersect8(RTCScene scene, const int* valid, RTCRayHit8* rays) {
+inline void intersect8(RTCScene scene, const int* valid, RTCRayHit8* rays, bool coherent) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
-  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  arguments.flags = queryFlags(coherent);
   rtcIntersect8(valid, scene, rays, &arguments);
 }
 
 inline RTCOccludedArguments occlusion(bool coherent) {
   RTCOccludedArguments made;
   rtcInitOccludedArguments(&made);
-  made.flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+  made.flags = queryFlags(coherent);
   return made;
 }
 
@@ -67,13 +71,13 @@ inline void occluded1(RTCScene scene, RTCRay* ray) {
   rtcOccluded1(scene, &made, ray);
 }
 
-inline void intersect16(RTCScene scene, const int* valid, RTCRayHit16* rays) {
-  RTCIntersectContext made = context(true);
+inline void intersect16(RTCScene scene, const int* valid, RTCRayHit16* rays, bool coherent) {
+  RTCIntersectContext made = context(coherent);
   rtcIntersect16(valid, scene, &made, rays);
 }
 
-inline void intersect8(RTCScene scene, const int* valid, RTCRayHit8* rays) {
-  RTCIntersectContext made = context(true);
+inline void intersect8(RTCScene scene, const int* valid, RTCRayHit8* rays, bool coherent) {
+  RTCIntersectContext made = context(coherent);
   rtcIntersect8(valid, scene, &made, rays);
 }
 

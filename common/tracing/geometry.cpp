@@ -56,13 +56,24 @@ UvGradient uvGradient(const std::vector<Vec2>& uv, const Triangle& t, const Trac
 }  // namespace
 
 InstanceGeometry::InstanceGeometry(const Scene& scene, const Instance& instance)
-    : mesh_(&scene.meshes[static_cast<size_t>(instance.mesh)]) {
+    : mesh_(&scene.meshes[static_cast<size_t>(instance.mesh)]),
+      tangents_(scene.materials[static_cast<size_t>(mesh_->material)].normalMap) {
   flatten(instance);
   const DMat3 linear(instance.toWorld);
   const DMat3 cofactor = cofactors(linear);
   handedness_ = glm::dot(linear[0], cofactor[0]) < 0 ? -1.0f : 1.0f;
   directionToWorld_ = normalized(linear);
   normalToWorld_ = handedness_ * normalized(cofactor);
+  planes_.reserve(mesh_->triangles.size());
+  for (uint32_t i = 0; i < mesh_->triangles.size(); ++i) planes_.push_back(planeOf(i));
+}
+
+InstanceGeometry::Plane InstanceGeometry::planeOf(uint32_t triangle) const {
+  const Tracer::Corners at = corners(triangle);
+  const DVec3 normal = exactNormal(at.a, at.b, at.c);
+  const double length = glm::length(normal);
+  const Vec3 unit = length > 0 ? Vec3(double(handedness_) / length * normal) : Vec3(0);
+  return {unit, planeError(at.a, at.b, at.c, unit)};
 }
 
 void InstanceGeometry::flatten(const Instance& instance) {
@@ -83,13 +94,6 @@ Tracer::Corners InstanceGeometry::corners(uint32_t triangle) const {
   return {vertices_[t.x], vertices_[t.y], vertices_[t.z]};
 }
 
-Vec3 InstanceGeometry::frontNormal(uint32_t triangle) const {
-  const Tracer::Corners at = corners(triangle);
-  const DVec3 normal = exactNormal(at.a, at.b, at.c);
-  const double length = glm::length(normal);
-  return length > 0 ? Vec3(double(handedness_) / length * normal) : Vec3(0);
-}
-
 void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint& p) const {
   const Triangle& t = mesh_->triangles[triangle];
   const Tracer::Corners at = corners(triangle);
@@ -97,10 +101,12 @@ void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint
   p.triangle = triangle;
   p.material = mesh_->material;
   p.position = pointOnTriangle(at.a, at.b, at.c, weights.y, weights.z);
+  const Plane& plane = planes_[triangle];
+  p.geometricNormal = isBlack(plane.normal) ? Vec3(0, 0, 1) : plane.normal;
+  p.error = storageError(p.position, p.geometricNormal) + plane.error;
   setTexture(t, weights, p);
-  setNormals(triangle, weights, p);
-  setTangent(t, at, weights, p);
-  p.error = triangleError(at.a, at.b, at.c, p.geometricNormal, p.position);
+  setShadingNormal(t, weights, p);
+  if (tangents_) setTangent(t, at, weights, p);
 }
 
 void InstanceGeometry::setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const {
@@ -108,13 +114,11 @@ void InstanceGeometry::setTexture(const Triangle& t, const Vec3& weights, Surfac
   p.uv1 = mesh_->uv1.empty() ? Vec2(0) : interpolate(mesh_->uv1, t, weights);
 }
 
-void InstanceGeometry::setNormals(uint32_t triangle, const Vec3& weights, SurfacePoint& p) const {
-  const Vec3 normal = frontNormal(triangle);
-  p.geometricNormal = isBlack(normal) ? Vec3(0, 0, 1) : normal;
+void InstanceGeometry::setShadingNormal(const Triangle& t, const Vec3& weights,
+                                        SurfacePoint& p) const {
   p.shadingNormal = p.geometricNormal;
   if (mesh_->normals.empty()) return;
-  const Vec3 turned =
-      normalToWorld_ * interpolate(mesh_->normals, mesh_->triangles[triangle], weights);
+  const Vec3 turned = normalToWorld_ * interpolate(mesh_->normals, t, weights);
   p.shadingNormal = unitOr(turned, p.geometricNormal);
   const float side = glm::dot(p.shadingNormal, p.geometricNormal);
   if (side < 0) p.shadingNormal = -p.shadingNormal;

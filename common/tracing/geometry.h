@@ -26,22 +26,32 @@ class InstanceGeometry {
   // reads.
   const Vec3* vertices() const { return vertices_.data(); }
   Tracer::Corners corners(uint32_t triangle) const;
-  Vec3 frontNormal(uint32_t triangle) const;  // unit; 0 for a triangle without area
+  // Unit; 0 for a triangle without area.
+  Vec3 frontNormal(uint32_t triangle) const { return planes_[triangle].normal; }
 
   // The surface at barycentrics (u, v); they are clamped into the triangle. Leaves p.instance
   // alone.
   void surface(uint32_t triangle, float u, float v, SurfacePoint& p) const;
 
  private:
+  // What every hit asks of a triangle's plane, so that it is worked out once, in doubles.
+  struct Plane {
+    Vec3 normal;  // of the front, unit; 0 for a triangle without area
+    float error;  // planeError, see math/rounding.h [m]
+  };
+
   void flatten(const Instance& instance);
+  Plane planeOf(uint32_t triangle) const;
   void setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
-  void setNormals(uint32_t triangle, const Vec3& weights, SurfacePoint& p) const;
+  void setShadingNormal(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
   void setTangent(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
                   SurfacePoint& p) const;
 
   const Mesh* mesh_;
+  bool tangents_ = false;  // whether anything reads them: a normal map
   std::vector<Vec3> vertices_;
-  Mat3 directionToWorld_{1};  // both only up to a positive factor
+  std::vector<Plane> planes_;  // one a triangle
+  Mat3 directionToWorld_{1};   // both only up to a positive factor
   Mat3 normalToWorld_{1};
   float handedness_ = 1;  // -1: the instance mirrors, and the front is where corners run clockwise
 };

@@ -42,11 +42,11 @@ void copyHalf(void* eight, const void* sixteen, int half, size_t fields) {
                 kHalf * sizeof(float));
 }
 
-void intersectHalf(RTCScene scene, const int* valid, int half, RTCRayHit16& query) {
+void intersectHalf(RTCScene scene, const int* valid, bool coherent, int half, RTCRayHit16& query) {
   RTCRayHit8 eight;
   copyHalf(&eight.ray, &query.ray, half, kRayFields);
   std::fill_n(eight.hit.geomID, kHalf, RTC_INVALID_GEOMETRY_ID);
-  embree::intersect8(scene, valid, &eight);
+  embree::intersect8(scene, valid, &eight, coherent);
   const int first = half * kHalf;
   std::copy_n(eight.ray.tfar, kHalf, query.ray.tfar + first);
   std::copy_n(eight.hit.u, kHalf, query.hit.u + first);
@@ -78,14 +78,14 @@ bool traceable(Vec3 origin, Vec3 direction, float tFar) {
          small(direction.y) && small(direction.z) && magnitude(tFar) <= kInfinity;
 }
 
-void intersectPacket(RTCScene scene, bool wide, const RayPacket& rays, uint32_t active,
-                     RTCRayHit16& query) {
+void intersectPacket(RTCScene scene, bool wide, bool coherent, const RayPacket& rays,
+                     uint32_t active, RTCRayHit16& query) {
   std::memcpy(&query.ray, &rays, sizeof rays);
   std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
   const LaneMask valid(active);
-  if (wide) return embree::intersect16(scene, valid.lane, &query);
-  intersectHalf(scene, valid.lane, 0, query);
-  intersectHalf(scene, valid.lane + kHalf, 1, query);
+  if (wide) return embree::intersect16(scene, valid.lane, &query, coherent);
+  intersectHalf(scene, valid.lane, coherent, 0, query);
+  intersectHalf(scene, valid.lane + kHalf, coherent, 1, query);
 }
 
 void occludedPacket(RTCScene scene, bool wide, bool coherent, uint32_t active, RayPacket& rays) {

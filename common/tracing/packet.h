@@ -19,8 +19,8 @@ uint32_t traceable(const RayPacket& rays, uint32_t active);
 bool traceable(Vec3 origin, Vec3 direction, float tFar);
 
 // Fills `query` from the rays, and then with the hits of the active lanes.
-void intersectPacket(RTCScene scene, bool wide, const RayPacket& rays, uint32_t active,
-                     RTCRayHit16& query);
+void intersectPacket(RTCScene scene, bool wide, bool coherent, const RayPacket& rays,
+                     uint32_t active, RTCRayHit16& query);
 
 // Sets farT of blocked active lanes to negative infinity.
 void occludedPacket(RTCScene scene, bool wide, bool coherent, uint32_t active, RayPacket& rays);

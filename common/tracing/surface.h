@@ -37,7 +37,7 @@ struct SurfacePoint {
   Vec3 position{0};
   Vec3 geometricNormal{0};  // unit; front side by winding (mirrored instances are turned right)
   Vec3 shadingNormal{0};    // unit, interpolated; on the geometric normal's side; no normal map yet
-  Vec3 tangent{1, 0, 0};    // unit, along increasing u of uv0; any tangent if the mesh has no uv
+  Vec3 tangent{1, 0, 0};    // unit, along increasing u of uv0 where the material has a normal map
   float tangentSign = 1;    // bitangent = tangentSign * cross(normal, tangent)
   Vec2 uv0{0}, uv1{0};
   uint32_t instance = 0, triangle = 0;

@@ -8,6 +8,7 @@
 #include "common/tracing/device.h"
 #include "common/tracing/geometry.h"
 #include "common/tracing/packet.h"
+#include "common/tracing/ray_log.h"
 
 namespace ninefold {
 namespace {
@@ -81,6 +82,7 @@ Tracer::Tracer(const Scene& scene, Isa isa) try : impl_(std::make_unique<Impl>(s
 Tracer::~Tracer() = default;
 
 Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
+  if (log_ != nullptr) log_->singles.push_back({origin, direction, tFar, false});
   if (!traceable(origin, direction, tFar)) return Hit::none();
   RTCRayHit query{};
   query.ray = singleRay(origin, direction, tFar);
@@ -91,10 +93,11 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
       {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar});
 }
 
-void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits) const {
+void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coherent) const {
+  if (log_ != nullptr) log_->packets.push_back({rays, active, false, coherent});
   RTCRayHit16 query;
   const uint32_t lanes = traceable(rays, active);
-  intersectPacket(impl_->hierarchy.get(), impl_->wide, rays, lanes, query);
+  intersectPacket(impl_->hierarchy.get(), impl_->wide, coherent, rays, lanes, query);
   const RTCHit16& hit = query.hit;
   for (int i = 0; i < kPacket; ++i) {
     if ((active >> i & 1) == 0) continue;
@@ -107,6 +110,7 @@ void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits) const {
 }
 
 bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
+  if (log_ != nullptr) log_->singles.push_back({origin, direction, tFar, true});
   if (!traceable(origin, direction, tFar)) return false;
   RTCRay ray = singleRay(origin, direction, tFar);
   embree::occluded1(impl_->hierarchy.get(), &ray);
@@ -114,6 +118,7 @@ bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
 }
 
 uint32_t Tracer::occluded16(RayPacket& rays, uint32_t active, bool coherent) const {
+  if (log_ != nullptr) log_->packets.push_back({rays, active, true, coherent});
   const uint32_t lanes = traceable(rays, active);
   occludedPacket(impl_->hierarchy.get(), impl_->wide, coherent, lanes, rays);
   uint32_t blocked = 0;

@@ -43,6 +43,8 @@ struct alignas(64) RayPacket {
 
 enum class Isa : uint8_t { automatic, avx2, avx512 };
 
+struct RayLog;  // ray_log.h
+
 class Tracer {
  public:
   Tracer(const Scene& scene, Isa isa);
@@ -54,7 +56,8 @@ class Tracer {
   Hit closest(Vec3 origin, Vec3 direction, float tFar) const;
   // Closest hits of the lanes in `active` (bit i = lane i). hits[lane] of inactive lanes is
   // untouched.
-  void closest16(RayPacket& rays, uint32_t active, Hit* hits) const;
+  // `coherent`: the rays start together and go the same way.
+  void closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coherent = true) const;
 
   bool occluded(Vec3 origin, Vec3 direction, float tFar) const;
   // Bits of the active lanes whose segment is blocked. `coherent`: the rays share an end or are
@@ -72,12 +75,16 @@ class Tracer {
   };
   Corners corners(uint32_t instance, uint32_t triangle) const;
 
+  // Keeps every ray in `log` until called with null. For measurements, with one tracing thread.
+  void logTo(RayLog* log) { log_ = log; }
+
   const Scene& scene() const;
   const std::string& isaName() const;  // "avx2" or "avx512": what runs, part of the pixel class
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  RayLog* log_ = nullptr;
 };
 
 }  // namespace ninefold

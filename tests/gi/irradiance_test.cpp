@@ -28,7 +28,7 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
         makeLightSet(transport, FrameKey{0, static_cast<uint32_t>(i), 0, 0.1f}, i % 9, -1);
     Receivers receivers;
     receivers.add(Receiver{x, n, n, x + 1e-5f * n, 0, 1});
-    receivers.pad(kPacket);
+    receivers.pad();
     uint64_t rays = 0;
     gatherVpls(transport, lights.vpls, 1, receivers, rays);
     const double e = receivers.er[0];

@@ -16,11 +16,12 @@ inline Mesh meshOf(std::vector<Vec3> positions, std::vector<Triangle> triangles)
   return mesh;
 }
 
-// One instance per mesh, one grey material.
+// One instance per mesh, one grey material that asks for tangents (nothing here looks its map up).
 inline Scene sceneOf(std::vector<Mesh> meshes) {
   Scene scene;
   scene.name = "test";
   scene.materials.resize(1);
+  scene.materials[0].normalMap.image = 0;
   for (size_t i = 0; i < meshes.size(); ++i) scene.instances.push_back({"", int(i), int(i)});
   scene.meshes = std::move(meshes);
   return scene;
