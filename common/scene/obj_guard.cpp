@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "common/base/error.h"
 #include "common/scene/reader.h"
@@ -29,29 +30,33 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
 }
 
-// Finite in single precision; what is too small for it counts as 0.
-bool isFiniteNumber(std::string_view word) {
+// A number that is finite in single precision; what is too small for it counts as 0.
+std::optional<double> finiteNumber(std::string_view word) {
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (end != word.data() + word.size()) return false;
-  if (error == std::errc::result_out_of_range)
-    return word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
-  return error == std::errc() && std::abs(value) <= std::numeric_limits<float>::max();
+  if (end != word.data() + word.size()) return {};
+  if (error == std::errc::result_out_of_range) {
+    const bool tiny =
+        word.find("e-") != std::string_view::npos || word.find("E-") != std::string_view::npos;
+    return tiny ? std::optional(0.0) : std::nullopt;
+  }
+  const bool fits = error == std::errc() && std::abs(value) <= std::numeric_limits<float>::max();
+  return fits ? std::optional(value) : std::nullopt;
 }
 
 class Checker {
  public:
   void line(std::string_view line);
-  std::vector<std::string> libraries;
+  ObjOutline outline;
 
  private:
-  void numbers(std::string_view rest, int least, const char* what);
+  DVec3 numbers(std::string_view rest, int least, const char* what);  // the first three
   void face(std::string_view rest);
   void corner(std::string_view word);
   void index(std::string_view digits, int64_t count, const char* what);
 
-  int64_t positions_ = 0, normals_ = 0, coordinates_ = 0;
+  int64_t normals_ = 0, coordinates_ = 0;
   uint64_t triangles_ = 0;
   uint64_t number_ = 0;  // of the line
 };
@@ -59,22 +64,26 @@ class Checker {
 void Checker::line(std::string_view text) {
   ++number_;
   const std::string_view keyword = nextWord(text);
-  if (keyword == "v") numbers(text, 3, "a position"), ++positions_;
+  if (keyword == "v") outline.positions.push_back(numbers(text, 3, "a position"));
   if (keyword == "vn") numbers(text, 3, "a normal"), ++normals_;
   if (keyword == "vt") numbers(text, 1, "a texture coordinate"), ++coordinates_;
   if (keyword == "f") face(text);
-  if (keyword == "mtllib") libraries.emplace_back(trimmed(text));
+  if (keyword == "mtllib") outline.libraries.emplace_back(trimmed(text));
 }
 
-void Checker::numbers(std::string_view rest, int least, const char* what) {
+DVec3 Checker::numbers(std::string_view rest, int least, const char* what) {
+  DVec3 first(0);
   int count = 0;
   for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest), ++count) {
     if (word[0] == '#') break;
-    if (!isFiniteNumber(word))
+    const auto number = finiteNumber(word);
+    if (!number)
       fail("line {}: '{}' of {} is not a finite number: export the scene again", number_,
            word.substr(0, 40), what);
+    if (count < 3) first[count] = *number;
   }
   if (count < least) fail("line {}: {} needs {} numbers, it has {}", number_, what, least, count);
+  return first;
 }
 
 void Checker::face(std::string_view rest) {
@@ -91,7 +100,7 @@ void Checker::face(std::string_view rest) {
 // v, v/vt, v//vn or v/vt/vn; an empty part is absent.
 void Checker::corner(std::string_view word) {
   const size_t first = std::min(word.find('/'), word.size());
-  index(word.substr(0, first), positions_, "position");
+  index(word.substr(0, first), static_cast<int64_t>(outline.positions.size()), "position");
   if (first == word.size()) return;
   std::string_view rest = word.substr(first + 1);
   const size_t second = std::min(rest.find('/'), rest.size());
@@ -113,7 +122,7 @@ void Checker::index(std::string_view digits, int64_t count, const char* what) {
 
 }  // namespace
 
-std::vector<std::string> checkObj(std::string_view text) {
+ObjOutline checkObj(std::string_view text) {
   if (text.find('\0') != std::string_view::npos) fail("not an OBJ file: it has zero bytes");
   Checker checker;
   while (!text.empty()) {
@@ -122,7 +131,7 @@ std::vector<std::string> checkObj(std::string_view text) {
     text.remove_prefix(std::min(end + 1, text.size()));
     if (text.starts_with('\n') && text.data()[-1] == '\r') text.remove_prefix(1);
   }
-  return std::move(checker.libraries);
+  return std::move(checker.outline);
 }
 
 }  // namespace ninefold

@@ -5,6 +5,7 @@
 #include <array>
 #include <istream>
 #include <map>
+#include <optional>
 #include <streambuf>
 #include <unordered_map>
 
@@ -61,11 +62,15 @@ class ObjBuilder {
   void finishGroup();
   void addFace(std::span<const tinyobj::index_t> indices);
   uint32_t vertex(Part& part, const Corner& corner) const;
+  Vec3 positionOf(int position) const;
   Corner cornerOf(const tinyobj::index_t& index) const;
 
   SceneDraft draft_;
   ObjMaterials materials_;
-  std::vector<Vec3> positions_, normals_;
+  std::vector<DVec3> positions_;  // of the whole file
+  size_t positionsSoFar_ = 0;     // defined before the line that is read
+  std::optional<DVec3> origin_;   // of the meshes' coordinates: the first corner of all
+  std::vector<Vec3> normals_;
   std::vector<Vec2> coordinates_;
   std::string group_, material_;
   std::map<std::string, Part> parts_;  // of the group, by material
@@ -84,8 +89,8 @@ int place(int index, size_t count) {
 
 tinyobj::callback_t ObjBuilder::callbacks() {
   tinyobj::callback_t c;
-  c.vertex_cb = [](void* user, float x, float y, float z, float) {
-    static_cast<ObjBuilder*>(user)->positions_.emplace_back(x, y, z);
+  c.vertex_cb = [](void* user, float, float, float, float) {
+    ++static_cast<ObjBuilder*>(user)->positionsSoFar_;
   };
   c.normal_cb = [](void* user, float x, float y, float z) {
     static_cast<ObjBuilder*>(user)->normals_.emplace_back(x, y, z);
@@ -112,11 +117,16 @@ tinyobj::callback_t ObjBuilder::callbacks() {
 
 SceneDraft ObjBuilder::build(std::span<const unsigned char> file) {
   const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
-  for (const std::string& library : checkObj(text)) materials_.addLibrary(library);
+  ObjOutline outline = checkObj(text);
+  for (const std::string& library : outline.libraries) materials_.addLibrary(library);
+  positions_ = std::move(outline.positions);
   MemoryStream stream(text);
   std::string warnings, errors;
   if (!tinyobj::LoadObjWithCallback(stream, callbacks(), this, nullptr, &warnings, &errors))
     fail("damaged OBJ file: {}", errors.substr(0, errors.find('\n')));
+  if (positionsSoFar_ != positions_.size())
+    fail("damaged OBJ file: {} lines of positions, {} of them readable", positions_.size(),
+         positionsSoFar_);
   finishGroup();
   if (flatTriangles_ > 0) warn("{} triangles without area are left out", flatTriangles_);
   return std::move(draft_);
@@ -136,17 +146,23 @@ void ObjBuilder::finishGroup() {
     part.mesh.name = group_;
     part.mesh.material = materials_.use(material);
     draft_.scene.meshes.push_back(std::move(part.mesh));
-    draft_.addInstance(static_cast<int>(draft_.scene.meshes.size()) - 1, groups_, group_, DMat4(1));
+    DMat4 toWorld(1);
+    toWorld[3] = DVec4(*origin_, 1);
+    draft_.addInstance(static_cast<int>(draft_.scene.meshes.size()) - 1, groups_, group_, toWorld);
   }
   groups_ += parts_.empty() ? 0 : 1;
   parts_.clear();
 }
 
 Corner ObjBuilder::cornerOf(const tinyobj::index_t& index) const {
-  const int position = place(index.vertex_index, positions_.size());
+  const int position = place(index.vertex_index, std::min(positionsSoFar_, positions_.size()));
   if (position < 0) fail("a face has a corner without a position");
   return {position, place(index.texcoord_index, coordinates_.size()),
           place(index.normal_index, normals_.size())};
+}
+
+Vec3 ObjBuilder::positionOf(int position) const {
+  return Vec3(positions_[static_cast<size_t>(position)] - *origin_);
 }
 
 // An absent normal is 0 for now: cleanMesh makes it the faces' own.
@@ -156,7 +172,7 @@ uint32_t ObjBuilder::vertex(Part& part, const Corner& corner) const {
       part.vertices.try_emplace(corner, static_cast<uint32_t>(mesh.positions.size()));
   if (!isNew) return entry->second;
   const auto [position, coordinate, normal] = corner;
-  mesh.positions.push_back(positions_[static_cast<size_t>(position)]);
+  mesh.positions.push_back(positionOf(position));
   mesh.uv0.push_back(coordinate < 0 ? Vec2(0) : coordinates_[static_cast<size_t>(coordinate)]);
   mesh.normals.push_back(normal < 0 ? Vec3(0) : normals_[static_cast<size_t>(normal)]);
   part.hasCoordinates |= coordinate >= 0;
@@ -171,8 +187,9 @@ void ObjBuilder::addFace(std::span<const tinyobj::index_t> indices) {
   std::vector<Vec3> corners;
   for (const tinyobj::index_t& index : indices) {
     const Corner corner = cornerOf(index);
+    if (!origin_) origin_ = positions_[static_cast<size_t>(corner[0])];
     vertices.push_back(vertex(part, corner));
-    corners.push_back(positions_[static_cast<size_t>(corner[0])]);
+    corners.push_back(positionOf(corner[0]));
   }
   for (const Triangle& t : triangulate(corners))
     part.mesh.triangles.emplace_back(vertices[t.x], vertices[t.y], vertices[t.z]);

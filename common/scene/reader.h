@@ -4,6 +4,10 @@
 // of range, NaN, no geometry, counts over the limits below, a URI that leads outside the scene's
 // folder, an unknown required extension. Warnings (unknown optional extension, missing camera,
 // ...) go to the log, one line each.
+//
+// Position: scenes may stand up to 2^28 times their size from the file's origin: places are read in
+// double precision and moved to the origin before they become floats. The vertices of a glTF mesh
+// are floats in the file already, so what is far away must be so by its node's transform.
 // Threads: reentrant.
 #pragma once
 
