@@ -7,9 +7,9 @@
 // Exit status: 0 done, 1 a failure, 2 wrong usage.
 
 #include <fmt/core.h>
-#include <time.h>
 
 #include <boost/program_options.hpp>
+#include <ctime>
 #include <iostream>
 #include <nlohmann/json.hpp>
 
