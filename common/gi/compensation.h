@@ -36,7 +36,7 @@ struct ReceiverSamples {
 
   // pixel: any number that names the pixel in the whole image.
   PixelSampler of(uint32_t pixel) const {
-    return PixelSampler(seed, SampleUse::gather, pixel, layer, randomization, kind);
+    return PixelSampler(seed, SampleUse::gather, pixel, layer, randomization, 0, kind);
   }
 };
 

@@ -28,7 +28,7 @@ struct TaskContext {
 
   PixelSampler sampler(int x, int y) const {
     return PixelSampler(t.settings.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
-                        static_cast<uint32_t>(y), task.frame.randomization,
+                        static_cast<uint32_t>(y), task.frame.randomization, 0,
                         t.settings.randomization);
   }
   int pixelX(int i) const { return grid.pixelX(task.phase, rect.i0 + i); }
@@ -146,8 +146,8 @@ void pathTracePixel(TaskContext& c, int i, int j) {
   Radiance sum(0);
   for (uint32_t path = 0; path < kPathsPerPixel; ++path) {
     const PixelSampler sampler(s.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
-                               static_cast<uint32_t>(y),
-                               c.task.frame.randomization * kPathsPerPixel + path, s.randomization);
+                               static_cast<uint32_t>(y), c.task.frame.randomization, path,
+                               s.randomization);
     const Vec2 offset = s.jitter ? sampler.get2D(0) : Vec2(0.5f);
     const Vec3 direction =
         c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);

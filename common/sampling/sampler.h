@@ -5,8 +5,8 @@
 //                randomized Sobol' sequence, so that K sets together are again well distributed.
 //                Dimensions beyond the first kSobolDimensions are padded replications: the same
 //                points, their indices permuted inside the block, with their own randomization.
-// PixelSampler   one sequence per pixel: index = randomization index, so that a pixel's samples
-//                complement each other over frames; padded in the same way.
+// PixelSampler   one sequence per pixel and frame, randomized by itself: paths of one frame complement
+//                each other, and frames stay independent, so that their spread states the error.
 // Randomization  exclusiveOr: one random word per dimension, as the paper; owen: nested uniform
 //                scrambling. Padding permutes indices by nested scrambling in both: Sobol' points
 //                are linear in the bits of the index, so an exclusive-or of indices would only be
@@ -103,10 +103,11 @@ class LightSampler {
 
 class PixelSampler {
  public:
-  // `index` is the frame's randomization index; each pixel has a randomization of its own.
-  PixelSampler(uint64_t seed, SampleUse use, uint32_t x, uint32_t y, uint32_t index,
-               Randomization kind)
-      : sobol_{hashWords(seed, static_cast<uint64_t>(use), (uint64_t{y} << 32) | x, kPixelDomain),
+  // `randomization` is the frame's randomization index; `index` counts the pixel's paths in it.
+  PixelSampler(uint64_t seed, SampleUse use, uint32_t x, uint32_t y, uint32_t randomization,
+               uint32_t index, Randomization kind)
+      : sobol_{hashWords(seed, (uint64_t{randomization} << 32) | static_cast<uint64_t>(use),
+                         (uint64_t{y} << 32) | x, kPixelDomain),
                kind},
         index_(index) {}
 

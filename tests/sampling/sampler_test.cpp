@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "tests/sampling/chi_square.h"
 #include "tests/sampling/nets.h"
 
 namespace ninefold {
@@ -177,13 +178,13 @@ TEST(LightSampler, RandomPointsAreIndependent) {
   }
 }
 
-TEST(PixelSampler, EveryAlignedRunOfFramesIsANetInEveryReplication) {
+TEST(PixelSampler, EveryAlignedRunOfPathsOfAFrameIsANetInEveryReplication) {
   for (const Randomization kind : kBoth) {
     for (const uint32_t group : {0u, 1u, 9u}) {
       for (const uint32_t first : {0u, 64u, 4032u, 0xffffffc0u}) {
         PointSet points(4);
         for (uint32_t i = 0; i < 64; ++i) {
-          const PixelSampler sampler(3, SampleUse::eyePath, 11, 470, first + i, kind);
+          const PixelSampler sampler(3, SampleUse::eyePath, 11, 470, 5, first + i, kind);
           for (uint32_t d = 0; d < 4; d += 2) {
             const Vec2 p = sampler.get2D(kSobolDimensions * group + d);
             points[d].push_back(p.x);
@@ -197,10 +198,33 @@ TEST(PixelSampler, EveryAlignedRunOfFramesIsANetInEveryReplication) {
   }
 }
 
+// What the film's standard error rests on: a pixel's samples in one frame say nothing of the next,
+// and each alone is uniform. In 8 x 8 cells of the square, 20,000 frames: Pearson's statistic.
+TEST(PixelSampler, FramesAreIndependentAndUniform) {
+  constexpr uint32_t kFrames = 20000;
+  for (const Randomization kind : kAll) {
+    for (const uint32_t dimension : {0u, 2u, 8u}) {
+      const auto sample = [&](uint32_t frame) {
+        return PixelSampler(3, SampleUse::eyePath, 17, 4, frame, 0, kind).get2D(dimension);
+      };
+      const std::vector<double> expected(64, kFrames / 64.0);
+      std::vector<double> within(64), across(64);
+      for (uint32_t frame = 0; frame < kFrames; ++frame) {
+        const Vec2 u = sample(frame);
+        const float next = sample(frame + 1).x;
+        ++within[static_cast<size_t>(8 * u.x) + 8 * static_cast<size_t>(8 * u.y)];
+        ++across[static_cast<size_t>(8 * u.x) + 8 * static_cast<size_t>(8 * next)];
+      }
+      EXPECT_GT(chiSquareP(within, expected), sidak(0.01, 18)) << dimension;
+      EXPECT_GT(chiSquareP(across, expected), sidak(0.01, 18)) << dimension;
+    }
+  }
+}
+
 TEST(PixelSampler, NeighbouringPixelsAreUncorrelated) {
   for (const Randomization kind : kAll) {
     const auto sample = [&](uint32_t x, uint32_t y, uint32_t d) {
-      return PixelSampler(3, SampleUse::eyePath, x, y, 0, kind).get1D(d);
+      return PixelSampler(3, SampleUse::eyePath, x, y, 0, 0, kind).get1D(d);
     };
     constexpr uint32_t kPixels = 20000;
     const auto apart = [&](uint32_t dx, uint32_t dy, uint32_t d) {
