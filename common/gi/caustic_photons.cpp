@@ -14,17 +14,16 @@ int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n
 void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media,
                  int diffuseBefore, float share, const LightSampler& sampler, uint32_t i,
                  RayCounts& rays, std::vector<Photon>& out) {
-  walkLightPath(t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays,
-                [&](const Arrival& a) {
-                  const ShadingPoint& p = *a.point;
-                  if (a.fromSpecular && !isBlack(p.bsdf.diffuse)) {
-                    const Flux flux =
-                        share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.wo) * a.flux;
-                    if (!isBlack(flux))
-                      out.push_back({p.surface.position, p.ng, flux, a.diffuseBefore});
-                  }
-                  return false;  // what scatters diffusely here is the VPLs' part
-                });
+  walkLightPath(
+      t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays, [&](const Arrival& a) {
+        const ShadingPoint& p = *a.point;
+        if (a.fromSpecular && !isBlack(p.bsdf.diffuse)) {
+          const Flux flux =
+              share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
+          if (!isBlack(flux)) out.push_back({p.surface.position, p.ng, flux, a.diffuseBefore});
+        }
+        return false;  // what scatters diffusely here is the VPLs' part
+      });
 }
 
 void photonsFromEmitters(const Transport& t, const FrameKey& frame, int k, int count,

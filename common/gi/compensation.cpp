@@ -35,7 +35,7 @@ float excess(const Transport& t, float cosX, float cosY, float distance) {
 
 Receiver receiverAt(const ShadingPoint& y, uint32_t pixel) {
   Receiver r;
-  r.position = y.surface.position, r.ng = y.ng, r.ns = y.frame.normal;
+  r.position = y.surface.position, r.ng = y.ng, r.ns = y.ns;
   r.origin = offsetOrigin(y.surface, y.ng);
   r.pixel = pixel;
   return r;

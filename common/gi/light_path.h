@@ -52,7 +52,7 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
 // Veach's factor of an S lobe for particles: |wo.ns wi.ng| / (|wo.ng wi.ns|), 0 if a normal
 // disagrees.
 inline float specularShadingFactor(const ShadingPoint& p, Vec3 wi, bool transmitted) {
-  const float in = shadingFactor(p, p.wo);
+  const float in = shadingFactor(p, p.frame.normal, p.wo);
   const float g = glm::dot(wi, p.ng), s = glm::dot(wi, p.frame.normal);
   const bool agrees = transmitted ? g < 0 && s < 0 : g > 0 && s > 0;
   return agrees ? in * g / s : 0.0f;
@@ -93,7 +93,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     if (u < choice.diffuse) {
       if (!goOn) return;
       const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
-      particle.flux *= shadingFactor(p, p.wo) / choice.diffuse * p.bsdf.diffuse;
+      particle.flux *= shadingFactor(p, p.ns, p.wo) / choice.diffuse * p.bsdf.diffuse;
       particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
       fromSpecular = false, specularRun = 0, ++diffuseBefore;
       continue;

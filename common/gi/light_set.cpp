@@ -95,7 +95,7 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
   Vpl vpl;
   vpl.position = p.surface.position, vpl.error = p.surface.error;
   vpl.normal = p.ng;
-  vpl.power = share / t.shader.squaredIndex(a.media) * kInvPi * shadingFactor(p, p.wo) *
+  vpl.power = share / t.shader.squaredIndex(a.media) * kInvPi * shadingFactor(p, p.ns, p.wo) *
               p.bsdf.diffuse * a.flux;
   vpl.diffuseCount = a.diffuseBefore + 1;
   vpl.media = a.media;

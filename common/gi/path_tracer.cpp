@@ -27,7 +27,7 @@ LobeValue evaluateWay(const ShadingPoint& p, Way way, Vec3 w) {
   if (way != Way::diffuse)
     return evaluateLobe(p.bsdf, way == Way::reflection ? Lobe::reflection : Lobe::transmission,
                         p.localWo(), p.frame.toLocal(w));
-  const float cosine = std::max(glm::dot(w, p.frame.normal), 0.0f);
+  const float cosine = std::max(glm::dot(w, p.ns), 0.0f);
   return {cosine * kInvPi * p.bsdf.diffuse, cosineHemispherePdf(cosine)};
 }
 
@@ -84,7 +84,7 @@ bool scatter(const Transport& t, const ShadingPoint& p, Way way, Vec2 u, float u
   Vec3 w;
   if (way == Way::diffuse) {
     const Vec3 local = squareToCosineHemisphere(u);
-    w = p.frame.toWorld(local);
+    w = Basis(p.ns).toWorld(local);
     path.throughput *= p.bsdf.diffuse;
     path.lobePdf = cosineHemispherePdf(local.z);
   } else {

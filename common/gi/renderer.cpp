@@ -32,6 +32,12 @@ MediumStack mediaAround(const Transport& t, Vec3 eye) {
   return media;
 }
 
+// An eye exactly on a surface would see nothing but it, at no distance.
+Settings offSurfaces(const Tracer& tracer, Settings settings) {
+  settings.camera.eye = tracer.clearOf(settings.camera.eye, settings.camera.forward);
+  return settings;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -40,8 +46,8 @@ struct Renderer::Impl {
   int pathsLog2;
 
   Impl(const Tracer& tracer, const Settings& settings)
-      : transport(tracer, settings),
-        eyeMedia(mediaAround(transport, settings.camera.eye)),
+      : transport(tracer, offSurfaces(tracer, settings)),
+        eyeMedia(mediaAround(transport, transport.settings.camera.eye)),
         pathsLog2(settings.method == Method::instantRadiosity ? lightPathsLog2(transport) : -1) {}
 };
 

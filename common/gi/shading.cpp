@@ -54,7 +54,7 @@ float Shader::indexOf(int material) const {
                                        : scene_->materials[static_cast<size_t>(material)].ior;
 }
 
-Basis Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
+Vec3 Shader::shadingNormal(const SurfacePoint& s, Vec3 ng) const {
   const Material& material = scene_->materials[static_cast<size_t>(s.material)];
   Vec3 n = s.shadingNormal;
   if (material.normalMap) {
@@ -65,10 +65,7 @@ Basis Shader::shadingFrame(const SurfacePoint& s, Vec3 ng, Vec3 wo) const {
     if (glm::dot(bent, bent) > 0) n = glm::normalize(bent);
   }
   if (glm::dot(s.geometricNormal, ng) < 0) n = -n;
-  // A shading normal that turns away from the viewer cannot carry a BSDF: the geometric one takes
-  // over.
-  const bool usable = glm::dot(n, wo) > 1e-4f && glm::dot(n, ng) > 0;
-  return Basis(usable ? n : ng);
+  return glm::dot(n, ng) > 0 ? n : ng;
 }
 
 Shader::FresnelEnds Shader::dielectricEnds(const Material& m, const SurfacePoint& s) const {
@@ -119,7 +116,8 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   p.wo = wo;
   p.front = glm::dot(wo, s.geometricNormal) >= 0;
   p.ng = p.front ? s.geometricNormal : -s.geometricNormal;
-  p.frame = shadingFrame(s, p.ng, wo);
+  p.ns = shadingNormal(s, p.ng);
+  p.frame = Basis(glm::dot(p.ns, wo) > 1e-4f ? p.ns : p.ng);
 
   Vec3 base = m.baseColor;
   float opacity = m.opacity;

@@ -30,7 +30,8 @@ struct ShadingPoint {
   SurfacePoint surface;
   Vec3 wo{0};                  // unit, towards where the path came from
   Vec3 ng{0};                  // geometric normal on wo's side
-  Basis frame{Vec3(0, 0, 1)};  // shading frame on wo's side: local wo.z > 0
+  Vec3 ns{0};                  // shading normal on ng's side, of D: depends on wo's side alone
+  Basis frame{Vec3(0, 0, 1)};  // of the S lobes: about ns, or about ng if wo is behind ns
   Bsdf bsdf;
   bool front = true;  // wo is on the front side of the surface
 
@@ -102,7 +103,7 @@ class Shader {
   float indexOf(int material) const;
   bool isSolid(int material) const;
   int before(const ShadingPoint& point, const MediumStack& media) const;  // medium on wo's side
-  Basis shadingFrame(const SurfacePoint& surface, Vec3 ng, Vec3 wo) const;
+  Vec3 shadingNormal(const SurfacePoint& surface, Vec3 ng) const;
   void fillOpaque(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                   float metallic, float alpha, const SurfacePoint& s) const;
   void fillTransmitting(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
@@ -118,10 +119,10 @@ class Shader {
 };
 
 // The factor that a particle's flux takes for interpolated normals on arrival from unit direction w
-// (away from the surface): |w.ns| / |w.ng|, 0 where the two normals see w on different sides. Veach
-// 1997, 5.3.
-inline float shadingFactor(const ShadingPoint& p, Vec3 w) {
-  const float g = glm::dot(w, p.ng), s = glm::dot(w, p.frame.normal);
+// (away from the surface): |w.n| / |w.ng|, 0 where the two normals see w on different sides. n is
+// ns for D, the frame's normal for S. Veach 1997, 5.3.
+inline float shadingFactor(const ShadingPoint& p, Vec3 n, Vec3 w) {
+  const float g = glm::dot(w, p.ng), s = glm::dot(w, n);
   return g * s <= 0 ? 0.0f : s / g;
 }
 

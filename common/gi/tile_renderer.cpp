@@ -38,7 +38,7 @@ struct TaskContext {
 void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
                  Reflectance throughput, float gain, float distance, uint16_t chain) {
   Receiver r;
-  r.position = x.surface.position, r.ng = x.ng, r.ns = x.frame.normal;
+  r.position = x.surface.position, r.ng = x.ng, r.ns = x.ns;
   r.origin = offsetOrigin(x.surface, x.ng);
   r.gain = gain;
   const int i = static_cast<int>(pixel) % c.rect.width, j = static_cast<int>(pixel) / c.rect.width;
@@ -47,7 +47,7 @@ void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
   c.scratch.places[static_cast<size_t>(layer)].push_back(static_cast<uint32_t>(pixel));
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
   put(planes.reflectance, pixel, kInvPi * throughput * x.bsdf.diffuse);
-  put(planes.normal, pixel, x.frame.normal);
+  put(planes.normal, pixel, x.ns);
   planes.distance[pixel] = distance;
   planes.chain[pixel] = chain;
 }
@@ -62,7 +62,7 @@ void fillExtras(TaskContext& c, const ShadingPoint& p, size_t pixel, float depth
     if (p.bsdf.transmits()) albedo += lobeAlbedo(p.bsdf, Lobe::transmission, cosine);
     put(e.albedo, pixel, glm::min(albedo, Vec3(1)));
   }
-  if ((mask & kNormalPlane) != 0) put(e.normal, pixel, p.frame.normal);
+  if ((mask & kNormalPlane) != 0) put(e.normal, pixel, p.ns);
   if ((mask & kDepthPlane) != 0) e.depth[pixel] = depth;
   if ((mask & kObjectPlane) != 0) e.object[pixel] = p.surface.instance + 1;
 }

@@ -1,6 +1,11 @@
 #include "common/scene/emitters.h"
 
+#include <array>
+#include <bit>
+#include <tuple>
+
 #include "common/math/rounding.h"
+#include "common/sampling/hash.h"
 #include "common/scene/emitter_power.h"
 #include "common/scene/texture.h"
 #include "common/scene/world.h"
@@ -44,16 +49,41 @@ Emitter triangleEmitter(const Mesh& mesh, const DMat4& toWorld, uint32_t triangl
   return e;
 }
 
+// Corners in an order that does not depend on where a mesh starts to count them. The front is part
+// of the place, unless both sides emit.
+std::array<Vec3, 3> placeOf(const Emitter& e) {
+  std::array<Vec3, 3> corners = {e.a, e.b, e.c};
+  std::sort(corners.begin(), corners.end(),
+            [](Vec3 p, Vec3 q) { return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z); });
+  const Vec3 n = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  if (!e.doubleSided && glm::dot(n, e.normal) < 0) std::swap(corners[1], corners[2]);
+  return corners;
+}
+
+bool isTwice(const Emitter& one, const Emitter& other) {
+  return placeOf(one) == placeOf(other) && one.doubleSided == other.doubleSided &&
+         one.flux == other.flux;
+}
+
+uint64_t hashOfPlace(const Emitter& e) {
+  uint64_t hash = 0;
+  for (const Vec3& p : placeOf(e))
+    for (int c = 0; c < 3; ++c)
+      hash = hashWords(hash, std::bit_cast<uint32_t>(p[c] + 0.0f));  // -0 is 0
+  return hash;
+}
+
 }  // namespace
 
 Emitters::Emitters(const Scene& scene, Radiance environment)
     : scene_(&scene), environment_(environment) {
   std::vector<float> power;
   TriangleRadiance radiance(*this, scene);
+  Places places;
   firstOfInstance_.reserve(scene.instances.size() + 1);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     firstOfInstance_.push_back(static_cast<uint32_t>(emitters_.size()));
-    addTriangles(i, radiance, power);
+    addTriangles(i, radiance, places, power);
   }
   firstOfInstance_.push_back(static_cast<uint32_t>(emitters_.size()));
   const float R = scene.bounds.radius();
@@ -69,7 +99,7 @@ Emitters::Emitters(const Scene& scene, Radiance environment)
   byPower_ = Distribution(power);
 }
 
-void Emitters::addTriangles(uint32_t instance, TriangleRadiance& radiance,
+void Emitters::addTriangles(uint32_t instance, TriangleRadiance& radiance, Places& places,
                             std::vector<float>& power) {
   const Instance& i = scene_->instances[instance];
   const Mesh& mesh = scene_->meshes[static_cast<size_t>(i.mesh)];
@@ -80,14 +110,21 @@ void Emitters::addTriangles(uint32_t instance, TriangleRadiance& radiance,
     const TriangleRadiance::Value L = radiance.of(mesh, t);
     const float measure = kPi * e.area * (material.doubleSided ? 2.0f : 1.0f);
     e.instance = instance, e.doubleSided = material.doubleSided, e.flux = measure * L.mean;
-    append(e, std::max(maxComponent(e.flux), measure * L.least), power);
+    if (const auto before = places.find(hashOfPlace(e));
+        before != places.end() && isTwice(e, emitters_[before->second])) {
+      doubles_[{instance, t}] = before->second;
+      continue;
+    }
+    if (append(e, std::max(maxComponent(e.flux), measure * L.least), power))
+      places.try_emplace(hashOfPlace(e), static_cast<uint32_t>(emitters_.size() - 1));
   }
 }
 
-void Emitters::append(const Emitter& emitter, float itsPower, std::vector<float>& power) {
-  if (!(itsPower > 0) || !std::isfinite(itsPower)) return;
+bool Emitters::append(const Emitter& emitter, float itsPower, std::vector<float>& power) {
+  if (!(itsPower > 0) || !std::isfinite(itsPower)) return false;
   emitters_.push_back(emitter);
   power.push_back(itsPower);
+  return true;
 }
 
 EmitterPoint Emitters::pointAt(uint32_t emitter, Vec2 b) const {
@@ -106,8 +143,10 @@ int Emitters::find(uint32_t instance, uint32_t triangle) const {
   const auto last = emitters_.begin() + firstOfInstance_[instance + 1];
   const auto found = std::lower_bound(first, last, triangle,
                                       [](const Emitter& e, uint32_t t) { return e.triangle < t; });
-  if (found == last || found->triangle != triangle) return -1;
-  return static_cast<int>(found - emitters_.begin());
+  if (found != last && found->triangle == triangle)
+    return static_cast<int>(found - emitters_.begin());
+  const auto twice = doubles_.find({instance, triangle});
+  return twice == doubles_.end() ? -1 : static_cast<int>(twice->second);
 }
 
 Radiance Emitters::radianceOf(int material, Vec2 uv0, Vec2 uv1) const {

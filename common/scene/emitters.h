@@ -9,10 +9,14 @@
 // Power means the largest component of Phi [W]: no channel of a light is ever starved. A textured
 // triangle counts for at least a hundredth of what its brightest texel would make of it, so that
 // sampling by power misses none that emits at all; one that is black all over has no entry.
-// Each emissive triangle is an entry of its own. Refers to the Scene.
+// Each emissive triangle is an entry of its own; one that is there twice, corner by corner, with the
+// same flux, has one entry for both, since only one of them is seen. Refers to the Scene.
 // Threads: const after construction.
 #pragma once
 
+#include <map>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "common/sampling/distribution.h"
@@ -63,12 +67,15 @@ class Emitters {
   static Intensity intensity(const PunctualLight& light, Vec3 direction);
 
  private:
-  void addTriangles(uint32_t instance, TriangleRadiance& radiance, std::vector<float>& power);
-  void append(const Emitter& emitter, float itsPower, std::vector<float>& power);
+  using Places = std::unordered_map<uint64_t, uint32_t>;  // entries by a hash of their corners
+  void addTriangles(uint32_t instance, TriangleRadiance& radiance, Places& places,
+                    std::vector<float>& power);
+  bool append(const Emitter& emitter, float itsPower, std::vector<float>& power);  // if it has any
 
   const Scene* scene_;
   std::vector<Emitter> emitters_;          // triangles first, by instance, then by triangle
   std::vector<uint32_t> firstOfInstance_;  // where an instance's triangles begin, and the end
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> doubles_;  // (instance, triangle): its entry
   Distribution byPower_;
   Radiance environment_{0};
 };

@@ -1,5 +1,7 @@
 #include "common/tracing/contacts.h"
 
+#include <tuple>
+
 #include "common/math/rounding.h"
 #include "common/scene/needs.h"
 
@@ -10,6 +12,8 @@ namespace {
 constexpr float kMargin = 100 * kUnitRoundoff;
 // How far outside of a triangle, in barycentrics, a point still is in it: none falls between two.
 constexpr double kSlack = 1e-6;
+// Cosine to a surface's normal below which a view counts as along the surface.
+constexpr float kAlong = 1e-3f;
 
 bool isSolid(const Material& m) { return m.solid && transmits(m); }
 
@@ -63,6 +67,10 @@ glm::dvec2 barycentrics(const Tracer::Corners& t, Vec3 p) {
   return {glm::dot(glm::cross(w, e2), n) / n2, glm::dot(glm::cross(e1, w), n) / n2};
 }
 
+bool isInside(glm::dvec2 uv) {
+  return uv.x >= -kSlack && uv.y >= -kSlack && uv.x + uv.y <= 1 + kSlack;
+}
+
 }  // namespace
 
 Contacts::Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geometries,
@@ -74,7 +82,7 @@ Contacts::Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geom
       margin_(kMargin * scene.bounds.radius()),
       touching_(geometries.size()) {
   for (uint32_t i = 0; i < geometries.size(); ++i)
-    if (opacity(material(i)) < 2) findFrom(i);
+    if (opacity(material(i)) < 2 || !isBlack(material(i).emission)) findFrom(i);
 }
 
 const Material& Contacts::material(uint32_t instance) const {
@@ -122,7 +130,7 @@ std::vector<Contacts::Contact> Contacts::at(const Hit& hit, Vec3 p) const {
     const float distance = planeDistance(f.at, f.normal, p), error = errorAt(f.at, f.normal, p);
     if (distance > std::min(ownError + error, margin_)) return;
     const glm::dvec2 uv = barycentrics(f.at, p);
-    if (uv.x < -kSlack || uv.y < -kSlack || uv.x + uv.y > 1 + kSlack) return;
+    if (!isInside(uv)) return;
     const auto u = static_cast<float>(uv.x), v = static_cast<float>(uv.y);
     if ((*masks_)[instance].material->alphaMode == AlphaMode::mask &&
         (*masks_)[instance].isOpen(triangle, u, v))
@@ -141,15 +149,38 @@ std::vector<Contacts::Contact> Contacts::at(const Hit& hit, Vec3 p) const {
   return found;
 }
 
-Hit Contacts::mostOpaque(const Hit& hit) const {
+Hit Contacts::foremost(const Hit& hit, Vec3 direction) const {
+  const auto rank = [&](const Hit& h) {
+    const Material& m = material(h.instance);
+    const bool front = glm::dot(face(h.instance, h.triangle).normal, direction) < 0;
+    const bool emits = !isBlack(m.emission) && (front || m.doubleSided);
+    return std::tuple(opacity(m), emits, front, ~h.instance, ~h.triangle);
+  };
   const Tracer::Corners own = (*geometries_)[hit.instance].corners(hit.triangle);
   Hit best = hit;
   for (const Contact& c : at(hit, pointOnTriangle(own.a, own.b, own.c, hit.u, hit.v))) {
-    const int here = opacity(material(c.instance)), there = opacity(material(best.instance));
-    if (here > there || (here == there && c.instance < best.instance))
-      best = {c.instance, c.triangle, c.u, c.v, hit.t};
+    const Hit other{c.instance, c.triangle, c.u, c.v, hit.t};
+    if (rank(other) > rank(best)) best = other;
   }
   return best;
+}
+
+Vec3 Contacts::clearOf(Vec3 p, Vec3 direction) const {
+  Vec3 moved = p;
+  const auto visit = [&](uint32_t instance, uint32_t triangle) {
+    const Face f = face(instance, triangle);
+    const float error = errorAt(f.at, f.normal, p);
+    const auto height = static_cast<float>(glm::dot(DVec3(moved) - DVec3(f.at.a), DVec3(f.normal)));
+    if (isBlack(f.normal) || std::abs(height) > error || !isInside(barycentrics(f.at, p))) return;
+    Vec3 side = f.normal;
+    if (std::abs(height) > storageError(p, f.normal))
+      side *= height;
+    else if (std::abs(glm::dot(f.normal, direction)) >= kAlong)
+      side = direction;
+    moved = offsetOrigin(moved, f.normal, 2 * error, side);
+  };
+  forEachNear(hierarchy_, p, margin_, visit);
+  return moved;
 }
 
 void Contacts::addSolids(const Hit& hit, SurfacePoint& p) const {

@@ -1,10 +1,11 @@
-// contacts.h: surfaces that lie in one another, of which at least one lets light pass: a glass that
-// stands on a table, water in a glass, a pane against a wall.
+// contacts.h: surfaces that lie in one another, of which at least one lets light pass or sends it
+// out: a glass that stands on a table, water in a glass, a lamp in the plane of the ceiling.
 //
 // A ray meets one of them, whichever rounding puts first, and the next ray starts beyond both
 // (surface.h). So at the hit all of them must be known:
 //   which()   the hit is on the one that lets least pass: opaque before solid before thin or
-//             blended, among equals on the one that comes first in the scene
+//             blended; among equals on one that emits towards the ray, then on one that shows it
+//             its front, then on the one that comes first in the scene
 //   addTo()   names the solids at a point, so that all are left and entered together, and widens
 //             the point's error so that new rays start outside all of them
 // Two triangles are in contact at a point if both hold it and their planes there are no further
@@ -29,10 +30,14 @@ class Contacts {
   Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geometries,
            const std::vector<AlphaMask>& masks, RTCScene hierarchy);
 
-  Hit which(const Hit& hit) const { return touches(hit) ? mostOpaque(hit) : hit; }
+  Hit which(const Hit& hit, Vec3 direction) const {
+    return touches(hit) ? foremost(hit, direction) : hit;
+  }
   void addTo(const Hit& hit, SurfacePoint& p) const {
     if (touches(hit)) addSolids(hit, p);
   }
+  // See Tracer::clearOf.
+  Vec3 clearOf(Vec3 p, Vec3 direction) const;
 
  private:
   // A triangle with its plane.
@@ -53,7 +58,7 @@ class Contacts {
   }
   void findFrom(uint32_t instance);
   void mark(const Face& face);
-  Hit mostOpaque(const Hit& hit) const;
+  Hit foremost(const Hit& hit, Vec3 direction) const;
   void addSolids(const Hit& hit, SurfacePoint& p) const;
   std::vector<Contact> at(const Hit& hit, Vec3 position) const;
   Face face(uint32_t instance, uint32_t triangle) const;

@@ -90,7 +90,7 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
   embree::intersect1(impl_->hierarchy.get(), &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit::none();
   return impl_->contacts->which(
-      {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar});
+      {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar}, direction);
 }
 
 void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coherent) const {
@@ -104,8 +104,9 @@ void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coheren
     hits[i] = Hit::none();
     if ((lanes >> i & 1) == 0 || hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
     rays.farT[i] = query.ray.tfar[i];
-    hits[i] =
-        impl_->contacts->which(Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]});
+    const Vec3 direction(rays.directionX[i], rays.directionY[i], rays.directionZ[i]);
+    hits[i] = impl_->contacts->which(
+        Hit{hit.geomID[i], hit.primID[i], hit.u[i], hit.v[i], rays.farT[i]}, direction);
   }
 }
 
@@ -132,6 +133,10 @@ SurfacePoint Tracer::surface(const Hit& hit) const {
   impl_->geometries[hit.instance].surface(hit.triangle, hit.u, hit.v, p);
   impl_->contacts->addTo(hit, p);
   return p;
+}
+
+Vec3 Tracer::clearOf(Vec3 p, Vec3 direction) const {
+  return impl_->contacts->clearOf(p, direction);
 }
 
 Tracer::Corners Tracer::corners(uint32_t instance, uint32_t triangle) const {

@@ -67,6 +67,11 @@ class Tracer {
   // The surface at a hit, in world space, with its error bound.
   SurfacePoint surface(const Hit& hit) const;
 
+  // p, moved off the surfaces that lie within rounding of it, so that rays may start there. It stays
+  // on its side; from exactly in a surface it goes to where `direction` goes, or to the front if
+  // that is along the surface.
+  Vec3 clearOf(Vec3 p, Vec3 direction) const;
+
   // World-space corners of a triangle of an instance in the mesh's order, as barycentrics count
   // them. The front sees them counterclockwise, or clockwise if the instance is mirrored: see
   // surface().

@@ -186,9 +186,29 @@ TEST(Emitters, MaskedTexelsDoNotShine) {
   EXPECT_EQ(emitters.radianceOf(0, Vec2(0.8f, 0), Vec2(0)), Vec3(0));
 }
 
+// A lamp that is in the file twice is seen once, so it counts once; the side that it shows is part of
+// it, the corner at which its triangles start is not.
+TEST(Emitters, WhatIsThereTwiceShinesOnce) {
+  Scene scene = glowing(Vec3(1));
+  const size_t once = Emitters(scene, Radiance(0)).size();
+  Mesh turned = scene.meshes[0];
+  for (Triangle& t : turned.triangles) t = Triangle(t.y, t.z, t.x);
+  scene.meshes.push_back(turned);
+  scene.instances.push_back(Instance{"again", 1, 1, DMat4(1)});
+  const Emitters emitters(scene, Radiance(0));
+  EXPECT_EQ(emitters.size(), once);
+  EXPECT_EQ(emitters.find(1, 1), emitters.find(0, 1));
+  for (Triangle& t : scene.meshes[1].triangles) std::swap(t.y, t.z);
+  EXPECT_EQ(Emitters(scene, Radiance(0)).size(), 2 * once);
+  scene.materials[0].doubleSided = true;
+  EXPECT_EQ(Emitters(scene, Radiance(0)).size(), once);
+}
+
 TEST(Emitters, ManyAreNoProblem) {
   Scene scene = glowing(Vec3(1));
   scene.instances.assign(10000, scene.instances[0]);
+  for (size_t i = 0; i < scene.instances.size(); ++i)
+    scene.instances[i].toWorld[3].x = static_cast<double>(i);
   const Emitters emitters(scene, Radiance(0));
   EXPECT_EQ(emitters.size(), 20000u);
   EXPECT_EQ(emitters.find(9999, 1), 19999);

@@ -67,9 +67,9 @@ TEST(Contacts, GlassOnATableEndsAtTheTable) {
 TEST(Contacts, SolidsInContactNameEachOther) {
   for (const bool turned : {false, true})
     lookDown(blocks({kGlass, kWater}, turned), [](const SurfacePoint& p) {
-      ASSERT_EQ(p.instance, 0u);  // the first in the scene, always
+      ASSERT_EQ(p.instance, 1u);  // the one that shows its front, always
       ASSERT_EQ(p.contactCount, 1);
-      EXPECT_EQ(p.contacts[0].material, 1);
+      EXPECT_EQ(p.contacts[0].material, 0);
       EXPECT_FALSE(p.contacts[0].sameSide);
     });
 }
@@ -127,6 +127,49 @@ TEST(Contacts, AreNotThereAcrossAGap) {
   const Block below{Vec3(-1, -1, -1), Vec3(1, -1e-4f, 1), 1.33f};
   lookDown(blocks({kGlass, below}, true),
            [](const SurfacePoint& p) { EXPECT_EQ(p.contactCount, 0); });
+}
+
+// A lamp in the plane of a ceiling is seen, from below; from above there is the ceiling's back.
+TEST(Contacts, LampsInAPlaneAreSeenFromTheirFront) {
+  for (const bool lampFirst : {false, true}) {
+    SceneBuilder b;
+    const int wall = b.material(testing::matte(Vec3(0.5f)));
+    const int lamp = b.material(testing::matte(Vec3(0), Vec3(1)));
+    const auto ceiling = [&](int material, float half) {
+      b.quad(material, Vec3(-half, 1, -half), Vec3(2 * half, 0, 0), Vec3(0, 0, 2 * half));
+    };
+    if (lampFirst) ceiling(lamp, 0.3f);
+    ceiling(wall, 1);
+    if (!lampFirst) ceiling(lamp, 0.3f);
+    const Scene scene = b.build();
+    const Tracer tracer(scene, Isa::automatic);
+    const auto seen = [&](Vec3 from, Vec3 to) {
+      const Hit hit = tracer.closest(from, glm::normalize(to - from), 10);
+      return scene.meshes[hit.instance].material;
+    };
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-0.29f, 0.29f);
+    for (int i = 0; i < 1000; ++i) {
+      const Vec3 to(uniform(random), 1, uniform(random));
+      EXPECT_EQ(seen(Vec3(uniform(random), 0, 0.1f), to), lamp);
+      EXPECT_EQ(seen(Vec3(0.4f, 0, 0.1f), to + Vec3(0.6f, 0, 0)), wall);
+    }
+  }
+}
+
+// Two squares back to back: each side sees the one that faces it.
+TEST(Contacts, BackToBackTheFrontIsSeen) {
+  SceneBuilder b;
+  const int red = b.material(testing::matte(Vec3(0), Vec3(1, 0, 0)));
+  const int blue = b.material(testing::matte(Vec3(0), Vec3(0, 0, 1)));
+  b.quad(red, Vec3(-1, 0, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));   // up
+  b.quad(blue, Vec3(-1, 0, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));  // down
+  const Scene scene = b.build();
+  const Tracer tracer(scene, Isa::automatic);
+  for (const float x : {-0.7f, -0.1f, 0.3f, 0.9f}) {
+    EXPECT_EQ(tracer.closest(Vec3(x, 1, 0.2f), Vec3(0, -1, 0), 10).instance, 0u);
+    EXPECT_EQ(tracer.closest(Vec3(x, -1, 0.2f), Vec3(0, 1, 0), 10).instance, 1u);
+  }
 }
 
 // Opaque surfaces among themselves are left alone: whichever is hit, nothing passes.
