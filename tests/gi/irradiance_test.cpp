@@ -4,11 +4,13 @@
 
 #include "common/gi/light_set.h"
 #include "common/gi/vpl_gather.h"
+#include "tests/gi/closed_form.h"
 #include "tests/gi/make_scene.h"
 
 namespace ninefold {
 namespace {
 
+using testing::lambert;
 using testing::SceneBuilder;
 
 struct Measured {
@@ -42,18 +44,6 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
 void addSpeck(SceneBuilder& b) {
   b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-5, -5, -5), Vec3(0.01f, 0, 0),
          Vec3(0, 0, 0.01f));
-}
-
-// Lambert's formula for a polygon: E = L/2 sum gamma_i cos_i over its edges.
-double lambert(const std::vector<glm::dvec3>& corners, glm::dvec3 x, glm::dvec3 n) {
-  double sum = 0;
-  for (size_t i = 0; i < corners.size(); ++i) {
-    const glm::dvec3 a = glm::normalize(corners[i] - x);
-    const glm::dvec3 b = glm::normalize(corners[(i + 1) % corners.size()] - x);
-    const glm::dvec3 across = glm::cross(a, b);
-    sum += std::atan2(glm::length(across), glm::dot(a, b)) * glm::dot(glm::normalize(across), n);
-  }
-  return std::abs(sum) / 2;
 }
 
 TEST(Irradiance, PolygonLightMeetsLambertsFormula) {
