@@ -77,7 +77,8 @@ TEST(FormFactor, DiskFromASphere) {
   }
   const double factor = testing::sphereToDisk(h, R);
   const double expected = kAlbedo * factor * 4 * r * r / (R * R) * testing::kExactPi / 4;
-  testing::expectRadiance(scene, testing::estimators(8, 1), expected, {.frames = 256, .bias = 2e-3});
+  testing::expectRadiance(scene, testing::estimators(8, 1), expected,
+                          {.frames = 256, .bias = 2e-3});
 }
 
 }  // namespace
