@@ -1,26 +1,25 @@
 // caustic_photons.h: photons for the last leg from an S vertex, L S+ D and ...D S+ D.
 //
-//   E(x) = 1/(pi r^2) sum Phi_i    over photons within r, landed on x's side, normals within 60
-//   degrees   [W/m^2]; Phi_i = flux / n^2 in a medium of index n
+//   E(x) = 1/(pi r^2) sum Phi_i/f_i   over photons within r that landed on x's side, normals within
+//                                     60 degrees   [W/m^2]
 //
+// Phi = flux / n^2 in a medium of index n; f: what the photon's disk covers (photon_footprint.h).
 // Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are
 // stored at the first D vertex if there was an S before it. With `all`, half of them leave the
 // set's indirect VPLs instead (chosen in proportion to flux), aimed in the same way: those are D
-// vertices with every prefix, so
-// ...D S+ D is whole.
-// Each half of n photons is divided by n: emission counts, not landings.
+// vertices with every prefix, so ...D S+ D is whole. Each half of n photons is divided by n:
+// emission counts, not landings. Indirect photons have a wider r than those of the emitters.
 //
 // Source:  Jensen 1996.   Proved: tests/gi (caustic energy balance; no photon in a diffuse scene).
-// Fails:   flux is blurred over r; at edges of small surfaces part of the disk is empty (both go
-// with r). Threads: pure functions.
+// Fails:   flux is blurred over r, which goes with r.   Threads: pure functions.
 #pragma once
 
 #include "common/gi/light_set.h"
 
 namespace ninefold {
 
-std::vector<Photon> makeCausticPhotons(const Transport& transport, const FrameKey& frame, int k,
-                                       const std::vector<Vpl>& vpls, RayCounts& rays);
+// Photons of set k, whose VPLs are made already.
+void addCausticPhotons(const Transport& transport, const FrameKey& frame, int k, LightSet& set);
 
 // Irradiance at a receiver with unit geometric normal n; pathVertices as in irradiance.h.
 Irradiance gatherPhotons(const Transport& transport, const PhotonGrid& grid, Vec3 position, Vec3 n,

@@ -125,8 +125,7 @@ LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int path
                  [&](const Arrival& a) { set.vpls.push_back(indirectVpl(t, a, share)); });
     std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power); });
   }
-  std::vector<Photon> photons = makeCausticPhotons(t, frame, k, set.vpls, set.rays);
-  if (!photons.empty()) set.photons = PhotonGrid(std::move(photons), frame.photonRadius);
+  addCausticPhotons(t, frame, k, set);
   return set;
 }
 

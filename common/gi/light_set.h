@@ -39,8 +39,9 @@ struct Vpl {
 
 struct LightSet {
   std::vector<Vpl> vpls;
-  PhotonGrid photons;
-  RayCounts rays;  // what making it cost
+  PhotonGrid photons;          // from the emitters
+  PhotonGrid indirectPhotons;  // from D vertices, of a wider radius
+  RayCounts rays;              // what making it cost
 };
 
 // m of 2^m light paths a set, from a pilot of fixed size: same on every client.

@@ -9,7 +9,7 @@ from report_lib.programs import Job
 from report_lib.section import Picture, Section
 from report_lib.tables import Table, figure, percent, signed_percents
 
-HEAD = ["scene", "runs x frames", "error between runs", "error as stated", "reference's error", "bias R G B [%]",
+HEAD = ["scene", "runs x frames", "error between runs", "error as stated", "reference's error of the image", "bias R G B [%]",
         "error of that [%]", "blocks beyond 2 (chance)", "beyond 3 (chance)", "block difference (noise alone)",
         "worst block: t, difference"]
 TEXT = [

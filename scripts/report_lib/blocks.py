@@ -28,7 +28,13 @@ class Blocks:
     channel_error: numpy.ndarray
     count: int
 
+    def image_error(self):
+        """Relative standard error of the image's mean, of the channel where it is largest."""
+        lit = self.channel_mean > 0
+        return float((self.channel_error[lit] / self.channel_mean[lit]).max()) if lit.any() else 0.0
+
     def relative_error(self):
+        """As --stats gives it: root mean square over blocks."""
         whole = self.pixels.sum()
         return math.sqrt((self.pixels * self.error ** 2).sum() / whole) / ((self.pixels * self.mean).sum() / whole)
 

@@ -6,15 +6,15 @@ from report_lib import scenes
 
 SECTIONS = ("agreement", "speed", "interleaving", "randomization", "needs")
 
-FULL = dict(budgets="0.5,1,2,4,8,16,32", short_budgets="1,4", target_seconds=256, reference_seconds=1200, runs=8,
-            run_seconds=30, seeds=8, frames="1,16", rounds=10, few="table_room,office")
+FULL = dict(budgets="0.5,1,2,4,8,16", short_budgets="1,4", target_seconds=128, reference_seconds=300, runs=8,
+            run_seconds=10, seeds=8, frames="1,16", rounds=10, few="table_room,office")
 QUICK = dict(budgets="0.5,1,2", short_budgets="1", target_seconds=2, reference_seconds=10, runs=4, run_seconds=3, seeds=2,
              frames="4", rounds=0, few="table_room", scenes="cornell,table_room,egg_room")
 
 DESCRIPTION = """How wrong pictures are after how many seconds, for each scene and method, held against path-traced
 references: writes report.html, which opens from disk, and a .csv for each table. References are made once and kept in
-out/references; a section that was run before stays in the page until it is run again. The full report takes hours, nearly
-all of them for references (20 minutes a scene at most) and for the runs to small errors."""
+out/references; a section that was run before stays in the page until it is run again. The full report takes about two
+hours on two cores the first time, nearly half of it for references (5 minutes a scene at most)."""
 
 
 def parse(words):
@@ -28,18 +28,18 @@ def parse(words):
     parser.add_argument("--folder", default="",
                         help=f"where scenes that are not shipped lie: {', '.join(s[1] for s in scenes.ELSEWHERE)}")
     parser.add_argument("--width", type=int, default=160, help="pixels a row; 4:3, or 7/8 of it square (default 160)")
-    parser.add_argument("--budgets", help="seconds of each run of the section speed (default 0.5,1,2,...32)")
+    parser.add_argument("--budgets", help="seconds of each run of the section speed (default 0.5,1,2,...16)")
     parser.add_argument("--target-seconds", type=float,
-                        help=f"how long runs of {' and '.join(scenes.TARGETS)} get at most for the smallest errors (default 256)")
+                        help=f"how long runs of {' and '.join(scenes.TARGETS)} get at most for the smallest errors (default 128)")
     parser.add_argument("--short-budgets", help="seconds of each run of the section interleaving (default 1,4)")
     parser.add_argument("--runs", type=int, help="runs a scene of the section agreement, at least 2 (default 8)")
-    parser.add_argument("--run-seconds", type=float, help="of each of them (default 30)")
+    parser.add_argument("--run-seconds", type=float, help="of each of them (default 10)")
     parser.add_argument("--seeds", type=int, help="runs of each kind in the sections interleaving and randomization, at least 2 (default 8)")
     parser.add_argument("--frames", help="frames of each run of the section randomization (default 1,16)")
     parser.add_argument("--rounds", type=int, help="of timing what unused features cost; 0: do not (default 10)")
-    parser.add_argument("--reference-seconds", type=float, help="time for each reference (default 1200)")
+    parser.add_argument("--reference-seconds", type=float, help="time for each reference (default 300)")
     parser.add_argument("--reference-error", type=float, default=0.001,
-                        help="relative standard error at which a reference is good enough (default 0.001)")
+                        help="relative standard error of the image's mean at which a reference is good enough (default 0.001)")
     parser.add_argument("--clients", type=int, default=os.cpu_count(), help="local clients (default: one a core)")
     parser.add_argument("--programs", default=os.path.join(scenes.ROOT, "build/bin"), help="folder (default build/bin)")
     parser.add_argument("--out", help="folder (default out/report, with --quick out/report_quick)")

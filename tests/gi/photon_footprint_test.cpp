@@ -1,0 +1,66 @@
+// The share of a photon's disk that is surface, against areas from elementary geometry.
+#include "common/gi/photon_footprint.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/gi/make_scene.h"
+
+namespace ninefold {
+namespace {
+
+using testing::SceneBuilder;
+
+// Mean over turns of the pattern.
+double footprint(SceneBuilder& b, Vec3 x, Vec3 n, Metres r) {
+  b.camera(Vec3(0, 5, 0), Vec3(0, -1, 0), 1, Vec3(1, 0, 0));
+  const Scene scene = b.build();
+  const Tracer tracer(scene, Isa::automatic);
+  const Transport transport(tracer, Settings{});
+  constexpr int kTurns = 64;
+  double sum = 0;
+  for (int i = 0; i < kTurns; ++i)
+    sum += double(photonFootprint(transport, x, n, r, static_cast<float>(i) / kTurns));
+  return sum / kTurns;
+}
+
+SceneBuilder square() {  // [-1, 1]^2 in y = 0, seen from above
+  SceneBuilder b;
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-1, 0, -1), Vec3(0, 0, 2), Vec3(2, 0, 0));
+  return b;
+}
+
+TEST(PhotonFootprint, WholeInTheMiddleHalfAtAnEdgeAQuarterAtACorner) {
+  SceneBuilder b = square();
+  EXPECT_NEAR(footprint(b, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 1e-4);
+  EXPECT_NEAR(footprint(b, Vec3(0.9999f, 0, 0), Vec3(0, 1, 0), 0.5f), 0.5, 0.02);
+  EXPECT_NEAR(footprint(b, Vec3(0.9999f, 0, 0.9999f), Vec3(0, 1, 0), 0.5f), 0.25, 0.02);
+}
+
+// A strip of width 2a through a disk of radius r has area 2 (a sqrt(r^2 - a^2) + r^2 asin(a/r)).
+TEST(PhotonFootprint, OfABoardNarrowerThanTheDisk) {
+  SceneBuilder b;
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-0.1f, 0, -3), Vec3(0, 0, 6),
+         Vec3(0.2f, 0, 0));
+  const double a = 0.1, r = 0.5;
+  const double area = 2 * (a * std::sqrt(r * r - a * a) + r * r * std::asin(a / r));
+  EXPECT_NEAR(footprint(b, Vec3(0), Vec3(0, 1, 0), 0.5f), area / (double(kPi) * r * r), 0.02);
+}
+
+// Receivers on a wall across a corner do not accept the photon; those on a slope of 30 degrees do,
+// and it is longer than its shadow on the disk.
+TEST(PhotonFootprint, WallsAcrossDoNotCountSlopesDo) {
+  SceneBuilder wall = square();
+  wall.quad(wall.material(testing::matte(Vec3(0.5f))), Vec3(0.1f, -1, -1), Vec3(0, 2, 0),
+            Vec3(0, 0, 2));
+  EXPECT_NEAR(footprint(wall, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 1e-4);
+
+  SceneBuilder slope;  // y = |x|/sqrt 3: seen from the photon at the bottom of the groove
+  const int matte = slope.material(testing::matte(Vec3(0.5f)));
+  slope.quad(matte, Vec3(0, 0, -1), Vec3(0, 0, 2), Vec3(1.732f, 1, 0));
+  slope.quad(matte, Vec3(-1.732f, 1, -1), Vec3(0, 0, 2), Vec3(1.732f, -1, 0));
+  // Within the sphere each side holds half a disk, whatever its slope.
+  EXPECT_NEAR(footprint(slope, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 0.04);
+}
+
+}  // namespace
+}  // namespace ninefold
