@@ -19,8 +19,7 @@ def measure(context, job, seed, stop, reference, path):
         "rmse_percent": m["rmse_percent"], "relmse": m["relmse"], "relmse_trimmed": m["relmse_trimmed"],
         "bias_r": m["bias"][0], "bias_g": m["bias"][1], "bias_b": m["bias"][2], "ssim": m["ssim"],
         "error_stated": stats["relative_error"], "not_finite": m["non_finite"]["image"],
-        "reference_error": reference.error, "noise_rmse_percent": reference.noise_rmse_percent,
-        "noise_relmse": reference.noise_relmse}
+        "reference_error": reference.error, **{"noise_" + key: value for key, value in reference.noise.items()}}
 
 
 def repeated(context, job, stop, reference, name):
@@ -39,23 +38,24 @@ def mean(entries, key):
     return float(numpy.mean(values)), float(numpy.std(values, ddof=1) / math.sqrt(len(values)))
 
 
-def net_relmse(entry):
-    """relMSE without the reference's noise; None if too little is left."""
-    return _net(entry["relmse"], entry["noise_relmse"])
+def squared(key, value):
+    """Noise adds to squares."""
+    return value ** 2 if key == "rmse_percent" else value
 
 
-def net_rmse_percent(entry):
-    squared = _net(entry["rmse_percent"] ** 2, entry["noise_rmse_percent"] ** 2)
-    return None if squared is None else math.sqrt(squared)
+def squared_net(entry, key):
+    """The squared error without the reference's noise; it may be negative when hardly anything is left."""
+    return squared(key, entry[key]) - squared(key, entry["noise_" + key])
 
 
-def _net(measured, noise):
-    left = measured - noise
-    return left if left >= LEAST_PART_OF_NOISE * noise else None
+def net(entry, key):
+    """A figure without the reference's noise; None if too little is left."""
+    left = squared_net(entry, key)
+    if left < LEAST_PART_OF_NOISE * squared(key, entry["noise_" + key]):
+        return None
+    return math.sqrt(max(left, 0)) if key == "rmse_percent" else left
 
 
 def can_tell(reference, key, limit):
     """Whether an error as small as `limit` can be measured against this reference."""
-    if key == "relmse":
-        return limit >= LEAST_PART_OF_NOISE * reference.noise_relmse
-    return limit ** 2 >= LEAST_PART_OF_NOISE * reference.noise_rmse_percent ** 2
+    return squared(key, limit) >= LEAST_PART_OF_NOISE * squared(key, reference.noise[key])

@@ -35,7 +35,7 @@ def _add(context, scene, reference, case, frames, table):
         name = f"{scene.name}_{list(CASES).index(case)}_{frames}_{kind}"
         made = repeated(context, job, ("--frames", frames), reference, name)
         value, error = mean(made, "relmse")
-        entry["relmse_" + kind], entry["error_" + kind] = value - reference.noise_relmse, error
+        entry["relmse_" + kind], entry["error_" + kind] = value - reference.noise["relmse"], error
     quotients = [_quotient(entry, kind) for kind in KINDS[1:]]
     for kind, (value, error) in zip(KINDS[1:], quotients):
         entry[f"{kind}_over_random"], entry[f"{kind}_over_random_error"] = value, error

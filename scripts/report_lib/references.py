@@ -31,8 +31,7 @@ class Reference:
     frames: int
     seconds: float
     error: float  # relative standard error of the image's mean, of the worst channel
-    noise_rmse_percent: float  # what a picture without any error would be charged for the reference's noise
-    noise_relmse: float
+    noise: dict  # by figure of measure.py: what a picture without any error would be charged for the reference's noise
 
 
 class References:
@@ -63,7 +62,7 @@ class References:
         if len(state["batches"]) < LEAST_BATCHES:
             return True
         noise = TARGETS_NOISE_RELMSE if scene.name in TARGETS else NOISE_RELMSE
-        return (state["error"] > self.target or state["noise_relmse"] > noise) and state["seconds"] < self.budget
+        return (state["error"] > self.target or state["noise"]["relmse"] > noise) and state["seconds"] < self.budget
 
     def _add_batch(self, job, folder, state):
         number = len(state["batches"])
@@ -76,7 +75,7 @@ class References:
         state["seconds"] += stats["seconds"]
         if number:
             state["error"] = blocks.of_pictures(_paths(folder, state)).image_error()
-            state["noise_rmse_percent"], state["noise_relmse"] = self._noise(folder, state)
+            state["noise"] = self._noise(folder, state)
         _save(folder, state)
 
     def _noise(self, folder, state):
@@ -88,14 +87,15 @@ class References:
             pictures.write(name, pictures.mean(some))
         apart = self.programs.compare(*names)
         share = len(halves[0]) * len(halves[1]) / len(paths) ** 2
-        return apart["rmse_percent"] * share ** 0.5, apart["relmse"] * share
+        return {"rmse_percent": apart["rmse_percent"] * share ** 0.5, "relmse": apart["relmse"] * share,
+                "relmse_trimmed": apart["relmse_trimmed"] * share}
 
     def _finish(self, folder, state):
         paths = _paths(folder, state)
         name = os.path.join(folder, "mean.exr")
         pictures.write(name, pictures.mean(paths))
         return Reference(name, paths, state["frames"] * len(paths), state["seconds"], state["error"],
-                         state["noise_rmse_percent"], state["noise_relmse"])
+                         state["noise"])
 
 
 def _paths(folder, state):
@@ -107,7 +107,7 @@ def _load(folder):
         with open(os.path.join(folder, "state.json"), encoding="utf-8") as file:
             return json.load(file)
     except FileNotFoundError:
-        return {"batches": [], "frames": 0, "seconds": 0.0, "error": float("inf")}
+        return {"batches": [], "frames": 0, "seconds": 0.0, "error": float("inf"), "noise": {}}
 
 
 def _save(folder, state):

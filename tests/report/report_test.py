@@ -84,6 +84,7 @@ class Blocks(unittest.TestCase):
 
 def entry(seconds, relmse, noise=0.0):
     return {"scene": "s", "method": "m", "seconds": seconds, "relmse": relmse + noise, "noise_relmse": noise,
+            "relmse_trimmed": relmse, "noise_relmse_trimmed": 0.0,
             "rmse_percent": 1000.0, "noise_rmse_percent": 0.0}
 
 
@@ -96,13 +97,14 @@ class SecondsToError(unittest.TestCase):
 
     def test_the_table_tells_what_was_not_measured(self):
         data = [entry(t, 0.3 / t, noise=0.02) for t in (1, 2, 4, 8)]
-        reference = Reference("", [], 1, 1, 0.001, 1.0, 0.02)
+        reference = Reference("", [], 1, 1, 0.001, {"relmse": 0.02, "relmse_trimmed": 0.0, "rmse_percent": 1.0})
         row = seconds_to_error.targets_table(data, {"s": reference}, unbiased=("m",)).rows[0]
-        self.assertEqual(row, ["s", "m", "3", "> 8 (~ 30)", "reference too noisy", "> 8 (~ 8000000)"])
+        self.assertEqual(row, ["s", "m", "3", "> 8 (~ 30)", "reference too noisy", "3", "> 8 (~ 30)", "> 8 (~ 300)",
+                               "> 8 (~ 8000000)"])
 
     def test_the_references_noise_is_taken_off(self):
-        self.assertAlmostEqual(measure.net_relmse(entry(1, 0.3, noise=0.1)), 0.3)
-        self.assertIsNone(measure.net_relmse(entry(1, 0.02, noise=0.1)))
+        self.assertAlmostEqual(measure.net(entry(1, 0.3, noise=0.1), "relmse"), 0.3)
+        self.assertIsNone(measure.net(entry(1, 0.02, noise=0.1), "relmse"))
 
 
 class Pictures(unittest.TestCase):
