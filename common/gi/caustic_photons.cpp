@@ -76,6 +76,47 @@ PhotonGrid photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int
   return PhotonGrid(std::move(out.photons), out.radius);
 }
 
+// Flux within r of sixteen receivers, planar.
+struct PacketFlux {
+  float r[kPacket]{}, g[kPacket]{}, b[kPacket]{};
+};
+
+// Adds a photon to the lanes of the receivers that accept it.
+void addPhoton(const Photon& photon, float r2, const Receivers& x, size_t first, size_t count,
+               PacketFlux& sum, size_t lane) {
+#pragma GCC ivdep
+  for (size_t i = 0; i < count; ++i) {
+    const float dx = photon.position.x - x.px[first + i], dy = photon.position.y - x.py[first + i],
+                dz = photon.position.z - x.pz[first + i];
+    const float cosine = photon.normal.x * x.gx[first + i] + photon.normal.y * x.gy[first + i] +
+                         photon.normal.z * x.gz[first + i];
+    const bool near = dx * dx + dy * dy + dz * dz <= r2;
+    const float one = near & (cosine > kPhotonNormalCosine) ? 1.0f : 0.0f;
+    sum.r[lane + i] += one * photon.flux.x;
+    sum.g[lane + i] += one * photon.flux.y;
+    sum.b[lane + i] += one * photon.flux.z;
+  }
+}
+
+// One query for all of them if they lie together, else one for each half.
+void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, size_t first,
+             size_t count, int pathVertices, PacketFlux& sum, size_t lane) {
+  Vec3 low = x.position(first), high = low;
+  for (size_t i = 1; i < count; ++i) {
+    low = glm::min(low, x.position(first + i));
+    high = glm::max(high, x.position(first + i));
+  }
+  const float r2 = grid.radius() * grid.radius();
+  const bool done = grid.near(low, high, [&](const Photon& photon) {
+    if (t.allows(photon.diffuseBefore + pathVertices))
+      addPhoton(photon, r2, x, first, count, sum, lane);
+  });
+  if (done) return;
+  const size_t half = count / 2;
+  addFlux(t, grid, x, first, half, pathVertices, sum, lane);
+  addFlux(t, grid, x, first + half, count - half, pathVertices, sum, lane + half);
+}
+
 }  // namespace
 
 void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSet& set) {
@@ -94,15 +135,20 @@ void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSe
   set.indirectPhotons = photonsFromVpls(t, frame, k, fromVpls, sources, set.rays);
 }
 
-Irradiance gatherPhotons(const Transport& t, const PhotonGrid& grid, Vec3 position, Vec3 n,
-                         int pathVertices) {
-  Flux sum(0);
-  if (grid.empty()) return sum;
-  grid.near(position, [&](const Photon& photon) {
-    const bool counts = t.allows(photon.diffuseBefore + pathVertices);
-    if (counts && glm::dot(photon.normal, n) > kPhotonNormalCosine) sum += photon.flux;
-  });
-  return sum / (kPi * grid.radius() * grid.radius());
+void gatherPhotons(const Transport& t, const PhotonGrid& grid, int pathVertices,
+                   Receivers& receivers, std::vector<Irradiance>* caustic) {
+  if (grid.empty()) return;
+  const float scale = 1 / (kPi * grid.radius() * grid.radius());
+  for (size_t first = 0; first < receivers.size(); first += kPacket) {
+    PacketFlux sum;
+    const size_t count = std::min<size_t>(kPacket, receivers.size() - first);
+    addFlux(t, grid, receivers, first, count, pathVertices, sum, 0);
+    for (size_t lane = 0; lane < count; ++lane) {
+      const Irradiance e = scale * Vec3(sum.r[lane], sum.g[lane], sum.b[lane]);
+      receivers.addIrradiance(first + lane, e);
+      if (caustic != nullptr) (*caustic)[first + lane] += e;
+    }
+  }
 }
 
 }  // namespace ninefold

@@ -15,14 +15,16 @@
 #pragma once
 
 #include "common/gi/light_set.h"
+#include "common/gi/receivers.h"
 
 namespace ninefold {
 
 // Photons of set k, whose VPLs are made already.
 void addCausticPhotons(const Transport& transport, const FrameKey& frame, int k, LightSet& set);
 
-// Irradiance at a receiver with unit geometric normal n; pathVertices as in irradiance.h.
-Irradiance gatherPhotons(const Transport& transport, const PhotonGrid& grid, Vec3 position, Vec3 n,
-                         int pathVertices);
+// Adds the photons' irradiance to all receivers, and to `caustic`, one a receiver, if not null;
+// pathVertices as in irradiance.h.
+void gatherPhotons(const Transport& transport, const PhotonGrid& grid, int pathVertices,
+                   Receivers& receivers, std::vector<Irradiance>* caustic);
 
 }  // namespace ninefold

@@ -10,15 +10,8 @@ void gatherIrradiance(const Transport& t, const LightSet& lights, const Receiver
                       std::vector<Irradiance>* caustic, RayCounts& rays) {
   receivers.pad();
   gatherVpls(t, lights.vpls, pathVertices, receivers, rays.shadow);
-  if (!lights.photons.empty() || !lights.indirectPhotons.empty()) {
-    for (size_t i = 0; i < receivers.size(); ++i) {
-      const Vec3 x = receivers.position(i), n = receivers.ng(i);
-      const Irradiance e = gatherPhotons(t, lights.photons, x, n, pathVertices) +
-                           gatherPhotons(t, lights.indirectPhotons, x, n, pathVertices);
-      receivers.addIrradiance(i, e);
-      if (caustic != nullptr) (*caustic)[i] = e;
-    }
-  }
+  gatherPhotons(t, lights.photons, pathVertices, receivers, caustic);
+  gatherPhotons(t, lights.indirectPhotons, pathVertices, receivers, caustic);
   if (t.settings.compensate && pathVertices < kMaxVertices)
     compensate(t, lights, samples, pathVertices, scratch, receivers, rays);
 }

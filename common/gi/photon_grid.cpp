@@ -48,13 +48,21 @@ uint32_t PhotonGrid::slotOf(int64_t cx, int64_t cy, int64_t cz) const {
   return static_cast<uint32_t>(mixWord(form)) & mask_;
 }
 
-int PhotonGrid::slotsAround(Vec3 x, Slots& slots) const {
+int PhotonGrid::slotsAround(Vec3 low, Vec3 high, Slots& slots) const {
   const double reach = kReach * static_cast<double>(radius_);
-  const DVec3 at(x);
-  const auto end = [&](double last, int64_t first) { return std::min(cell(last), first + 2); };
-  const int64_t x0 = cell(at.x - reach), x1 = end(at.x + reach, x0);
-  const int64_t y0 = cell(at.y - reach), y1 = end(at.y + reach, y0);
-  const int64_t z0 = cell(at.z - reach), z1 = end(at.z + reach, z0);
+  const DVec3 from = DVec3(low) - reach, to = DVec3(high) + reach;
+  // Where rounding is larger than a cell, even a point's sphere seems to cover many.
+  const bool point = low == high;
+  const auto end = [&](double last, int64_t first) {
+    return point ? std::min(cell(last), first + 2) : cell(last);
+  };
+  const int64_t x0 = cell(from.x), x1 = end(to.x, x0);
+  const int64_t y0 = cell(from.y), y1 = end(to.y, y0);
+  const int64_t z0 = cell(from.z), z1 = end(to.z, z0);
+  const auto cells = [](int64_t first, int64_t last) {
+    return static_cast<double>(last) - static_cast<double>(first) + 1;
+  };
+  if (cells(x0, x1) * cells(y0, y1) * cells(z0, z1) > kMostCells) return -1;
   int count = 0;
   for (int64_t cz = z0; cz <= z1; ++cz)
     for (int64_t cy = y0; cy <= y1; ++cy)

@@ -1,5 +1,6 @@
 // photon_grid.h: photons in a hashed grid of cells a hair wider than 2r: a sphere of radius r meets at
 // most eight cells (27 where rounding is as large as r), and a cell's photons lie side by side.
+// Queries are for boxes of points that lie together, so that the cells are looked up once for all.
 // Knows nothing of light: items are (position, index).
 //
 // Cells are hashed into a table of twice the photon count (a power of two). Two cells that collide
@@ -41,25 +42,31 @@ class PhotonGrid {
   Metres radius() const { return radius_; }
   std::span<const Photon> photons() const { return photons_; }
 
-  // Calls visit(const Photon&) for each photon within the radius of x, in a fixed order.
+  // Calls visit(const Photon&) for each photon within the radius of the box [low, high], in a fixed
+  // order, and perhaps for some that are a little further. False, and nothing visited, if the box
+  // covers too many cells: halve it. A point is never too large.
   template <typename Visit>
-  void near(Vec3 x, Visit&& visit) const {
-    if (photons_.empty()) return;
+  bool near(Vec3 low, Vec3 high, Visit&& visit) const {
+    if (photons_.empty()) return true;
     Slots slots;
-    const int count = slotsAround(x, slots);
+    const int count = slotsAround(low, high, slots);
+    if (count < 0) return false;
     const float r2 = radius_ * radius_;
     for (int s = 0; s < count; ++s) {
       const uint32_t slot = slots[static_cast<size_t>(s)];
       for (uint32_t i = starts_[slot]; i < starts_[slot + 1]; ++i) {
-        const Vec3 off = photons_[i].position - x;
+        const Vec3 off = photons_[i].position - glm::clamp(photons_[i].position, low, high);
         if (glm::dot(off, off) <= r2) visit(photons_[i]);
       }
     }
+    return true;
   }
 
  private:
-  using Slots = std::array<uint32_t, 27>;
-  int slotsAround(Vec3 x, Slots& slots) const;  // those with photons, sorted; returns how many
+  static constexpr int kMostCells = 64;
+  using Slots = std::array<uint32_t, kMostCells>;
+  // Those with photons, sorted; returns how many, -1 if there are more cells than kMostCells.
+  int slotsAround(Vec3 low, Vec3 high, Slots& slots) const;
   uint32_t slotOf(int64_t cx, int64_t cy, int64_t cz) const;
   int64_t cell(double coordinate) const;
 

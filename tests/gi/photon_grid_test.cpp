@@ -35,7 +35,7 @@ TEST(PhotonGrid, FindsWhatBruteForceFindsAndNothingTwice) {
       for (const Photon& query : cloud(100, centre, 2.2f, 8)) {
         size_t found = 0;
         std::vector<bool> seen(photons.size() + 1);
-        grid.near(query.position, [&](const Photon& p) {
+        grid.near(query.position, query.position, [&](const Photon& p) {
           ++found;
           EXPECT_FALSE(seen[static_cast<size_t>(p.flux.x)]) << "twice";
           seen[static_cast<size_t>(p.flux.x)] = true;
@@ -48,11 +48,11 @@ TEST(PhotonGrid, FindsWhatBruteForceFindsAndNothingTwice) {
 
 TEST(PhotonGrid, HoldsNoneAndOne) {
   size_t found = 0;
-  PhotonGrid().near(Vec3(0), [&](const Photon&) { ++found; });
-  PhotonGrid({}, 0.1f).near(Vec3(0), [&](const Photon&) { ++found; });
+  PhotonGrid().near(Vec3(0), Vec3(0), [&](const Photon&) { ++found; });
+  PhotonGrid({}, 0.1f).near(Vec3(0), Vec3(0), [&](const Photon&) { ++found; });
   EXPECT_EQ(found, 0u);
   PhotonGrid({Photon{Vec3(1, 2, 3), Vec3(0, 1, 0), Vec3(1), 0}}, 0.1f)
-      .near(Vec3(1, 2, 3), [&](const Photon&) { ++found; });
+      .near(Vec3(1, 2, 3), Vec3(1, 2, 3), [&](const Photon&) { ++found; });
   EXPECT_EQ(found, 1u);
 }
 
@@ -63,7 +63,7 @@ TEST(PhotonGrid, TinyRadiusAndHugeCoordinatesDoNotOverflow) {
     const PhotonGrid grid(photons, radius);
     for (const Photon& p : photons) {
       size_t found = 0;
-      grid.near(p.position, [&](const Photon&) { ++found; });
+      grid.near(p.position, p.position, [&](const Photon&) { ++found; });
       EXPECT_EQ(found, bruteForce(photons, p.position, radius));
     }
   }
@@ -75,9 +75,38 @@ TEST(PhotonGrid, CollidingCellsAreToldApart) {
   const PhotonGrid grid(photons, 0.01f);
   for (const Photon& p : photons) {
     size_t found = 0;
-    grid.near(p.position + Vec3(0.005f, 0, 0), [&](const Photon&) { ++found; });
-    EXPECT_EQ(found, bruteForce(photons, p.position + Vec3(0.005f, 0, 0), 0.01f));
+    const Vec3 x = p.position + Vec3(0.005f, 0, 0);
+    grid.near(x, x, [&](const Photon&) { ++found; });
+    EXPECT_EQ(found, bruteForce(photons, x, 0.01f));
   }
+}
+
+// A box finds what each point in it finds, or says that it is too large; halves come to an end.
+TEST(PhotonGrid, ABoxFindsWhatItsPointsFind) {
+  const float radius = 0.1f;
+  const auto photons = cloud(3000, Vec3(0), 2, 11);
+  const PhotonGrid grid(photons, radius);
+  int refused = 0;
+  for (const float side : {0.01f, 0.2f, 0.5f, 2.0f})
+    for (const Photon& middle : cloud(50, Vec3(0), 2, 12)) {
+      const auto points = cloud(16, middle.position, side, 13);
+      Vec3 low = points[0].position, high = low;
+      for (const Photon& p : points)
+        low = glm::min(low, p.position), high = glm::max(high, p.position);
+      std::vector<bool> met(photons.size() + 1);
+      if (!grid.near(low, high,
+                     [&](const Photon& p) { met[static_cast<size_t>(p.flux.x)] = true; })) {
+        ++refused;
+        continue;
+      }
+      for (const Photon& p : photons)
+        for (const Photon& point : points) {
+          const bool near = glm::distance(p.position, point.position) <= radius;
+          ASSERT_TRUE(!near || met[static_cast<size_t>(p.flux.x)]) << "side " << side;
+        }
+    }
+  EXPECT_GE(refused, 40) << "boxes as large as the room";
+  EXPECT_LE(refused, 100) << "small boxes need no halving";
 }
 
 }  // namespace

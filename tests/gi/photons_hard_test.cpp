@@ -21,7 +21,7 @@ TEST(PhotonsHard, QueriesInTheMiddleOfACellFindAllThatIsNear) {
   const PhotonGrid grid(photons, 1);
   for (const float at : {0.9999f, 1.0f, 1.0001f, 1.0002f, 1.0003f, -1.0f, 3.0f}) {
     size_t found = 0, expected = 0;
-    grid.near(Vec3(at), [&](const Photon&) { ++found; });
+    grid.near(Vec3(at), Vec3(at), [&](const Photon&) { ++found; });
     for (const Photon& p : photons)
       expected += glm::dot(p.position - Vec3(at), p.position - Vec3(at)) <= 1 ? 1 : 0;
     EXPECT_EQ(found, expected) << at;
