@@ -54,7 +54,7 @@ void applyPreset(Options& o) {
     o.settings.randomization = Randomization::exclusiveOr;
     o.surfaceTest = SurfaceTest::paper;
     o.converging = false;
-    o.settings.bound = 300;
+    o.settings.bound = 300, o.settings.vplRoulette = 0;
     o.settings.compensate = o.settings.jitter = false;
   }
 }
@@ -71,6 +71,7 @@ void readSampling(const RawOptions& raw, Settings& s) {
   assign(s.pathLength, raw.whole("path-length", 0, 1 << 20));
   assign(s.specularDepth, raw.whole("specular-depth", 1, 1024));
   assign(s.bound, raw.real("bound", 1e-6, 1e12));
+  assign(s.vplRoulette, raw.real("vpl-roulette", 0, double{kMaxVplRoulette}));
   assign(s.photonRadius, raw.real("photon-radius", 1e-6, 1));
   assign(s.caustics, choice(raw, "caustics", std::array{"off", "direct", "all"}));
   assign(s.randomization, choice(raw, "randomization", std::array{"xor", "owen", "random"}));

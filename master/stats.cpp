@@ -71,6 +71,7 @@ Json object(const Settings& s, const std::string& preset, SurfaceTest filter) {
           {"specular_depth", s.specularDepth},
           {"bound", s.bound},
           {"photon_radius", s.photonRadius},
+          {"vpl_roulette", s.vplRoulette},
           {"caustics", nameOf(s.caustics)},
           {"environment", list(s.environment)},
           {"filter", nameOf(filter)},

@@ -46,6 +46,8 @@ void checkRanges(const Settings& s) {
   inRange("specular-depth", s.specularDepth, 1, 1024);
   positive("bound", s.bound);
   positive("photon-radius", s.photonRadius);
+  if (!(s.vplRoulette >= 0 && s.vplRoulette <= kMaxVplRoulette))
+    fail("vpl-roulette is {}, must be 0 to {}", s.vplRoulette, kMaxVplRoulette);
   inRange("caustics", static_cast<int>(s.caustics), 0, static_cast<int>(Caustics::all));
   finite("environment", s.environment);
   if (s.environment.x < 0 || s.environment.y < 0 || s.environment.z < 0)

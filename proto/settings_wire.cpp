@@ -56,6 +56,7 @@ void toWire(const Settings& s, pb::Settings& out) {
   out.set_specular_depth(static_cast<uint32_t>(s.specularDepth));
   out.set_bound(s.bound);
   out.set_photon_radius(s.photonRadius);
+  out.set_vpl_roulette(s.vplRoulette);
   out.set_caustics(static_cast<uint32_t>(s.caustics));
   toWire(s.environment, *out.mutable_environment());
   out.set_seed(s.seed);
@@ -78,6 +79,7 @@ Settings fromWire(const pb::Settings& in) {
   s.specularDepth = toInt(in.specular_depth());
   s.bound = in.bound();
   s.photonRadius = in.photon_radius();
+  s.vplRoulette = in.vpl_roulette();
   s.caustics = toEnum("caustics", in.caustics(), Caustics::all);
   s.environment = fromWire(in.environment());
   s.seed = in.seed();

@@ -45,7 +45,7 @@ Receiver receiverAt(const ShadingPoint& y, uint32_t pixel) {
 struct Level {
   const Transport& t;
   const ReceiverSamples& samples;
-  uint32_t dimension;
+  int pathVertices;
   bool mayFollow;
   Receivers& receivers;
   Bounces& next;
@@ -60,7 +60,7 @@ struct Level {
     const Vec3 factor = weight * y.bsdf.diffuse;
     const float q = std::min(maxComponent(factor), kMaxSurvival);
     const uint32_t pixel = receivers.pixel[i];
-    if (!mayFollow || samples.of(pixel).get1D(dimension + 2) >= q) return;
+    if (!mayFollow || samples.compensationRoulette(pixel, pathVertices) >= q) return;
     next.points.add(receiverAt(y, pixel));
     next.parents.push_back({i, factor / q});
   }
@@ -71,7 +71,8 @@ struct Level {
     const size_t lanes = std::min<size_t>(kPacket, receivers.size() - first);
     for (size_t lane = 0; lane < lanes; ++lane) {
       const size_t i = first + lane;
-      aim(t, receivers, i, samples.of(receivers.pixel[i]).get2D(dimension), lane, shorts);
+      aim(t, receivers, i, samples.compensationDirection(receivers.pixel[i], pathVertices), lane,
+          shorts);
     }
     rays.compensation += static_cast<uint64_t>(std::popcount(shorts.active));
     Hit hits[kPacket];
@@ -90,8 +91,7 @@ void compensate(const Transport& t, const LightSet& lights, const ReceiverSample
   if (depth == scratch.bounced.size()) scratch.bounced.emplace_back();
   Bounces& next = scratch.bounced[depth];
   next.clear();
-  Level level{t,         samples, 4 * static_cast<uint32_t>(depth), t.allows(pathVertices + 1),
-              receivers, next};
+  Level level{t, samples, pathVertices, t.allows(pathVertices + 1), receivers, next};
   for (size_t first = 0; first < receivers.size(); first += kPacket) level.trace(first, rays);
   if (next.parents.empty()) return;
   gatherIrradiance(t, lights, samples, pathVertices + 1, scratch, next.points, nullptr, rays);

@@ -5,9 +5,8 @@
 //   estimate    pi W (L_e(y) + rho_y/pi E(y)),  W = max(G - b, 0) / G,  one direction w with
 //   density cos_s/pi
 //
-//   G, b, cos_s   as in vpl_gather.h                                                    [1/m^2],
-//   [1/m^2], 1 E(y)          from VPLs and photons, of paths one D vertex longer, itself
-//   compensated (recursion)
+//   G, b, cos_s   as in vpl_gather.h
+//   E(y)          from VPLs and photons, of paths one D vertex longer, itself compensated (recursion)
 //
 // W is zero beyond t = sqrt(cos_x / b): the rays are short and cheap, and few of them hit anything.
 // A hit is followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided
@@ -22,23 +21,11 @@
 #pragma once
 
 #include "common/gi/light_set.h"
+#include "common/gi/receiver_samples.h"
 #include "common/gi/receivers.h"
 #include "common/gi/scratch.h"
 
 namespace ninefold {
-
-// Where the directions of a task's receivers come from: addressed by pixel and layer.
-struct ReceiverSamples {
-  uint64_t seed = 0;
-  uint32_t randomization = 0;
-  Randomization kind = Randomization::owen;
-  uint32_t layer = 0;
-
-  // pixel: any number that names the pixel in the whole image.
-  PixelSampler of(uint32_t pixel) const {
-    return PixelSampler(seed, SampleUse::gather, pixel, layer, randomization, 0, kind);
-  }
-};
 
 // Adds compensation to receivers.er/eg/eb. pathVertices as in irradiance.h, which this calls for
 // E(y).

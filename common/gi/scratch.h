@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/gi/receivers.h"
+#include "common/gi/vpl_gather.h"
 #include "common/image/layers.h"
 
 namespace ninefold {
@@ -26,7 +27,8 @@ struct Bounces {
 struct Scratch {
   std::array<Receivers, kLayers> receivers;
   std::array<std::vector<uint32_t>, kLayers>
-      places;                   // index in the task's rectangle of each receiver
+      places;  // index in the task's rectangle of each receiver
+  VplGatherScratch vplGather;
   std::deque<Bounces> bounced;  // compensation: one level a bounce, as deep as it ever went
 };
 

@@ -39,7 +39,7 @@ TEST(FormFactor, SquaresAtARightAngleWithACommonEdge) {
   SceneBuilder b = receiver();
   b.quad(b.material(testing::matte(Vec3(0), Vec3(1))), Vec3(0), Vec3(0, 1, 0), Vec3(0, 0, 1));
   testing::expectRadiance(b.build(), testing::estimators(8, 1),
-                          kAlbedo * testing::squaresWithACommonEdge(), {});
+                          kAlbedo * testing::squaresWithACommonEdge(), {.frames = 128});
 }
 
 // The same without compensation: what the bound takes away near the edge is missing, and only that.
@@ -52,7 +52,7 @@ TEST(FormFactor, TheBoundAloneOnlyTakesAway) {
   const Tracer tracer(scene, Isa::automatic);
   const double whole = kAlbedo * testing::squaresWithACommonEdge();
   s.bound = 30;
-  const auto low = testing::render(tracer, s, 64);
+  const auto low = testing::render(tracer, s, 256);
   EXPECT_LT(low.grey() + 5 * low.error(), whole);
   EXPECT_GT(low.grey(), 0.7 * whole);
   s.bound = 1e6f;

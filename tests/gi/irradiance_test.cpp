@@ -32,7 +32,9 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
     receivers.add(Receiver{x, n, n, x + 1e-5f * n, 0, 1});
     receivers.pad();
     uint64_t rays = 0;
-    gatherVpls(transport, lights.vpls, 1, receivers, rays);
+    VplGatherScratch scratch;
+    gatherVpls(transport, lights.vpls, {.randomization = static_cast<uint32_t>(i)}, 1, scratch,
+               receivers, rays);
     const double e = receivers.er[0];
     sum += e, squares += e * e;
   }

@@ -65,7 +65,8 @@ TEST(Options, EveryFlagIsRead) {
       "--size 320x200 --camera 0,1,5:0,1,0:50 --local-clients 0 --client-threads 3 --listen "
       "0.0.0.0:4700 --key-file k --wait-clients 2 --method instant-radiosity --preset final "
       "--interleave 2x4 --direct-vpls 5 --indirect-vpls 6 --photons 7 --path-length 8 "
-      "--specular-depth 9 --bound 10.5 --photon-radius 0.25 --caustics off --environment 1,2,3.5 "
+      "--specular-depth 9 --bound 10.5 --photon-radius 0.25 --vpl-roulette 0.5 --caustics off "
+      "--environment 1,2,3.5 "
       "--frames 11 --seconds 1.5 --until-error 0.01 --aovs --exposure -1.5 --view beauty "
       "--headless --filter none --randomization random --seed 18446744073709551615 --isa avx2 "
       "--stats s.json room.glb");
@@ -87,6 +88,7 @@ TEST(Options, EveryFlagIsRead) {
   EXPECT_EQ(o.settings.specularDepth, 9);
   EXPECT_FLOAT_EQ(o.settings.bound, 10.5f);
   EXPECT_FLOAT_EQ(o.settings.photonRadius, 0.25f);
+  EXPECT_FLOAT_EQ(o.settings.vplRoulette, 0.5f);
   EXPECT_EQ(o.settings.caustics, Caustics::off);
   EXPECT_EQ(*o.environment, Radiance(1, 2, 3.5f));
   EXPECT_EQ(o.stop.frames, 11);
@@ -142,23 +144,41 @@ TEST(Options, OneStopIsEnough) {
 
 TEST(Options, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
   const std::pair<const char*, const char*> cases[] = {
-      {"--size", "0x480"},       {"--size", "16385x1"},
-      {"--size", "640"},         {"--interleave", "17x1"},
-      {"--interleave", "0x3"},   {"--direct-vpls", "65537"},
-      {"--direct-vpls", "-1"},   {"--indirect-vpls", "x"},
-      {"--photons", "16777217"}, {"--path-length", "1.5"},
-      {"--specular-depth", "0"}, {"--bound", "0"},
-      {"--bound", "nan"},        {"--photon-radius", "2"},
-      {"--caustics", "some"},    {"--environment", "1,2"},
-      {"--environment", "-1"},   {"--environment", "blue"},
-      {"--frames", "0"},         {"--seconds", "0"},
-      {"--until-error", "0"},    {"--until-error", "2"},
-      {"--exposure", "1000"},    {"--seed", "-1"},
-      {"--isa", "sse"},          {"--local-clients", "-1"},
-      {"--client-threads", "0"}, {"--wait-clients", "0"},
-      {"--listen", "4700"},      {"--listen", "0.0.0.0:99999"},
-      {"--preset", "fast"},      {"--method", "voodoo"},
-      {"--filter", "blur"},      {"--randomization", "dice"},
+      {"--size", "0x480"},
+      {"--size", "16385x1"},
+      {"--size", "640"},
+      {"--interleave", "17x1"},
+      {"--interleave", "0x3"},
+      {"--direct-vpls", "65537"},
+      {"--direct-vpls", "-1"},
+      {"--indirect-vpls", "x"},
+      {"--photons", "16777217"},
+      {"--path-length", "1.5"},
+      {"--specular-depth", "0"},
+      {"--bound", "0"},
+      {"--bound", "nan"},
+      {"--photon-radius", "2"},
+      {"--vpl-roulette", "-1"},
+      {"--caustics", "some"},
+      {"--environment", "1,2"},
+      {"--environment", "-1"},
+      {"--environment", "blue"},
+      {"--frames", "0"},
+      {"--seconds", "0"},
+      {"--until-error", "0"},
+      {"--until-error", "2"},
+      {"--exposure", "1000"},
+      {"--seed", "-1"},
+      {"--isa", "sse"},
+      {"--local-clients", "-1"},
+      {"--client-threads", "0"},
+      {"--wait-clients", "0"},
+      {"--listen", "4700"},
+      {"--listen", "0.0.0.0:99999"},
+      {"--preset", "fast"},
+      {"--method", "voodoo"},
+      {"--filter", "blur"},
+      {"--randomization", "dice"},
   };
   for (const auto& [flag, value] : cases) {
     const std::string line = complaint(std::string("room.glb ") + flag + " " + value);
@@ -208,15 +228,15 @@ TEST(Options, HelpAndNewKeyNeedNothingElse) {
 
 TEST(Options, HelpNamesEveryFlagOfTheInterface) {
   const std::string help = helpText();
-  for (const char* flag : {"size",          "camera",        "local-clients", "client-threads",
-                           "listen",        "key-file",      "new-key",       "wait-clients",
-                           "method",        "preset",        "interleave",    "direct-vpls",
-                           "indirect-vpls", "photons",       "path-length",   "specular-depth",
-                           "bound",         "photon-radius", "caustics",      "environment",
-                           "frames",        "seconds",       "until-error",   "animate",
-                           "output",        "aovs",          "exposure",      "view",
-                           "window",        "headless",      "seed",          "isa",
-                           "stats",         "randomization", "filter",        "help"})
+  for (const char* flag :
+       {"size",           "camera",      "local-clients", "client-threads", "listen",
+        "key-file",       "new-key",     "wait-clients",  "method",         "preset",
+        "interleave",     "direct-vpls", "indirect-vpls", "photons",        "path-length",
+        "specular-depth", "bound",       "photon-radius", "caustics",       "environment",
+        "frames",         "seconds",     "until-error",   "animate",        "output",
+        "aovs",           "exposure",    "view",          "window",         "headless",
+        "seed",           "isa",         "stats",         "randomization",  "filter",
+        "vpl-roulette",   "help"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;

@@ -24,7 +24,7 @@ Settings oddSettings() {
   s.interleave = {16, 1};
   s.directVpls = 0, s.indirectVpls = 65536, s.photons = 16777216;
   s.pathLength = 4, s.specularDepth = 1;
-  s.bound = 1e-3f, s.photonRadius = 0.5f;
+  s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;
   s.environment = Vec3(1e6f, 0, 1e-6f);
   s.seed = ~0ull;
@@ -142,6 +142,8 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"specular-depth", [](Settings& s) { s.specularDepth = 0; }},
       {"bound", [](Settings& s) { s.bound = NAN; }},
       {"photon-radius", [](Settings& s) { s.photonRadius = 0; }},
+      {"vpl-roulette", [](Settings& s) { s.vplRoulette = -1; }},
+      {"vpl-roulette", [](Settings& s) { s.vplRoulette = NAN; }},
       {"environment", [](Settings& s) { s.environment.y = -1; }},
       {"environment", [](Settings& s) { s.environment.x = INFINITY; }},
       {"camera eye", [](Settings& s) { s.camera.eye.z = NAN; }},

@@ -1,0 +1,52 @@
+#include "common/gi/vpl_roulette.h"
+
+namespace ninefold {
+namespace {
+
+// VPLs that are taken on average, if there are so many: a few lights are not worth any noise.
+constexpr int kLeast = 8;
+
+float largest(const float* weight) {
+  float most = 0;
+  for (int lane = 0; lane < kPacket; ++lane) most = std::max(most, weight[lane]);
+  return most;
+}
+
+void scale(float* weight, float by) {
+  for (int lane = 0; lane < kPacket; ++lane) weight[lane] *= by;
+}
+
+}  // namespace
+
+void VplRoulette::play(float f, const std::vector<Vpl>& vpls, const ReceiverSamples& samples,
+                       int pathVertices, const Receivers& receivers, size_t begin,
+                       VplWeights& weights) {
+  if (f <= 0) return;
+  for (size_t first = 0; first < weights.size(); first += kPacket)
+    playPacket(f, vpls, samples.vplChoice(receivers.pixel[begin + first], pathVertices), first,
+               weights);
+}
+
+void VplRoulette::playPacket(float f, const std::vector<Vpl>& vpls, float u, size_t first,
+                             VplWeights& weights) {
+  contributions_.resize(vpls.size());
+  float sum = 0;
+  int count = 0;
+  for (size_t v = 0; v < vpls.size(); ++v) {
+    const float c = maxComponent(vpls[v].power) * largest(weights.at(v, first));
+    contributions_[v] = c, sum += c, count += c > 0 ? 1 : 0;
+  }
+  if (count <= kLeast) return;
+  const float tau = sum / std::max(static_cast<float>(count) / f, float{kLeast});
+  for (size_t v = 0; v < vpls.size(); ++v) {
+    const float c = contributions_[v];
+    if (c <= 0 || c >= tau) continue;
+    const float p = c / tau;
+    u += p;
+    const bool taken = u >= 1;
+    if (taken) u -= 1;
+    scale(weights.at(v, first), taken ? 1 / p : 0.0f);
+  }
+}
+
+}  // namespace ninefold

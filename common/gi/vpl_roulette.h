@@ -1,0 +1,40 @@
+// vpl_roulette.h: fewer shadow rays for the same picture. A packet of receivers asks only some of the
+// VPLs that would add little, and weights those by the inverse of their probability:
+//
+//   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between
+//   tau   sum c_v / max(n/f, 8),   n = number of VPLs with c_v > 0; all are asked if n <= 8
+//   p_v   min(1, c_v / tau);   weight times 1/p_v with probability p_v, else 0
+//
+// Which ones is decided by systematic sampling: one uniform number u, and VPL v is taken when the
+// running sum u + p_1 + ... + p_v passes an integer. So the number taken hardly varies, and the
+// estimate stays unbiased, for each VPL alone is taken with probability p_v.
+//
+// f = 0: all are asked. Measured at f = 2 with 22 VPLs a set: a third to two fifths of the rays, the
+// squared error one to two percent larger (table_room, conference, 160x120, 32 frames).
+//
+// Source:  Russian roulette, Arvo and Kirk 1990; systematic sampling, Cochran 1977, ch. 8; choice by
+// unoccluded contribution as in Wald et al. 2003 and the survey of Dachsbacher et al. 2014.
+// Proved:  tests/gi (furnace, polygon light, mean with and without).
+// Threads: one owner at a time.   Errors: none.
+#pragma once
+
+#include "common/gi/receiver_samples.h"
+#include "common/gi/vpl_weights.h"
+
+namespace ninefold {
+
+class VplRoulette {
+ public:
+  // Changes the weights of all packets of a chunk that begins at receiver `begin`; u for a packet is
+  // its first receiver's sample.
+  void play(float f, const std::vector<Vpl>& vpls, const ReceiverSamples& samples, int pathVertices,
+            const Receivers& receivers, size_t begin, VplWeights& weights);
+
+ private:
+  void playPacket(float f, const std::vector<Vpl>& vpls, float u, size_t first,
+                  VplWeights& weights);
+
+  std::vector<float> contributions_;  // c_v of one packet
+};
+
+}  // namespace ninefold
