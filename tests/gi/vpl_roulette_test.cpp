@@ -98,7 +98,8 @@ TEST(VplRoulette, AFewLightsAreAskedAlways) {
   scene.receivers.pad();
   for (int v = 0; v < 8; ++v) {
     Vpl vpl;
-    vpl.position = Vec3(0, 1, 0), vpl.normal = -up, vpl.power = Vec3(std::pow(10.0f, static_cast<float>(v)));
+    vpl.position = Vec3(0, 1, 0), vpl.normal = -up,
+    vpl.power = Vec3(std::pow(10.0f, static_cast<float>(v)));
     scene.vpls.push_back(vpl);
   }
   EXPECT_EQ(scene.gather(100, 1).mean, scene.gather(0, 1).mean);
