@@ -31,6 +31,7 @@ constexpr Flag kFlags[] = {
      "private folder that keeps scenes, or none (default $XDG_CACHE_HOME/ninefold or "
      "~/.cache/ninefold)"},
     {"isa", "NAME", "instruction set: auto, avx2 or avx512 (default auto)"},
+    {"record", "FILE", "keep all results in FILE, for ninefold-replay-client"},
 };
 
 // What the master says to the clients that it starts itself; not for people.
@@ -115,6 +116,7 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   options.isa = parseIsa(get(values, "isa").value_or("auto"));
   options.name = get(values, "name").value_or(machineName());
   if (const auto file = get(values, "key-file")) options.keyFile = *file;
+  if (const auto file = get(values, "record")) options.record = *file;
   if (const auto folder = get(values, "cache"); !folder)
     options.cache = BlobCache::defaultFolder();
   else if (*folder != "none")

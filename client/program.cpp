@@ -37,6 +37,7 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
       master_(parseEndpoint(options.master, "--master")),
       local_(options.local()),
       key_(std::move(key)),
+      recorder_(options.record ? std::make_unique<Recorder>(*options.record, hello) : nullptr),
       session_(sessionOptions(options, std::move(hello)), now()),
       builder_(std::move(cache), options.isa, options.threads, answers()),
       workers_(options.threads, kTasksPerThread * static_cast<size_t>(options.threads)) {
@@ -148,6 +149,7 @@ void Program::runTask(RenderJob& job, uint32_t line, const FrameKey& frame,
                       const msg::TaskItem& item, int thread) {
   try {
     msg::Result result = job.run(frame, item, thread, now);
+    if (recorder_) recorder_->add(result);
     later([this, line, result = std::move(result)]() mutable {
       session_.taskFinished(line, std::move(result), now());
     });

@@ -13,6 +13,7 @@
 #include "client/session.h"
 #include "client/workers.h"
 #include "proto/connection.h"
+#include "proto/recording.h"
 
 namespace ninefold::client {
 
@@ -51,6 +52,7 @@ class Program {
   const Endpoint master_;
   const bool local_;
   const std::shared_ptr<const Key> key_;
+  const std::unique_ptr<Recorder> recorder_;  // null: nothing is kept
   Session session_;
   std::shared_ptr<Connection> connection_;
   std::shared_ptr<RenderJob> job_;

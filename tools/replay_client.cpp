@@ -1,0 +1,262 @@
+// ninefold-replay-client --master ADDR:PORT --key-file FILE --recording FILE [options]: clients that
+// trace nothing: they answer each task with the result that a real client gave (its --record).
+//
+// They load the master and the network as real clients do, at any number, without a core for each.
+// With --pace recorded an answer takes as long as it took when recorded, light sets included: the
+// first task of each light set of a frame takes so much longer as it did on average in the
+// recording. Recorded frames repeat. One thread serves all of them.
+// Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
+
+#include <boost/program_options.hpp>
+#include <iostream>
+#include <map>
+#include <set>
+
+#include "common/base/command_line.h"
+#include "common/sampling/interleave.h"
+#include "proto/connection.h"
+#include "proto/recording.h"
+
+namespace ninefold {
+namespace {
+
+namespace po = boost::program_options;
+
+struct Options {
+  std::string master, keyFile, recording, pace = "full";
+  int clients = 1, threads = 1;
+  bool help = false;
+};
+
+using TaskPlace = std::pair<uint32_t, uint32_t>;  // tile, phase
+
+// What was recorded, frame by frame.
+class Recorded {
+ public:
+  explicit Recorded(const std::string& file) {
+    std::map<uint32_t, size_t> numbers;
+    for (msg::Result& result : readRecording(file)) {
+      const size_t number = numbers.emplace(result.frame, numbers.size()).first->second;
+      if (number == frames_.size()) frames_.emplace_back();
+      frames_[number].emplace(TaskPlace(result.tile, result.phase), std::move(result));
+    }
+    measureSets();
+  }
+
+  // The result for a task, as if it had just been made; null if none was recorded.
+  const msg::Result* find(uint32_t frame, const msg::TaskItem& item) const {
+    for (size_t tried = 0; tried < frames_.size(); ++tried) {  // the last frame may be incomplete
+      const auto& results = frames_[(frame + tried) % frames_.size()];
+      const auto found = results.find({item.tile, item.phase});
+      if (found != results.end()) return &found->second;
+    }
+    return nullptr;
+  }
+  Duration work(const msg::Result& r) const {
+    const std::chrono::nanoseconds all(r.busyNs);
+    return std::max(Duration{0}, Duration(all) - (r.setsMade > 0 ? setTime_ : Duration{0}));
+  }
+  Duration setTime() const { return setTime_; }
+
+ private:
+  // Mean time of tasks that made their light set, less that of those which found it made.
+  void measureSets() {
+    std::array<double, 2> sum{}, count{};
+    for (const auto& results : frames_)
+      for (const auto& [place, r] : results) {
+        sum[r.setsMade > 0 ? 1 : 0] += static_cast<double>(r.busyNs);
+        count[r.setsMade > 0 ? 1 : 0] += 1;
+      }
+    if (count[0] == 0 || count[1] == 0) return;
+    const double ns = sum[1] / count[1] - sum[0] / count[0];
+    setTime_ = std::chrono::nanoseconds(static_cast<int64_t>(std::max(0.0, ns)));
+  }
+
+  std::vector<std::map<TaskPlace, msg::Result>> frames_;
+  Duration setTime_{0};
+};
+
+// One client: answers tasks in their order, as many at once as it has threads.
+class ReplayClient {
+ public:
+  ReplayClient(EventLoop& loop, const Options& options, const Recorded& recorded, int number,
+               std::function<void(const std::string&)> onEnd)
+      : loop_(loop),
+        recorded_(recorded),
+        paced_(options.pace == "recorded"),
+        number_(number),
+        onEnd_(std::move(onEnd)),
+        freeAt_(static_cast<size_t>(options.threads), Time{}) {}
+
+  void start(std::shared_ptr<Connection> connection) {
+    connection_ = std::move(connection);
+    Connection::Events events;
+    events.onMessage = [this](Message&& message) {
+      std::visit([this](auto& m) { on(m); }, message);
+    };
+    events.onClosed = [this](const std::string& reason) { onEnd_(reason); };
+    connection_->start(std::move(events));
+    msg::Hello hello;
+    hello.name = fmt::format("replay {}", number_);
+    hello.threads = static_cast<uint32_t>(freeAt_.size());
+    hello.isa = "replay";
+    connection_->send(hello);
+  }
+
+ private:
+  struct Answer {
+    Time due;
+    msg::Result result;
+    bool operator<(const Answer& o) const { return due > o.due; }
+  };
+
+  void on(msg::Configure& m) {
+    job_ = m.jobVersion;
+    sets_ = m.settings.interleave.sets();
+    connection_->send(msg::Ready{m.sceneVersion, m.jobVersion});
+  }
+  void on(msg::Ping& m) { connection_->send(msg::Pong{m.clockNs, 0}); }
+  void on(msg::Refuse& m) { onEnd_("refused: " + m.reason); }
+  void on(msg::Cancel& m) {
+    std::erase_if(waiting_, [&](const auto& a) { return a.second.frame < m.frame; });
+  }
+  void on(msg::Tasks& m) {
+    for (const msg::TaskItem& item : m.items) take(m.frame, item);
+    answerDue();
+  }
+  template <typename Other>
+  void on(Other&) {}
+
+  void take(const FrameKey& frame, const msg::TaskItem& item) {
+    const msg::Result* recorded = recorded_.find(frame.frame, item);
+    if (recorded == nullptr)
+      return onEnd_(
+          fmt::format("no result for tile {}, phase {}: recorded of another picture size?",
+                      item.tile, item.phase));
+    msg::Result result = *recorded;
+    result.jobVersion = job_, result.frame = frame.frame;
+    const int set = lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, sets_);
+    const bool newSet = made_.emplace(frame.randomization, set).second;
+    if (made_.size() > 256) made_.erase(made_.begin());
+    result.setsMade = newSet ? 1 : 0;
+    const Duration cost = recorded_.work(*recorded) + (newSet ? recorded_.setTime() : Duration{0});
+    result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(cost).count());
+    if (!paced_) {
+      connection_->send(std::move(result));
+      return;
+    }
+    Time& worker = *std::ranges::min_element(freeAt_);
+    worker = std::max(worker, Clock::now()) + cost;
+    waiting_.emplace(worker, std::move(result));
+  }
+
+  void answerDue() {
+    while (!waiting_.empty() && waiting_.begin()->first <= Clock::now()) {
+      connection_->send(std::move(waiting_.begin()->second));
+      waiting_.erase(waiting_.begin());
+    }
+    if (waiting_.empty()) return;
+    timer_ = loop_.after(waiting_.begin()->first - Clock::now(), [this] { answerDue(); });
+  }
+
+  EventLoop& loop_;
+  const Recorded& recorded_;
+  const bool paced_;
+  const int number_;
+  const std::function<void(const std::string&)> onEnd_;
+  std::shared_ptr<Connection> connection_;
+  uint32_t job_ = 0;
+  int sets_ = 1;
+  std::vector<Time> freeAt_;                  // by thread
+  std::multimap<Time, msg::Result> waiting_;  // by when they are due
+  std::set<std::pair<uint32_t, int>> made_;   // light sets, by randomization
+  std::unique_ptr<EventLoop::Timer> timer_;
+};
+
+// All of them in one loop; ends when the last connection does.
+class Replay {
+ public:
+  Replay(const Options& options)
+      : options_(options),
+        recorded_(options.recording),
+        key_(std::make_shared<const Key>(Key::load(options.keyFile))) {}
+
+  int run() {
+    for (int i = 1; i <= options_.clients; ++i) dial(i);
+    loop_.run();
+    return failed_ ? 1 : 0;
+  }
+
+ private:
+  void dial(int number) {
+    connect(
+        loop_, parseEndpoint(options_.master, "--master"), KeyUse::cluster, key_,
+        [this, number](std::shared_ptr<Connection> connection) {
+          ++open_;
+          clients_.push_back(std::make_unique<ReplayClient>(
+              loop_, options_, recorded_, number, [this](const std::string& why) { ended(why); }));
+          clients_.back()->start(std::move(connection));
+        },
+        [this](const ConnectFailure& failure) { fatal(failure.line); });
+  }
+  void ended(const std::string& why) {
+    if (why.starts_with("refused") || why.starts_with("no result")) return fatal(why);
+    if (--open_ == 0) loop_.stop();
+  }
+  void fatal(const std::string& line) {
+    std::cerr << "ninefold-replay-client: " << line << "\n";
+    failed_ = true;
+    loop_.stop();
+  }
+
+  const Options& options_;
+  const Recorded recorded_;
+  const std::shared_ptr<const Key> key_;
+  EventLoop loop_;
+  std::vector<std::unique_ptr<ReplayClient>> clients_;
+  int open_ = 0;
+  bool failed_ = false;
+};
+
+int run(int argc, char** argv) {
+  Options o;
+  po::options_description flags("Options");
+  flags.add_options()("master", po::value(&o.master), "ADDR:PORT")(
+      "key-file", po::value(&o.keyFile), "the cluster key")(
+      "recording", po::value(&o.recording), "FILE that ninefold-client --record made")(
+      "clients", po::value(&o.clients), "how many, default 1")("threads", po::value(&o.threads),
+                                                               "of each client, default 1")(
+      "pace", po::value(&o.pace), "full: answer at once (default); recorded: as long as it took")(
+      "help,h", po::bool_switch(&o.help), "show this text");
+  po::variables_map values;
+  po::store(po::parse_command_line(argc, argv, flags), values);
+  po::notify(values);
+  if (o.help) {
+    std::cout << "usage: ninefold-replay-client [options]\n" << flags;
+    return 0;
+  }
+  for (const auto& [name, value] :
+       {std::pair("--master", o.master), {"--key-file", o.keyFile}, {"--recording", o.recording}})
+    if (value.empty()) failUsage("{} is missing", name);
+  if (o.pace != "full" && o.pace != "recorded")
+    failUsage("--pace {}: must be full or recorded", o.pace);
+  checkRange("clients", o.clients, 1, 1024);
+  checkRange("threads", o.threads, 1, 1024);
+  return Replay(o).run();
+}
+
+}  // namespace
+}  // namespace ninefold
+
+int main(int argc, char** argv) try {
+  return ninefold::run(argc, argv);
+} catch (const ninefold::UsageError& e) {
+  std::cerr << "ninefold-replay-client: " << e.what() << "; see --help\n";
+  return 2;
+} catch (const boost::program_options::error& e) {
+  std::cerr << "ninefold-replay-client: " << e.what() << "; see --help\n";
+  return 2;
+} catch (const std::exception& e) {
+  std::cerr << "ninefold-replay-client: " << e.what() << "\n";
+  return 1;
+}
