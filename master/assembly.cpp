@@ -2,139 +2,176 @@
 
 #include <algorithm>
 
+#include "common/base/cpu_time.h"
 #include "common/base/error.h"
 
 namespace ninefold {
 namespace {
 
-// Pixels of a task that has some; tasks without pixels are never sent.
-int tasksWithPixels(const TileGrid& grid) {
-  int count = 0;
-  for (int tile = 0; tile < grid.tiles(); ++tile)
-    for (int phase = 0; phase < grid.interleave().sets(); ++phase)
-      count += grid.rect(tile, phase).count() > 0 ? 1 : 0;
-  return count;
-}
-
 constexpr size_t kCopies = 2;  // of a task: the first and one for a straggler
+
+int tileOf(const msg::Result& result) { return static_cast<int>(result.tile); }
+int phaseOf(const msg::Result& result) { return static_cast<int>(result.phase); }
 
 }  // namespace
 
-Assembly::Assembly(const TileGrid& grid, uint8_t layerMask, uint8_t extraMask, int decoders,
-                   Answer answer)
-    : grid_(grid),
-      layerMask_(layerMask),
-      extraMask_(extraMask),
-      answer_(std::move(answer)),
-      queue_(kBuffers * kCopies * static_cast<size_t>(grid.tasks())) {
-  for (size_t i = 0; i < kBuffers; ++i)
-    slots_.push_back(std::make_unique<Slot>(FrameBuffer(grid, layerMask, extraMask)));
-  for (int i = 0; i < decoders; ++i) decoders_.emplace_back([this] { run(); });
+Assembly::Assembly(int workers, Answer answer, Finish finish)
+    : answer_(std::move(answer)), finish_(std::move(finish)) {
+  for (int i = 0; i < workers; ++i) workers_.emplace_back([this, i] { run(i); });
 }
 
 Assembly::~Assembly() {
-  queue_.removeIf([](const ReceivedTile&) { return true; });
-  queue_.close();
-  for (std::thread& thread : decoders_) thread.join();
+  {
+    const std::lock_guard lock(mutex_);
+    closing_ = true;
+  }
+  work_.notify_all();
+  for (std::thread& thread : workers_) thread.join();
 }
 
 bool Assembly::hasRoom() const {
   const std::lock_guard lock(mutex_);
-  return !std::ranges::all_of(slots_, &Slot::used);
+  return books_.openFrames() == 0 || (books_.openFrames() < kMostFrames && bytes_ < kMostBytes);
 }
 
-void Assembly::open(const FrameKey& frame) {
+void Assembly::open(const FrameView& view) {
+  auto slot = std::make_unique<Slot>();
+  const auto tasks = static_cast<size_t>(view.shape.grid.tasks());
+  slot->frame.view = view;
+  slot->frame.tasks.resize(tasks);
   const std::lock_guard lock(mutex_);
-  const auto slot = std::ranges::find(slots_, false, [](const auto& s) { return s->used; });
-  NINEFOLD_CHECK(slot != slots_.end());
-  (*slot)->used = true;
-  (*slot)->key = frame;
-  (*slot)->claimed.assign(static_cast<size_t>(grid_.tasks()), false);
-  (*slot)->left = tasksWithPixels(grid_);
+  books_.open(view.key.frame, view.shape.grid);
+  slots_.emplace(view.key.frame, std::move(slot));
+  queueLimit_ = std::max(queueLimit_, kMostFrames * kCopies * tasks);
 }
 
-bool Assembly::take(ReceivedTile& tile) { return queue_.tryPush(tile); }
-
-void Assembly::run() {
-  TileDecoder decoder;
-  TileResult scratch;
-  while (std::optional<ReceivedTile> tile = queue_.pop()) {
-    const Time start = Clock::now();
-    std::optional<std::string> malformed;
-    try {
-      decode(*tile, decoder, scratch);
-    } catch (const Error& error) {
-      malformed = error.what();
-    }
-    tile->result.encoded = {};
-    answer_(std::move(*tile), malformed);
+bool Assembly::take(ReceivedTile& tile) {
+  {
     const std::lock_guard lock(mutex_);
-    busy_ += Clock::now() - start;
+    if (queue_.size() >= queueLimit_) return false;
+    bytes_ += tile.result.encoded.size();
+    queue_.push_back(std::move(tile));
+  }
+  work_.notify_one();
+  return true;
+}
+
+// --- workers ---
+
+void Assembly::run(int worker) {
+  TileDecoder decoder;
+  std::unique_lock lock(mutex_);
+  while (true) {
+    work_.wait(lock, [this] { return closing_ || books_.hasTile() || !queue_.empty(); });
+    if (closing_) return;
+    if (books_.hasTile()) {  // first: it frees memory, and somebody waits for the frame
+      finishOne(lock, worker);
+      continue;
+    }
+    ReceivedTile tile = std::move(queue_.front());
+    queue_.pop_front();
+    bytes_ -= tile.result.encoded.size();
+    lock.unlock();
+    const Duration start = threadCpuTime();
+    unpack(std::move(tile), decoder);
+    const Duration spent = threadCpuTime() - start;
+    lock.lock();
+    busy_.unpacking += spent;
   }
 }
 
-void Assembly::decode(const ReceivedTile& tile, TileDecoder& decoder, TileResult& scratch) {
-  const msg::Result& result = tile.result;
-  if (!isWanted(result)) return;
-  const int index = static_cast<int>(result.tile), phase = static_cast<int>(result.phase);
-  const TaskRect rect = grid_.rect(index, phase);
-  decoder.decode(result.encoded, {rect.width, rect.height, layerMask_, extraMask_}, scratch);
-  // Claimed only now: a malformed copy must not keep a good one out.
-  Slot* slot = claim(result);
-  if (slot == nullptr) return;
-  slot->buffer.place(index, phase, scratch);
-  placed(*slot);
+void Assembly::unpack(ReceivedTile&& tile, TileDecoder& decoder) {
+  msg::Result& result = tile.result;
+  std::optional<std::string> malformed;
+  try {
+    if (const auto shape = shapeIfWanted(result)) {
+      // Placed only now: a malformed copy must not keep a good one out.
+      place(result, decoder.unpack(std::move(result.encoded), *shape), tile.arrived);
+    }
+  } catch (const Error& error) {
+    malformed = error.what();
+  }
+  result.encoded = {};
+  answer_(std::move(tile), malformed);
 }
 
-size_t Assembly::taskIndex(const msg::Result& result) const {
-  return static_cast<size_t>(result.tile) * static_cast<size_t>(grid_.interleave().sets()) +
-         static_cast<size_t>(result.phase);
-}
-
-Assembly::Slot* Assembly::find(uint32_t frame) {
-  for (const auto& slot : slots_)
-    if (slot->used && slot->key.frame == frame) return slot.get();
-  return nullptr;
-}
-
-bool Assembly::isWanted(const msg::Result& result) {
+std::optional<TileShape> Assembly::shapeIfWanted(const msg::Result& result) {
   const std::lock_guard lock(mutex_);
-  const Slot* slot = find(result.frame);
-  return slot != nullptr && !slot->claimed.at(taskIndex(result));
+  if (!books_.isWanted(result.frame, tileOf(result), phaseOf(result))) return std::nullopt;
+  const FrameShape& frame = slots_.at(result.frame)->frame.view.shape;
+  const TaskRect rect = frame.grid.rect(tileOf(result), phaseOf(result));
+  return TileShape{rect.width, rect.height, frame.layerMask, frame.extraMask};
 }
 
-Assembly::Slot* Assembly::claim(const msg::Result& result) {
+void Assembly::place(const msg::Result& result, UnpackedTile&& unpacked, Time arrived) {
   const std::lock_guard lock(mutex_);
-  Slot* slot = find(result.frame);
-  if (slot == nullptr || slot->claimed[taskIndex(result)]) return nullptr;
-  slot->claimed[taskIndex(result)] = true;
-  return slot;
+  const int tile = tileOf(result), phase = phaseOf(result);
+  if (!books_.isWanted(result.frame, tile, phase)) return;
+  Slot& slot = *slots_.at(result.frame);
+  const int sets = slot.frame.view.shape.grid.interleave().sets();
+  bytes_ += unpacked.bytes();
+  slot.frame.tasks[static_cast<size_t>(tile * sets + phase)] = std::move(unpacked);
+  slot.lastResult = std::max(slot.lastResult, arrived);
+  books_.place(result.frame, tile, phase);
+  if (books_.hasTile()) work_.notify_all();
 }
 
-void Assembly::placed(Slot& slot) {
-  const std::lock_guard lock(mutex_);
-  if (--slot.left > 0) return;
-  slot.completed = Clock::now();
+void Assembly::finishOne(std::unique_lock<std::mutex>& lock, int worker) {
+  const uint32_t number = *books_.front();
+  const int tile = *books_.nextTile();
+  Slot& slot = *slots_.at(number);
+  ++finishing_;
+  lock.unlock();
+  const Duration start = threadCpuTime();
+  finish_(worker, slot.frame, tile);
+  const Duration spent = threadCpuTime() - start;
+  lock.lock();
+  busy_.finishing += spent;
+  const int sets = slot.frame.view.shape.grid.interleave().sets();
+  for (const int unused : books_.tileDone(number, tile))
+    for (int phase = 0; phase < sets; ++phase) {
+      UnpackedTile& task = slot.frame.tasks[static_cast<size_t>(unused * sets + phase)];
+      bytes_ -= task.bytes();
+      task = {};
+    }
+  if (--finishing_ == 0) idle_.notify_all();
+  if (!books_.isDone(number)) return;
+  slot.finished = Clock::now();
   complete_.notify_all();
 }
 
+// --- the film's thread ---
+
 std::optional<Assembly::Complete> Assembly::next(Time deadline) {
   std::unique_lock lock(mutex_);
-  const auto ready = [this] {
-    const Slot* slot = find(nextFrame_);
-    return slot != nullptr && slot->left == 0;
+  const auto isReady = [this] {
+    const auto front = books_.front();
+    return front && books_.isDone(*front);
   };
-  if (!complete_.wait_until(lock, deadline, ready)) return std::nullopt;
-  const Slot* slot = find(nextFrame_++);
-  return Complete{slot->key, &slot->buffer, slot->completed};
+  if (!complete_.wait_until(lock, deadline, isReady)) return std::nullopt;
+  const Slot& slot = *slots_.at(*books_.front());
+  return Complete{slot.frame.view.key, slot.lastResult, slot.finished};
 }
 
 void Assembly::release(const Complete& frame) {
   const std::lock_guard lock(mutex_);
-  find(frame.key.frame)->used = false;
+  closeFrame(frame.key.frame);
 }
 
-Duration Assembly::busy() const {
+void Assembly::closeFrame(uint32_t number) {
+  for (const UnpackedTile& task : slots_.at(number)->frame.tasks) bytes_ -= task.bytes();
+  books_.close(number);
+  slots_.erase(number);
+  if (books_.hasTile()) work_.notify_all();  // of the frame behind it
+}
+
+void Assembly::supersede(uint32_t firstWanted) {
+  std::unique_lock lock(mutex_);
+  idle_.wait(lock, [this] { return finishing_ == 0; });
+  while (!slots_.empty() && slots_.begin()->first < firstWanted) closeFrame(slots_.begin()->first);
+}
+
+Assembly::Busy Assembly::busy() const {
   const std::lock_guard lock(mutex_);
   return busy_;
 }

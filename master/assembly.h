@@ -1,19 +1,24 @@
-// assembly.h: from results to complete frames, off the network thread: decoders unpack tiles and
-// place them in the buffers of the open frames; complete frames leave in the order of their index.
+// assembly.h: from results to finished frames, off the network thread, on all cores. Workers unpack
+// each result as it comes, and finish a tile (filter, film) as soon as all around it is there, while
+// its data is in their cache; frames leave in the order of their index.
 //
-//   network thread: open, take      decoders: decode, place, answer      film's thread: next,
-//   release
+//   network thread: open, take      workers: unpack, answer, finish      film's thread: next, release
 //
-// There are kBuffers frame buffers and no more: a frame is opened only when one is free, so a slow
-// film slows the cluster down instead of filling memory. The queue holds every copy of every task
-// that may be on its way, so it is full only if a peer sends more than it was asked for. A second
-// copy of a tile that is placed, or being placed, is dropped. Threads: as said; each function from
-// any thread. Owner: joins its decoders when destroyed. Errors: a tile that cannot be decoded is
-// answered with the reason.
+// Only one frame is being finished at a time, and the film's thread may look at what came of it
+// between next and release; results of later frames are unpacked meanwhile and wait, in about as
+// many bytes as they travelled in. hasRoom bounds the frames and these bytes, so that a slow film
+// slows the cluster down instead of filling memory. The queue holds every copy of every task that
+// may be on its way, so it is full only if a peer sends more than it was asked for. A second copy of
+// a result that is there is dropped. What is where stands in assembly_books.h.
+//
+// Threads: as said; each function from any thread. Owner: joins its workers when destroyed.
+// Errors: a result that cannot be unpacked is answered with the reason.
 #pragma once
 
 #include <condition_variable>
+#include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -21,74 +26,100 @@
 #include <thread>
 #include <vector>
 
-#include "common/base/concurrency.h"
-#include "common/image/frame_buffer.h"
+#include "common/base/clock.h"
+#include "common/image/patch.h"
+#include "common/math/camera.h"
 #include "common/scene/settings.h"
+#include "master/assembly_books.h"
 #include "master/received_tile.h"
 #include "proto/tile_codec.h"
 
 namespace ninefold {
 
+// A frame to be gathered, and how it is to be looked at.
+struct FrameView {
+  FrameKey key;
+  FrameShape shape;
+  Camera camera;
+  float neighbourWeight = 1;  // of the filter
+};
+
+// The results of a frame; those that a tile needs are there while it is finished.
+struct GatheredFrame {
+  FrameView view;
+  std::vector<UnpackedTile> tasks;  // tile * sets + phase
+
+  const UnpackedTile& task(int tile, int phase) const {
+    return tasks[static_cast<size_t>(tile * view.shape.grid.interleave().sets() + phase)];
+  }
+};
+
 class Assembly {
  public:
-  static constexpr size_t kBuffers = 3;
+  static constexpr int kMostFrames = 8;
+  static constexpr size_t kMostBytes = 96 << 20;  // of results that wait
 
-  // Called on a decoder's thread for each tile that was taken.
+  // Called on a worker's thread for each result that was taken.
   using Answer =
       std::function<void(ReceivedTile&& tile, const std::optional<std::string>& malformed)>;
+  // Called on worker `worker` for each tile: all of one frame, at once for different tiles, before
+  // the first of the next.
+  using Finish = std::function<void(int worker, const GatheredFrame& frame, int tile)>;
 
-  Assembly(const TileGrid& grid, uint8_t layerMask, uint8_t extraMask, int decoders, Answer answer);
+  Assembly(int workers, Answer answer, Finish finish);
   ~Assembly();
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
 
   bool hasRoom() const;              // for one more frame
-  void open(const FrameKey& frame);  // needs room
+  void open(const FrameView& view);  // needs room
   bool take(ReceivedTile& tile);     // false when the queue is full
+  // No frame before `firstWanted` is wanted any more. Waits for tiles that are being finished.
+  void supersede(uint32_t firstWanted);
 
   struct Complete {
     FrameKey key;
-    const FrameBuffer* buffer = nullptr;
-    Time completed;  // when its last tile was placed
+    Time lastResult;  // when the last result came in
+    Time finished;
   };
-  // The next frame by index, if it is complete by `deadline`. Give it back with release.
+  // The front frame, if it is finished by `deadline`. Give it back with release.
   std::optional<Complete> next(Time deadline);
   void release(const Complete& frame);
 
-  // Time that decoders have spent, summed over them.
-  Duration busy() const;
+  // Processor time that workers have spent, summed over them.
+  struct Busy {
+    Duration unpacking{0}, finishing{0};
+  };
+  Busy busy() const;
 
  private:
   struct Slot {
-    explicit Slot(FrameBuffer&& b) : buffer(std::move(b)) {}
-    FrameBuffer buffer;
-    bool used = false;
-    FrameKey key;
-    std::vector<bool> claimed;  // by task: placed or being placed
-    int left = 0;
-    Time completed;
+    GatheredFrame frame;
+    Time lastResult, finished;
   };
 
-  void run();
-  void decode(const ReceivedTile& tile, TileDecoder& decoder, TileResult& scratch);
-  bool isWanted(const msg::Result& result);
-  Slot* claim(const msg::Result& result);
-  void placed(Slot& slot);
-  size_t taskIndex(const msg::Result& result) const;
-  Slot* find(uint32_t frame);
+  void run(int worker);
+  void unpack(ReceivedTile&& tile, TileDecoder& decoder);
+  std::optional<TileShape> shapeIfWanted(const msg::Result& result);
+  void place(const msg::Result& result, UnpackedTile&& unpacked, Time arrived);
+  void finishOne(std::unique_lock<std::mutex>& lock, int worker);
+  void closeFrame(uint32_t frame);
 
-  const TileGrid grid_;
-  const uint8_t layerMask_, extraMask_;
   const Answer answer_;
-  BoundedQueue<ReceivedTile> queue_;
+  const Finish finish_;
 
-  mutable std::mutex mutex_;
-  std::condition_variable complete_;
-  std::vector<std::unique_ptr<Slot>> slots_;  // flags guarded by mutex_; pixels as FrameBuffer says
-  uint32_t nextFrame_ = 0;                    // guarded by mutex_
-  Duration busy_{0};                          // guarded by mutex_
+  mutable std::mutex mutex_;  // guards all below
+  std::condition_variable work_, complete_, idle_;
+  AssemblyBooks books_;
+  std::map<uint32_t, std::unique_ptr<Slot>> slots_;
+  std::deque<ReceivedTile> queue_;
+  size_t queueLimit_ = 0;  // what the open frames may have on their way
+  size_t bytes_ = 0;       // of results that wait
+  int finishing_ = 0;      // tiles
+  bool closing_ = false;
+  Busy busy_;
 
-  std::vector<std::thread> decoders_;
+  std::vector<std::thread> workers_;
 };
 
 }  // namespace ninefold

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "common/base/cpu_time.h"
 #include "common/base/log.h"
 #include "common/base/process.h"
 #include "master/assembly.h"
@@ -35,7 +36,6 @@ class HeadlessRun {
   std::optional<FrameKey> nextFrame();
   void gatherFrames();
   bool isDone();
-  void add(const Assembly::Complete& frame);
   void tellProgress();
   ProgressState progressState() const;
   void writePicture() const;
@@ -46,37 +46,38 @@ class HeadlessRun {
   const Job& job_;
   const Listener::Keys keys_;
   const StopRule rule_;
-  const int decoders_;
+  const int workers_;
   FramePlan plan_;            // the network thread's
   std::atomic<bool> enough_;  // no more frames are opened
   PictureMaker picture_;
   RunRecord record_;
   Progress progress_;
-  // In this order: the decoders end before the cluster that they report to.
+  // In this order: the workers end before the cluster that they report to.
   Cluster cluster_;
   Assembly assembly_;
 };
 
-PictureMaker::Setup pictureSetup(const Options& options, const Job& job) {
-  return {job.grid(),    job.settings.camera, job.layerMask,
-          job.extraMask, options.surfaceTest, options.exposure};
-}
+FrameShape shapeOf(const Job& job) { return {job.grid(), job.layerMask, job.extraMask}; }
 
 HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys keys)
     : options_(options),
       job_(job),
       keys_(std::move(keys)),
       rule_(options.stop),
-      decoders_(1 + static_cast<int>(std::thread::hardware_concurrency()) / 8),
+      workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
       enough_(false),
-      picture_(pictureSetup(options, job)),
+      picture_({shapeOf(job), options.surfaceTest, options.exposure, workers_}),
       progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
       cluster_(clusterSetup(), *job.offer, duty()),
-      assembly_(job.grid(), job.layerMask, job.extraMask, decoders_,
-                [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
-                  cluster_.decoded(std::move(tile), malformed);
-                }) {}
+      assembly_(
+          workers_,
+          [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
+            cluster_.decoded(std::move(tile), malformed);
+          },
+          [this](int worker, const GatheredFrame& frame, int tile) {
+            picture_.finishTile(worker, frame, tile);
+          }) {}
 
 HeadlessRun::~HeadlessRun() {
   cluster_.stop("the master ends");
@@ -105,7 +106,7 @@ std::optional<FrameKey> HeadlessRun::nextFrame() {
   const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
   if (enough_ || allOpened || !assembly_.hasRoom()) return std::nullopt;
   const FrameKey key = plan_.next();
-  assembly_.open(key);
+  assembly_.open({key, shapeOf(job_), job_.settings.camera, plan_.neighbourWeight(key.frame)});
   return key;
 }
 
@@ -126,7 +127,8 @@ void HeadlessRun::gatherFrames() {
   while (!isDone()) {
     tellProgress();
     if (const auto frame = assembly_.next(Clock::now() + kLook)) {
-      add(*frame);
+      picture_.frameDone();
+      record_.frameDone(*frame, processCpuTime());
       assembly_.release(*frame);
     }
   }
@@ -143,12 +145,6 @@ bool HeadlessRun::isDone() {
 Duration HeadlessRun::elapsed() const {
   const std::optional<Time> begin = cluster_.firstDispatch();
   return begin ? Clock::now() - *begin : Duration{0};
-}
-
-void HeadlessRun::add(const Assembly::Complete& frame) {
-  const Time start = Clock::now();
-  picture_.add(*frame.buffer, plan_.neighbourWeight(frame.key.frame));
-  record_.frameDone(frame.completed, Clock::now() - start);
 }
 
 void HeadlessRun::tellProgress() {
@@ -176,7 +172,7 @@ void HeadlessRun::writePicture() const {
 
 void HeadlessRun::writeStatistics() const {
   if (!options_.stats) return;
-  RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), decoders_);
+  RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), workers_);
   stats.frames = picture_.frames();
   stats.relativeError = picture_.relativeError();
   stats.imageHash = picture_.imageHash();

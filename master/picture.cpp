@@ -2,17 +2,48 @@
 
 namespace ninefold {
 
-PictureMaker::PictureMaker(const Setup& setup)
-    : setup_(setup),
-      film_(setup.grid.width(), setup.grid.height()),
-      aovs_(setup.grid, setup.extraMask) {
-  filter_.reset(setup_.grid, setup_.layerMask, setup_.surfaceTest);
+void gather(const GatheredFrame& frame, int tile, Patch& patch) {
+  const FrameShape& shape = frame.view.shape;
+  patch.reset(shape, tile);
+  uint8_t bright = 0;
+  const auto forEachTask = [&](const auto& f) {
+    forEachAround(shape.grid, tile, [&](int around) {
+      for (int phase = 0; phase < patch.phases(); ++phase) f(around, phase);
+    });
+  };
+  forEachTask([&](int around, int phase) {
+    for (int layer = 0; layer < kLayers; ++layer)
+      if (hasLayer(shape.layerMask, layer) && !frame.task(around, phase).isBlack(layer))
+        bright = static_cast<uint8_t>(bright | 1u << layer);
+  });
+  patch.lighten(bright);
+  forEachTask([&](int around, int phase) {
+    const Patch::Overlap part = patch.overlap(shape.grid.rect(around, phase));
+    frame.task(around, phase)
+        .copy({part.fromI, part.fromJ, part.to, part.width, part.height}, bright, Patch::kSide,
+              patch.phase(phase));
+  });
 }
 
-void PictureMaker::add(const FrameBuffer& frame, float neighbourWeight) {
-  filter_.compose(frame, setup_.camera, neighbourWeight, beauty_);
-  film_.add(beauty_);
-  if (setup_.extraMask != 0) aovs_.add(frame, filter_);
+PictureMaker::PictureMaker(const Setup& setup)
+    : setup_(setup),
+      film_(setup.shape.grid.width(), setup.shape.grid.height(), setup.shape.extraMask != 0),
+      aovs_(setup.shape.grid, setup.shape.extraMask) {
+  for (int i = 0; i < setup.workers; ++i)
+    desks_.push_back(std::make_unique<Desk>(setup.surfaceTest));
+}
+
+void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) {
+  Desk& desk = *desks_[static_cast<size_t>(worker)];
+  gather(frame, tile, desk.patch);
+  desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
+  film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
+  if (setup_.shape.extraMask != 0) aovs_.addPatch(desk.patch, desk.filter);
+}
+
+void PictureMaker::frameDone() {
+  film_.frameDone();
+  aovs_.frameDone();
 }
 
 std::string PictureMaker::imageHash() const {
@@ -22,7 +53,7 @@ std::string PictureMaker::imageHash() const {
 }
 
 std::vector<Channel> PictureMaker::extraChannels() const {
-  if (setup_.extraMask == 0) return {};
+  if (setup_.shape.extraMask == 0) return {};
   std::vector<Channel> channels = aovs_.channels();
   RgbImage error;
   film_.standardError(error);

@@ -1,34 +1,35 @@
-// picture.h: from complete frames to the picture: discontinuity buffer, film, tone map, file.
+// picture.h: from gathered results to the picture: discontinuity buffer, film, tone map, file.
 //
 // The image hash is of the film's mean, so it depends on the frames and their order alone.
-// Threads: one at a time. Memory: the film's sums; no allocation per frame after the first.
+// Threads: finishTile for different tiles and workers at once; everything else between frames.
+// Memory: the film's sums and a patch for each worker; no allocation per frame after the first.
 // Errors: write throws Error that names the file.
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "common/image/aov_film.h"
 #include "common/image/film.h"
-#include "common/image/frame_filter.h"
 #include "common/image/image_file.h"
-#include "common/scene/settings.h"
+#include "common/image/patch_filter.h"
+#include "master/assembly.h"
 
 namespace ninefold {
 
 class PictureMaker {
  public:
   struct Setup {
-    TileGrid grid;
-    Camera camera;
-    uint8_t layerMask = kDiffuseBit;
-    uint8_t extraMask = 0;  // 0: no extra layers in the file
+    FrameShape shape;
     SurfaceTest surfaceTest = SurfaceTest::surface;
     float exposure = 0;  // [EV]
+    int workers = 1;
   };
   explicit PictureMaker(const Setup& setup);
 
-  // Frames in the order of their index.
-  void add(const FrameBuffer& frame, float neighbourWeight);
+  // Puts a tile of the next frame onto the film; the results of it and of those around it are there.
+  void finishTile(int worker, const GatheredFrame& frame, int tile);
+  void frameDone();  // all tiles of a frame were finished
 
   int64_t frames() const { return film_.frames(); }
   double relativeError() const { return film_.relativeError(); }
@@ -36,13 +37,21 @@ class PictureMaker {
   void write(const std::string& path, const Metadata& metadata) const;
 
  private:
+  struct Desk {  // of one worker
+    explicit Desk(SurfaceTest test) : filter(test) {}
+    Patch patch;
+    PatchFilter filter;
+    RgbImage beauty;
+  };
   std::vector<Channel> extraChannels() const;
 
   const Setup setup_;
-  FrameFilter filter_;
-  RgbImage beauty_;
+  std::vector<std::unique_ptr<Desk>> desks_;
   Film film_;
   AovFilm aovs_;
 };
+
+// Fills a patch with a tile of the frame and what lies around it.
+void gather(const GatheredFrame& frame, int tile, Patch& patch);
 
 }  // namespace ninefold

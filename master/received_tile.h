@@ -9,6 +9,7 @@ namespace ninefold {
 struct ReceivedTile {
   ClientId client = 0;
   msg::Result result;
+  Time arrived{};
 };
 
 }  // namespace ninefold

@@ -1,5 +1,7 @@
 #include "master/run_record.h"
 
+#include "common/base/cpu_time.h"
+
 namespace ninefold {
 namespace {
 
@@ -16,12 +18,12 @@ std::vector<ClientStats> clientStats(const Server& server, Time end) {
 
 }  // namespace
 
-void RunRecord::frameDone(Time completed, Duration filtering) {
-  completions_.push_back(completed);
-  filtering_ += filtering;
+void RunRecord::frameDone(const Assembly::Complete& frame, Duration cpu) {
+  frames_.push_back(frame);
+  cpu_ = cpu;
 }
 
-RunStats RunRecord::stats(const Server& server, Duration decoding, int decoders) const {
+RunStats RunRecord::stats(const Server& server, const Assembly::Busy& busy, int workers) const {
   const ServerTally tally = server.tally();
   RunStats stats;
   stats.rays = tally.rays;
@@ -31,20 +33,24 @@ RunStats RunRecord::stats(const Server& server, Duration decoding, int decoders)
   stats.tilesMalformed = tally.malformed + tally.tasks.droppedUnknown;
   stats.tasksReissued = tally.tasks.reissued;
   stats.reproducible = tally.reproducible;
-  if (completions_.empty() || !tally.firstDispatch) return stats;
+  if (frames_.empty() || !tally.firstDispatch) return stats;
 
-  const Duration whole = completions_.back() - *tally.firstDispatch;
-  const auto frames = static_cast<double>(completions_.size());
+  const Duration whole = frames_.back().finished - *tally.firstDispatch;
+  const auto frames = static_cast<double>(frames_.size());
   stats.seconds = seconds(whole);
   Time before = *tally.firstDispatch;
-  for (const Time completed : completions_) {
-    stats.frameMs.push_back(inMs(completed - before));
-    before = completed;
+  for (const Assembly::Complete& frame : frames_) {
+    stats.frameMs.push_back(inMs(frame.finished - before));
+    stats.tailMs.push_back(inMs(frame.finished - frame.lastResult));
+    before = frame.finished;
   }
-  stats.clients = clientStats(server, completions_.back());
-  stats.decodeMs = inMs(decoding) / frames;
-  stats.filterMs = inMs(filtering_) / frames;
-  stats.idleFraction = 1 - seconds(decoding + filtering_) / (seconds(whole) * (decoders + 1));
+  stats.clients = clientStats(server, frames_.back().finished);
+  stats.decodeMs = inMs(busy.unpacking) / frames;
+  stats.filterMs = inMs(busy.finishing) / frames;
+  stats.idleFraction = 1 - seconds(busy.unpacking + busy.finishing) /
+                               (seconds(whole) * static_cast<double>(workers));
+  stats.cpuMs = inMs(cpu_ - tally.cpuAtDispatch) / frames;
+  stats.memoryMb = static_cast<double>(peakMemory()) / 1e6;
   return stats;
 }
 

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "master/assembly.h"
 #include "master/server.h"
 #include "master/stats.h"
 
@@ -10,16 +11,15 @@ namespace ninefold {
 
 class RunRecord {
  public:
-  // A frame was complete at `completed`, and took `filtering` to get onto the film.
-  void frameDone(Time completed, Duration filtering);
+  // `cpu`: what the process has used so far.
+  void frameDone(const Assembly::Complete& frame, Duration cpu);
 
-  // The part of the statistics that the server and this record know. `decoding`: time of all
-  // decoders.
-  RunStats stats(const Server& server, Duration decoding, int decoders) const;
+  // The part of the statistics that the server, the workers and this record know.
+  RunStats stats(const Server& server, const Assembly::Busy& busy, int workers) const;
 
  private:
-  std::vector<Time> completions_;
-  Duration filtering_{0};
+  std::vector<Assembly::Complete> frames_;
+  Duration cpu_{0};  // until the last of them
 };
 
 }  // namespace ninefold

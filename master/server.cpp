@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/base/cpu_time.h"
 #include "common/base/log.h"
 
 namespace ninefold {
 namespace {
 
-// Frames that may be open at once: one being finished, one being worked on, one to start.
-constexpr int kMaxOpenFrames = 3;
+// Frames that may be open at once. One that ends, one that is worked on and one to start are enough
+// for like clients; many mixed ones run ahead of the slowest.
+constexpr int kMaxOpenFrames = 8;
 
 TaskId taskOf(const msg::Result& result) {
   return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
@@ -99,7 +101,7 @@ void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
     scheduler_.resultArrived(peer.first, task, cost, now);  // counts why it is dropped
     return;
   }
-  ReceivedTile tile{peer.first, std::move(a.result)};
+  ReceivedTile tile{peer.first, std::move(a.result), now};
   if (!duty_.take(tile)) peer.second.session->expel("more results than were asked for");
 }
 
@@ -178,7 +180,10 @@ void Server::sendTasks(const std::vector<Assignment>& assignments) {
     bundles[{a.client, a.task.frame}].push_back({static_cast<uint32_t>(a.task.tile),
                                                  static_cast<uint32_t>(a.task.phase),
                                                  setup_.extraMask});
-  if (!bundles.empty() && !tally_.firstDispatch) tally_.firstDispatch = Clock::now();
+  if (!bundles.empty() && !tally_.firstDispatch) {
+    tally_.firstDispatch = Clock::now();
+    tally_.cpuAtDispatch = processCpuTime();
+  }
   for (auto& [to, items] : bundles)
     if (const auto& connection = peers_.at(to.first).connection)
       connection->send(msg::Tasks{JobOffer::kJob, keys_.at(to.second), std::move(items)});

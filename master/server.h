@@ -50,6 +50,7 @@ struct ServerTally {
   uint64_t replaced = 0;  // values that were not finite
   uint64_t bytesReceived = 0;
   std::optional<Time> firstDispatch, lastCompletion;
+  Duration cpuAtDispatch{0};  // what the process had used at the first dispatch
   bool reproducible = true;
 };
 

@@ -25,6 +25,12 @@ double percentile(std::vector<double> values, double p) {
   return values[std::max<size_t>(rank, 1) - 1];
 }
 
+Json percentiles(const std::vector<double>& values) {
+  return {{"p50", percentile(values, 0.5)},
+          {"p95", percentile(values, 0.95)},
+          {"max", percentile(values, 1)}};
+}
+
 Json numberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json list(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
@@ -103,9 +109,7 @@ void addPerformance(const RunStats& s, Json& json) {
   json["frames"] = s.frames;
   json["seconds"] = s.seconds;
   json["fps"] = rate(static_cast<double>(s.frames), s.seconds);
-  json["frame_ms"] = {{"p50", percentile(s.frameMs, 0.5)},
-                      {"p95", percentile(s.frameMs, 0.95)},
-                      {"max", percentile(s.frameMs, 1)}};
+  json["frame_ms"] = percentiles(s.frameMs);
   json["rays"] = object(s.rays);
   json["rays_per_second"] = rate(static_cast<double>(s.rays.total()), s.seconds);
   json["pixels_per_second"] = rate(pixels, s.seconds);
@@ -115,8 +119,9 @@ void addPerformance(const RunStats& s, Json& json) {
 
 void addWork(const RunStats& s, Json& json) {
   json["clients"] = object(s.clients);
-  json["master"] = {
-      {"decode_ms", s.decodeMs}, {"filter_ms", s.filterMs}, {"idle_fraction", s.idleFraction}};
+  json["master"] = {{"decode_ms", s.decodeMs},          {"filter_ms", s.filterMs},
+                    {"idle_fraction", s.idleFraction},  {"cpu_ms", s.cpuMs},
+                    {"tail_ms", percentiles(s.tailMs)}, {"memory_mb", s.memoryMb}};
   json["tiles_dropped"] = {
       {"stale", s.tilesStale}, {"duplicate", s.tilesDuplicate}, {"malformed", s.tilesMalformed}};
   json["tasks_reissued"] = s.tasksReissued;

@@ -30,7 +30,10 @@ struct RunStats {
   uint64_t bytesReceived = 0;
   std::vector<ClientStats> clients;
   double decodeMs = 0, filterMs = 0;  // master.decode_ms, filter_ms: mean for each frame
-  double idleFraction = 0;            // master.idle_fraction: of its threads' time
+  double idleFraction = 0;            // master.idle_fraction: of its workers' time
+  double cpuMs = 0;                   // master.cpu_ms: of the whole process, mean for each frame
+  std::vector<double> tailMs;         // last result in to frame finished; gives master.tail_ms
+  double memoryMb = 0;                // master.memory_mb: most that was resident
   uint64_t tilesStale = 0, tilesDuplicate = 0;
   uint64_t tilesMalformed = 0;  // not to be decoded, or never asked for
   uint64_t tasksReissued = 0;

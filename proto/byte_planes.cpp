@@ -64,20 +64,19 @@ void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out) {
 
 void writeZeroPlane(Bytes& out) { ByteWriter(out).number<uint8_t>(kZero); }
 
-void readPlane(ByteReader& in, size_t width, std::span<uint8_t> plane) {
+PlaneView openPlane(MutableReader& in, size_t width, size_t size) {
   const auto mode = in.number<uint8_t>("plane mode");
   switch (mode) {
     case kZero:
-      std::fill(plane.begin(), plane.end(), uint8_t{0});
-      return;
+      return {};
     case kConstant:
-      std::fill(plane.begin(), plane.end(), in.number<uint8_t>("plane value"));
-      return;
+      return {nullptr, in.number<uint8_t>("plane value")};
     case kPlain:
-    case kDifferences:
-      in.raw(plane.data(), plane.size(), "plane");
+    case kDifferences: {
+      const std::span<uint8_t> plane = in.take(size, "plane");
       if (mode == kDifferences) addDifferences(plane, width);
-      return;
+      return {plane.data(), 0};
+    }
     default:
       fail("{}: plane mode {} is unknown; it is damaged", in.what(), mode);
   }

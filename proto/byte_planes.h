@@ -7,7 +7,7 @@
 //          to the one above)
 //
 // The writer takes differences where they repeat more often, which is where zstd gains.
-// Errors: readPlane throws Error on an unknown mode or missing bytes. Threads: pure functions.
+// Errors: openPlane throws Error on an unknown mode or missing bytes. Threads: pure functions.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,12 @@ void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out);
 // What writePlane writes for a plane of zeros.
 void writeZeroPlane(Bytes& out);
 
-void readPlane(ByteReader& in, size_t width, std::span<uint8_t> plane);
+// A plane where it lies: in the bytes that were read, with differences undone in place; or all its
+// bytes are `value`.
+struct PlaneView {
+  const uint8_t* bytes = nullptr;  // null: constant
+  uint8_t value = 0;
+};
+PlaneView openPlane(MutableReader& in, size_t width, size_t size);
 
 }  // namespace ninefold

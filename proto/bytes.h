@@ -93,4 +93,26 @@ class ByteReader {
   const char* what_;
 };
 
+// As ByteReader, over bytes that the reader may change where they lie.
+class MutableReader {
+ public:
+  MutableReader(std::span<std::byte> in, const char* what) : in_(in), reader_(in, what) {}
+
+  template <typename T>
+  T number(const char* field) {
+    return reader_.number<T>(field);
+  }
+  std::span<uint8_t> take(size_t size, const char* field) {
+    const size_t at = in_.size() - reader_.left();
+    reader_.take(size, field);
+    return {reinterpret_cast<uint8_t*>(in_.data()) + at, size};
+  }
+  const char* what() const { return reader_.what(); }
+  void expectEnd() const { reader_.expectEnd(); }
+
+ private:
+  std::span<std::byte> in_;
+  ByteReader reader_;
+};
+
 }  // namespace ninefold

@@ -46,10 +46,10 @@ class Dither {
 class SquareCode {
  public:
   explicit SquareCode(float top) {
-    for (int q = 0; q < 256; ++q)
-      level_[static_cast<size_t>(q)] = top * static_cast<float>(q * q) / 65025.0f;
+    for (int q = 0; q < 256; ++q) level_[static_cast<size_t>(q)] = level(q, top);
     scale_ = 65025.0f / top;
   }
+  static float level(int q, float top) { return top * static_cast<float>(q * q) / 65025.0f; }
   // 0 <= v; above the top level it is the top level.
   uint8_t encode(float v, float u) const {
     if (v >= level_[255]) return 255;
@@ -85,9 +85,12 @@ struct SharedExponent {
     return {mantissa(r * scale, u[0]), mantissa(g * scale, u[1]), mantissa(b * scale, u[2]),
             static_cast<uint8_t>(e)};
   }
+  // 2^(e - 135), or 0, in two factors that are normal floats; vectorises.
   static float scaleOf(uint8_t e) {
-    return e == 0 ? 0.0f
-                  : static_cast<float>(std::bit_cast<double>(uint64_t{1023u - 135u + e} << 52));
+    const uint32_t half = e / 2u, rest = e - half;
+    const float scale =
+        std::bit_cast<float>((half + 60u) << 23) * std::bit_cast<float>((rest + 59u) << 23);
+    return e == 0 ? 0.0f : scale;
   }
 
  private:
@@ -113,7 +116,10 @@ class FloatSteps {
     const bool up = v > low && u < (v - low) / (high - low);
     return static_cast<uint16_t>(1 + lower + (up ? 1 : 0));
   }
-  float decode(uint16_t code) const { return code == 0 ? 0.0f : level(code - 1u); }
+  float decode(uint16_t code) const {
+    const float value = level(code - 1u);  // whatever it is for code 0
+    return code == 0 ? 0.0f : value;
+  }
 
  private:
   float level(uint32_t index) const {
@@ -137,12 +143,15 @@ struct Octahedral {
     if (n.z < 0) p = fold(p);
     return {nearest(p.x), nearest(p.y)};
   }
+  // Without branches: it stands in vectorised loops.
   Vec3 decode() const {
-    if (x == kNone || y == kNone) return Vec3(0);
-    Vec2 p((static_cast<float>(x) - kHalf) / kHalf, (static_cast<float>(y) - kHalf) / kHalf);
+    const Vec2 p((static_cast<float>(x) - kHalf) / kHalf, (static_cast<float>(y) - kHalf) / kHalf);
+    const Vec2 back = fold(p);
     const float z = 1 - std::abs(p.x) - std::abs(p.y);
-    if (z < 0) p = fold(p);
-    return glm::normalize(Vec3(p.x, p.y, z));
+    const Vec3 v(z < 0 ? back.x : p.x, z < 0 ? back.y : p.y, z);
+    const float scale = 1 / std::sqrt(glm::dot(v, v));
+    const bool none = bool(int(x == kNone) | int(y == kNone));
+    return {none ? 0 : v.x * scale, none ? 0 : v.y * scale, none ? 0 : v.z * scale};
   }
 
  private:

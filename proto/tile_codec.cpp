@@ -106,40 +106,71 @@ TileEncoder::Encoded TileEncoder::encode(const TileResult& tile, uint64_t dither
 
 struct TileDecoder::Impl {
   std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> zstd{ZSTD_createDCtx(), ZSTD_freeDCtx};
-  BytePlanes scratch;
-  Bytes fields;
 
-  // The fields as they were before zstd; exactly `size` bytes, which has been checked.
-  ByteView open(ByteView body, uint8_t storage, size_t size) {
+  // Makes `bytes` hold the fields as they were before zstd and gives back where they begin.
+  size_t open(Bytes& bytes, uint8_t storage, size_t size) {
+    const ByteView body = ByteView(bytes).subspan(kHeadBytes);
     if (storage == kStored) {
       if (body.size() != size) fail("tile: holds {} bytes, declares {}", body.size(), size);
-      return body;
+      return kHeadBytes;
     }
     if (storage != kZstd) fail("tile: storage {} is unknown", storage);
-    fields.resize(size);
+    Bytes fields(size);
     const size_t got =
         ZSTD_decompressDCtx(zstd.get(), fields.data(), size, body.data(), body.size());
     if (ZSTD_isError(got) != 0 || got != size) fail("tile: compressed data is damaged");
-    return fields;
+    bytes = std::move(fields);
+    return 0;
   }
 };
 
 TileDecoder::TileDecoder() : impl_(std::make_unique<Impl>()) {}
 TileDecoder::~TileDecoder() = default;
 
-void TileDecoder::decode(ByteView bytes, const TileShape& expected, TileResult& out) {
+UnpackedTile TileDecoder::unpack(Bytes&& bytes, const TileShape& expected) {
   NINEFOLD_CHECK(isTileShape(expected.width, expected.height));
   ByteReader in(bytes, "tile");
   const Head head = readHead(in);
   checkHead(head, expected);
-  ByteReader fields(impl_->open(in.take(in.left(), "planes"), head.storage, head.fieldBytes),
-                    "tile");
-  out.reset(expected.width, expected.height, expected.layerMask, expected.extraMask);
-  if (out.count() > 0) {
-    FieldReader reader(out.width, static_cast<size_t>(out.count()), impl_->scratch, fields);
-    forEachField(reader, out);
+  UnpackedTile tile;
+  tile.width_ = expected.width, tile.height_ = expected.height;
+  tile.layerMask_ = expected.layerMask;
+  tile.bytes_ = std::move(bytes);
+  const size_t begin = impl_->open(tile.bytes_, head.storage, head.fieldBytes);
+  MutableReader fields(std::span(tile.bytes_).subspan(begin), "tile");
+  const int pixels = expected.width * expected.height;
+  if (pixels > 0) {
+    TileResult shape;
+    shape.layerMask = expected.layerMask, shape.extraMask = expected.extraMask;
+    FieldOpener opener(expected.width, static_cast<size_t>(pixels), fields, tile.fields_,
+                       tile.flat_);
+    forEachField(opener, shape);
   }
   fields.expectEnd();
+  return tile;
+}
+
+bool UnpackedTile::isBlack(int layer) const {
+  if (fields_.empty()) return true;
+  size_t first = 0;
+  for (int before = 0; before < layer; ++before)
+    first += hasLayer(layerMask_, before) ? kFieldsOfLayer : 0;
+  return fields_[first].isZero() && fields_[first + 1].isZero() && fields_[first + 2].isZero();
+}
+
+void UnpackedTile::copy(const Part& part, uint8_t layers, int stride, TileResult& out) const {
+  if (part.width <= 0 || part.height <= 0) return;
+  FieldCopier copier(fields_.data(), {static_cast<size_t>(part.fromJ * width_ + part.fromI),
+                                      static_cast<size_t>(width_), static_cast<size_t>(part.to),
+                                      static_cast<size_t>(stride), part.width, part.height});
+  for (int layer = 0; layer < kLayers; ++layer) {
+    if (!hasLayer(out.layerMask, layer)) continue;
+    if (hasLayer(layers, layer))
+      forEachFieldOfLayer(copier, out.layers[static_cast<size_t>(layer)]);
+    else
+      copier.skip(kFieldsOfLayer);
+  }
+  forEachExtraField(copier, out);
 }
 
 }  // namespace ninefold

@@ -23,11 +23,13 @@
 // Errors: encode CHECKs its limits; decode throws Error on anything malformed, before it allocates.
 #pragma once
 
+#include <deque>
 #include <memory>
 
 #include "common/image/layers.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
+#include "proto/tile_fields.h"
 
 namespace ninefold {
 
@@ -60,14 +62,46 @@ class TileEncoder {
   std::unique_ptr<Impl> impl_;
 };
 
+// A task's result, unpacked but not yet decoded: about as many bytes as its codes have. Parts of it
+// can be decoded where they are needed, at any time.
+class UnpackedTile {
+ public:
+  UnpackedTile() = default;
+  UnpackedTile(UnpackedTile&&) = default;
+  UnpackedTile& operator=(UnpackedTile&&) = default;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  size_t bytes() const { return bytes_.size(); }
+  // Reflectance, E and U of a layer are 0 everywhere.
+  bool isBlack(int layer) const;
+
+  // Decodes a part of some layers, and of all extra planes, into the planes of `out`, which has the
+  // same layers and extras. Rows of `out` hold `stride` pixels.
+  struct Part {
+    int fromI = 0, fromJ = 0;  // first pixel in the tile
+    int to = 0;                // its index in out's planes
+    int width = 0, height = 0;
+  };
+  void copy(const Part& part, uint8_t layers, int stride, TileResult& out) const;
+
+ private:
+  friend class TileDecoder;
+  int width_ = 0, height_ = 0;
+  Bytes bytes_;                            // what the fields' planes point into
+  std::deque<std::vector<uint8_t>> flat_;  // and these
+  std::vector<FieldView> fields_;
+  uint8_t layerMask_ = 0;
+};
+
 class TileDecoder {
  public:
   TileDecoder();
   ~TileDecoder();
 
-  // Fills `out` (its ray counts become zero: they travel in the message). Throws Error and leaves
-  // `out` in any state if the bytes are not exactly one tile of this shape.
-  void decode(ByteView bytes, const TileShape& expected, TileResult& out);
+  // Takes the bytes apart: decompresses, checks, finds the fields. Throws Error if the bytes are not
+  // exactly one tile of this shape.
+  UnpackedTile unpack(Bytes&& bytes, const TileShape& expected);
 
  private:
   struct Impl;

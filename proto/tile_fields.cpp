@@ -2,8 +2,6 @@
 
 #include <limits>
 
-#include "proto/byte_planes.h"
-
 namespace ninefold {
 namespace {
 
@@ -130,66 +128,116 @@ void FieldWriter::words(const std::vector<uint32_t>& values) {
 
 // --- reading ---
 
-namespace {
-
-uint16_t word(uint8_t low, uint8_t high) { return static_cast<uint16_t>(low | high << 8); }
-
-}  // namespace
-
-void FieldReader::fetch(int planes) {
-  for (int i = 0; i < planes; ++i) readPlane(in_, width_, scratch_.plane[static_cast<size_t>(i)]);
-}
-
-void FieldReader::fraction(RgbPlane& values, float top) {
-  fetch(3);
-  const SquareCode code(top);
-  const auto& [r, g, b, unused] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) values.r[i] = code.decode(r[i]);
-  for (size_t i = 0; i < pixels_; ++i) values.g[i] = code.decode(g[i]);
-  for (size_t i = 0; i < pixels_; ++i) values.b[i] = code.decode(b[i]);
-}
-
-void FieldReader::light(RgbPlane& values) {
-  fetch(4);
-  const auto& [r, g, b, e] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) {
-    const float scale = SharedExponent::scaleOf(e[i]);
-    values.r[i] = scale * static_cast<float>(r[i]);
-    values.g[i] = scale * static_cast<float>(g[i]);
-    values.b[i] = scale * static_cast<float>(b[i]);
+void FieldOpener::open(int planes) {
+  FieldView& field = fields_.emplace_back();
+  field.constant = true;
+  for (int i = 0; i < planes; ++i) {
+    PlaneView& plane = field.plane[static_cast<size_t>(i)];
+    plane = openPlane(in_, width_, pixels_);
+    field.constant &= plane.bytes == nullptr;
+  }
+  if (field.constant) return;
+  for (int i = 0; i < planes; ++i) {
+    PlaneView& plane = field.plane[static_cast<size_t>(i)];
+    if (plane.bytes == nullptr) plane.bytes = flat_.emplace_back(pixels_, plane.value).data();
   }
 }
 
-void FieldReader::length(std::vector<float>& values) {
+void FieldOpener::length(const std::vector<float>&) {
   const auto least = in_.number<uint32_t>("least length");
   const auto most = in_.number<uint32_t>("largest length");
   if (least > most || most >= kInfinityBits)
     fail("{}: range of lengths is no range; it is damaged", in_.what());
-  fetch(2);
-  const FloatSteps code(least, most);
-  const auto& [low, high, unused1, unused2] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) values[i] = code.decode(word(low[i], high[i]));
+  open(2);
+  fields_.back().least = least, fields_.back().most = most;
 }
 
-void FieldReader::normal(RgbPlane& values) {
-  fetch(4);
-  const auto& [xLow, xHigh, yLow, yHigh] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) {
-    const Vec3 n = Octahedral{word(xLow[i], xHigh[i]), word(yLow[i], yHigh[i])}.decode();
-    values.r[i] = n.x, values.g[i] = n.y, values.b[i] = n.z;
+namespace {
+
+struct Code {
+  uint8_t a = 0, b = 0, c = 0, d = 0;
+};
+
+uint16_t word(uint8_t low, uint8_t high) { return static_cast<uint16_t>(low | high << 8); }
+
+// store(i, decode(code of pixel i)) for the part's pixels; `planes` codes are read.
+template <int planes, typename Decode, typename Store>
+void forEachPixel(const FieldView& field, const TilePart& part, Decode decode, Store store) {
+  const auto& p = field.plane;
+  if (field.constant) {
+    const auto value = decode(Code{p[0].value, p[1].value, p[2].value, p[3].value});
+    for (int j = 0; j < part.height; ++j)
+      for (int i = 0; i < part.width; ++i)
+        store(part.to + static_cast<size_t>(j) * part.toStride + static_cast<size_t>(i), value);
+    return;
+  }
+  for (int j = 0; j < part.height; ++j) {
+    const size_t from = part.from + static_cast<size_t>(j) * part.fromStride;
+    const size_t to = part.to + static_cast<size_t>(j) * part.toStride;
+    const uint8_t *a = p[0].bytes + from, *b = p[1].bytes + from,
+                  *c = planes > 2 ? p[2].bytes + from : a, *d = planes > 3 ? p[3].bytes + from : a;
+#pragma GCC ivdep
+    for (int i = 0; i < part.width; ++i)
+      store(to + static_cast<size_t>(i), decode(Code{a[i], b[i], c[i], d[i]}));
   }
 }
 
-void FieldReader::words(std::vector<uint16_t>& values) {
-  fetch(2);
-  for (size_t i = 0; i < pixels_; ++i) values[i] = word(scratch_.plane[0][i], scratch_.plane[1][i]);
+}  // namespace
+
+void FieldCopier::fraction(RgbPlane& values, float top) {
+  float *r = values.r.data(), *g = values.g.data(), *b = values.b.data();
+  forEachPixel<3>(
+      *next_++, part_,
+      [top](Code c) {
+        return Vec3(SquareCode::level(c.a, top), SquareCode::level(c.b, top),
+                    SquareCode::level(c.c, top));
+      },
+      [=](size_t i, Vec3 v) { r[i] = v.x, g[i] = v.y, b[i] = v.z; });
 }
 
-void FieldReader::words(std::vector<uint32_t>& values) {
-  fetch(4);
-  const auto& [a, b, c, d] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i)
-    values[i] = uint32_t{word(a[i], b[i])} | uint32_t{word(c[i], d[i])} << 16;
+void FieldCopier::light(RgbPlane& values) {
+  float *r = values.r.data(), *g = values.g.data(), *b = values.b.data();
+  forEachPixel<4>(
+      *next_++, part_,
+      [](Code c) {
+        const float scale = SharedExponent::scaleOf(c.d);
+        return Vec3(scale * static_cast<float>(c.a), scale * static_cast<float>(c.b),
+                    scale * static_cast<float>(c.c));
+      },
+      [=](size_t i, Vec3 v) { r[i] = v.x, g[i] = v.y, b[i] = v.z; });
+}
+
+void FieldCopier::length(std::vector<float>& values) {
+  float* out = values.data();
+  const FloatSteps code(next_->least, next_->most);
+  forEachPixel<2>(
+      *next_++, part_, [&code](Code c) { return code.decode(word(c.a, c.b)); },
+      [=](size_t i, float v) { out[i] = v; });
+}
+
+void FieldCopier::normal(RgbPlane& values) {
+  float *r = values.r.data(), *g = values.g.data(), *b = values.b.data();
+  forEachPixel<4>(
+      *next_++, part_,
+      [](Code c) {
+        return Octahedral{word(c.a, c.b), word(c.c, c.d)}.decode();
+      },
+      [=](size_t i, Vec3 v) { r[i] = v.x, g[i] = v.y, b[i] = v.z; });
+}
+
+void FieldCopier::words(std::vector<uint16_t>& values) {
+  uint16_t* out = values.data();
+  forEachPixel<2>(
+      *next_++, part_, [](Code c) { return word(c.a, c.b); },
+      [=](size_t i, uint16_t v) { out[i] = v; });
+}
+
+void FieldCopier::words(std::vector<uint32_t>& values) {
+  uint32_t* out = values.data();
+  forEachPixel<4>(
+      *next_++, part_,
+      [](Code c) { return uint32_t{word(c.a, c.b)} | uint32_t{word(c.c, c.d)} << 16; },
+      [=](size_t i, uint32_t v) { out[i] = v; });
 }
 
 }  // namespace ninefold

@@ -4,33 +4,44 @@
 #pragma once
 
 #include <array>
+#include <deque>
 
 #include "common/image/layers.h"
 #include "common/math/units.h"
-#include "proto/bytes.h"
+#include "proto/byte_planes.h"
 #include "proto/quantize.h"
 
 namespace ninefold {
 
-// Calls one of the coder's functions for each field that the tile's masks name.
+inline constexpr int kFieldsOfLayer = 6;
+
+template <typename Coder, typename Planes>
+void forEachFieldOfLayer(Coder& coder, Planes& planes) {
+  coder.fraction(planes.reflectance, kInvPi);
+  coder.light(planes.irradiance);
+  coder.light(planes.unfiltered);
+  coder.length(planes.distance);
+  coder.normal(planes.normal);
+  coder.words(planes.chain);
+}
+
 template <typename Coder, typename Tile>
-void forEachField(Coder& coder, Tile& tile) {
-  for (int layer = 0; layer < kLayers; ++layer) {
-    if (!hasLayer(tile.layerMask, layer)) continue;
-    auto& planes = tile.layers[static_cast<size_t>(layer)];
-    coder.fraction(planes.reflectance, kInvPi);
-    coder.light(planes.irradiance);
-    coder.light(planes.unfiltered);
-    coder.length(planes.distance);
-    coder.normal(planes.normal);
-    coder.words(planes.chain);
-  }
+void forEachExtraField(Coder& coder, Tile& tile) {
   auto& extras = tile.extras;
   if ((tile.extraMask & kAlbedoPlane) != 0) coder.fraction(extras.albedo, 1.0f);
   if ((tile.extraMask & kNormalPlane) != 0) coder.normal(extras.normal);
   if ((tile.extraMask & kDepthPlane) != 0) coder.length(extras.depth);
   if ((tile.extraMask & kObjectPlane) != 0) coder.words(extras.object);
   if ((tile.extraMask & kCausticPlane) != 0) coder.light(extras.caustic);
+}
+
+// Calls one of the coder's functions for each field that the tile's masks name.
+template <typename Coder, typename Tile>
+void forEachField(Coder& coder, Tile& tile) {
+  for (int layer = 0; layer < kLayers; ++layer)
+    if (hasLayer(tile.layerMask, layer))
+      forEachFieldOfLayer(coder, tile.layers[static_cast<size_t>(layer)]);
+  forEachExtraField(coder, tile);
 }
 
 // Bytes that the fields of a tile take at most before zstd: what a peer may declare.
@@ -79,12 +90,54 @@ class FieldWriter {
   uint64_t replaced_ = 0;
 };
 
-class FieldReader {
- public:
-  FieldReader(int width, size_t pixels, BytePlanes& scratch, ByteReader& in)
-      : width_(static_cast<size_t>(width)), pixels_(pixels), scratch_(scratch), in_(in) {
-    scratch_.resize(pixels);
+// A field where it lies in the tile's bytes: its planes, or one code for all pixels.
+struct FieldView {
+  std::array<PlaneView, 4> plane;
+  bool constant = false;         // all planes are
+  uint32_t least = 0, most = 0;  // lengths: range of the codes
+  bool isZero() const {
+    return constant && (plane[0].value | plane[1].value | plane[2].value | plane[3].value) == 0;
   }
+};
+
+// Finds a tile's fields in its bytes, in their order; undoes differences where they lie.
+class FieldOpener {
+ public:
+  // `flat` gets the constant planes of fields that are not constant as a whole.
+  FieldOpener(int width, size_t pixels, MutableReader& in, std::vector<FieldView>& fields,
+              std::deque<std::vector<uint8_t>>& flat)
+      : width_(static_cast<size_t>(width)),
+        pixels_(pixels),
+        in_(in),
+        fields_(fields),
+        flat_(flat) {}
+  void fraction(const RgbPlane&, float) { open(3); }
+  void light(const RgbPlane&) { open(4); }
+  void length(const std::vector<float>&);
+  void normal(const RgbPlane&) { open(4); }
+  void words(const std::vector<uint16_t>&) { open(2); }
+  void words(const std::vector<uint32_t>&) { open(4); }
+
+ private:
+  void open(int planes);
+
+  const size_t width_, pixels_;
+  MutableReader& in_;
+  std::vector<FieldView>& fields_;
+  std::deque<std::vector<uint8_t>>& flat_;
+};
+
+// Part of a tile: `width` x `height` pixels that begin at pixel `from` of its rows of `fromStride`,
+// to be written from pixel `to` on of rows of `toStride`.
+struct TilePart {
+  size_t from = 0, fromStride = 0, to = 0, toStride = 0;
+  int width = 0, height = 0;
+};
+
+// Values of fields, in their order, into the planes of a tile or a patch.
+class FieldCopier {
+ public:
+  FieldCopier(const FieldView* next, const TilePart& part) : next_(next), part_(part) {}
   void fraction(RgbPlane& values, float top);
   void light(RgbPlane& values);
   void length(std::vector<float>& values);
@@ -92,12 +145,11 @@ class FieldReader {
   void words(std::vector<uint16_t>& values);
   void words(std::vector<uint32_t>& values);
 
- private:
-  void fetch(int planes);
+  void skip(int fields) { next_ += fields; }
 
-  const size_t width_, pixels_;
-  BytePlanes& scratch_;
-  ByteReader& in_;
+ private:
+  const FieldView* next_;
+  const TilePart part_;
 };
 
 }  // namespace ninefold

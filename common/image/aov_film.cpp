@@ -7,21 +7,23 @@ namespace {
 
 using Rgb = std::array<std::vector<double>, 3>;
 
-// Where the pixels of a phase lie: calls f(index in the sub-plane, index in the image).
+// Where a patch's own pixels of a phase lie: calls f(index in its planes, index in the image).
 template <typename F>
-void forEachPixel(const TileGrid& grid, int phase, const F& f) {
-  size_t sub = 0;
-  for (int j = 0; j < grid.subHeight(phase); ++j)
-    for (int i = 0; i < grid.subWidth(phase); ++i, ++sub)
-      f(sub, pixelCount(grid.width(), grid.pixelY(phase, j)) +
-                 static_cast<size_t>(grid.pixelX(phase, i)));
+void forEachPixel(const Patch& patch, int phase, const F& f) {
+  const TileGrid& grid = patch.grid();
+  const TaskRect& inner = patch.inner(phase);
+  for (int j = 0; j < inner.height; ++j)
+    for (int i = 0; i < inner.width; ++i)
+      f(static_cast<size_t>((j + 1) * Patch::kSide + i + 1),
+        pixelCount(grid.width(), grid.pixelY(phase, inner.j0 + j)) +
+            static_cast<size_t>(grid.pixelX(phase, inner.i0 + i)));
 }
 
-void addRgb(const TileGrid& grid, int phase, const RgbPlane& plane, Rgb& sums) {
-  forEachPixel(grid, phase, [&](size_t sub, size_t pixel) {
-    sums[0][pixel] += static_cast<double>(plane.r[sub]);
-    sums[1][pixel] += static_cast<double>(plane.g[sub]);
-    sums[2][pixel] += static_cast<double>(plane.b[sub]);
+void addRgb(const Patch& patch, int phase, const RgbPlane& plane, Rgb& sums) {
+  forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
+    sums[0][pixel] += static_cast<double>(plane.r[from]);
+    sums[1][pixel] += static_cast<double>(plane.g[from]);
+    sums[2][pixel] += static_cast<double>(plane.b[from]);
   });
 }
 
@@ -78,28 +80,24 @@ void AovFilm::clear() {
   object_.assign((extraMask_ & kObjectPlane) != 0 ? n : 0, 0);
 }
 
-void AovFilm::add(const FrameBuffer& frame, const FrameFilter& filter) {
-  NINEFOLD_CHECK(frame.extraMask() == extraMask_);
-  ++frames_;
-  for (int phase = 0; phase < grid_.interleave().sets(); ++phase) {
-    const ExtraPlanes& extras = frame.phase(phase).extras;
-    if ((extraMask_ & kAlbedoPlane) != 0) addRgb(grid_, phase, extras.albedo, albedo_);
-    if ((extraMask_ & kNormalPlane) != 0) addRgb(grid_, phase, extras.normal, normal_);
-    if ((extraMask_ & kCausticPlane) != 0) addRgb(grid_, phase, extras.caustic, caustic_);
-    addRgb(grid_, phase, filter.irradiance(phase), irradiance_);
-    if ((extraMask_ & kDepthPlane) != 0) addDepth(phase, extras.depth);
+void AovFilm::addPatch(const Patch& patch, const PatchFilter& filter) {
+  NINEFOLD_CHECK(patch.extraMask() == extraMask_);
+  for (int phase = 0; phase < patch.phases(); ++phase) {
+    const ExtraPlanes& extras = patch.phase(phase).extras;
+    if ((extraMask_ & kAlbedoPlane) != 0) addRgb(patch, phase, extras.albedo, albedo_);
+    if ((extraMask_ & kNormalPlane) != 0) addRgb(patch, phase, extras.normal, normal_);
+    if ((extraMask_ & kCausticPlane) != 0) addRgb(patch, phase, extras.caustic, caustic_);
+    addRgb(patch, phase, filter.irradiance(phase), irradiance_);
+    if ((extraMask_ & kDepthPlane) != 0)
+      forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
+        depth_[pixel] += static_cast<double>(extras.depth[from]);
+        hits_[pixel] += extras.depth[from] > 0;
+      });
     if ((extraMask_ & kObjectPlane) != 0)
-      forEachPixel(grid_, phase, [&](size_t sub, size_t pixel) {
-        object_[pixel] = static_cast<float>(extras.object[sub]);
+      forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
+        object_[pixel] = static_cast<float>(extras.object[from]);
       });
   }
-}
-
-void AovFilm::addDepth(int phase, const std::vector<float>& depth) {
-  forEachPixel(grid_, phase, [&](size_t sub, size_t pixel) {
-    depth_[pixel] += static_cast<double>(depth[sub]);
-    hits_[pixel] += depth[sub] > 0;
-  });
 }
 
 std::vector<Channel> AovFilm::channels() const {

@@ -5,10 +5,10 @@
 //
 // irradiance is E at the first hit after the discontinuity buffer, caustic the photons' part of it
 // before the buffer. N is made unit again. Z is the mean over those frames in which the pixel met a
-// surface. Threads: one at a time.
+// surface. Threads: addPatch for different tiles at once, else one at a time.
 #pragma once
 
-#include "common/image/frame_filter.h"
+#include "common/image/patch_filter.h"
 
 namespace ninefold {
 
@@ -17,14 +17,14 @@ class AovFilm {
   AovFilm(const TileGrid& grid, uint8_t extraMask);
 
   void clear();
-  // `filter` has just composed `frame`.
-  void add(const FrameBuffer& frame, const FrameFilter& filter);
+  // A tile of the next frame; `filter` has just composed `patch`.
+  void addPatch(const Patch& patch, const PatchFilter& filter);
+  void frameDone() { ++frames_; }  // all its tiles were added
   // The planes that the mask names and the irradiance, in the order above.
   std::vector<Channel> channels() const;
 
  private:
   using Rgb = std::array<std::vector<double>, 3>;  // sums over frames
-  void addDepth(int phase, const std::vector<float>& depth);
 
   TileGrid grid_;
   uint8_t extraMask_;

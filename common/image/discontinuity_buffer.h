@@ -8,24 +8,24 @@
 // over the n x m window around p, so that each light set comes in at most once. Even sizes reach
 // one pixel further right and down. Near the border of the image the window has fewer pixels. A
 // constant E comes out bit for bit. The sum runs over the window row by row, so that the result is
-// the same however rows are shared out.
+// the same however tiles are shared out.
 //
-// Works on rows of one phase's sub-plane: each window position is then one row of another
-// sub-plane, shifted by a constant.
+// Works on a patch. All its planes have the same shape, so that each position of the window is
+// another phase's plane shifted by a constant, and a phase is filtered as one long row: what this
+// computes in the border is never looked at.
 //
 // Source:  Keller and Heidrich 2001; Wald et al. 2002.
 // Proved:  tests/image/discontinuity_buffer_test.cpp.
-// Threads: guideRows for different rows at once; filterRows after guideRows of the whole window.
-// Memory:  4 floats per pixel, taken by reset(); none later.
+// Threads: one at a time. Memory: 4 floats per pixel of a patch, taken by the first guide().
 #pragma once
 
-#include "common/image/frame_buffer.h"
+#include "common/image/patch.h"
 #include "common/image/surface_test.h"
 #include "common/math/camera.h"
 
 namespace ninefold {
 
-// SurfaceGuide of each pixel of a sub-plane.
+// SurfaceGuide of each pixel of a phase.
 struct GuidePlanes {
   std::vector<float> u, gradX, gradY, slack;
 
@@ -34,22 +34,20 @@ struct GuidePlanes {
 
 class DiscontinuityBuffer {
  public:
-  void reset(const TileGrid& grid, SurfaceTest test);
+  explicit DiscontinuityBuffer(SurfaceTest test) : test_(test) {}
 
-  // Prepares the first layer's surface test for rows [j0, j1) of a phase. Once per frame.
-  void guideRows(const FrameBuffer& frame, const Camera& camera, int phase, int j0, int j1);
+  // Prepares the first layer's surface test. Once for each patch.
+  void guide(const Patch& patch, const Camera& camera);
 
-  // Filters E of a layer for rows [j0, j1) of a phase into `out`, a plane of the phase's size.
+  // Filters E of a layer for one phase's pixels into `out`, a plane of the patch's shape.
   // neighbourWeight in [0, 1]: 1 filters fully, 0 copies.
-  void filterRows(const FrameBuffer& frame, int layer, int phase, int j0, int j1,
-                  float neighbourWeight, RgbPlane& out) const;
+  void filter(const Patch& patch, int layer, int phase, float neighbourWeight, RgbPlane& out) const;
 
  private:
-  // `count` pixels of row j from pixel `first` on.
-  void filterChunk(const FrameBuffer& frame, int layer, int phase, int j, int first, int count,
-                   float weight, RgbPlane& out) const;
+  void filterChunk(const Patch& patch, int layer, int phase, int first, int count, float weight,
+                   RgbPlane& out) const;
 
-  SurfaceTest test_ = SurfaceTest::surface;
+  const SurfaceTest test_;
   std::vector<GuidePlanes> guides_;  // per phase; none for the paper's test
 };
 

@@ -16,11 +16,15 @@
 //
 // relativeError() is what stop rules use. Both are infinite for N < 2, and 0 for a black image.
 //
-// Source:  Welford 1962.   Proved: tests/image/film_test.cpp.   Threads: one at a time.
+// A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels.
+//
+// Source:  Welford 1962.   Proved: tests/image/film_test.cpp.
+// Threads: addTile for different tiles at once, else one at a time.
 // The last bits depend on the order of frames: add them in the order of their index.
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "common/image/image.h"
 
@@ -31,18 +35,22 @@ inline constexpr int kErrorBlock = 16;
 // Running mean and sum of squared deviations of many quantities, all with the same number of
 // values.
 struct RunningMoments {
-  std::vector<double> mean, m2;
-  void resize(size_t n) { mean.assign(n, 0), m2.assign(n, 0); }
-  // Takes values[0..n) as the count-th value of each quantity; count starts at 1.
+  std::vector<double> mean, m2;  // m2 may be left out
+  void resize(size_t n, bool wantsM2) { mean.assign(n, 0), m2.assign(wantsM2 ? n : 0, 0); }
+  // Takes `values` as the count-th values of quantities [first, first + size); count starts at 1.
   template <typename T>
-  void add(const std::vector<T>& values, int64_t count);
+  void add(std::span<const T> values, size_t first, int64_t count);
 };
 
 class Film {
  public:
-  Film(int width, int height);
+  // keepsError: standardError() will be asked for, which takes M2 of every pixel.
+  Film(int width, int height, bool keepsError = true);
 
   void clear();  // the picture has changed: start again
+  // Part of the next frame, whose top left pixel is (x0, y0).
+  void addTile(int x0, int y0, const RgbImage& tile);
+  void frameDone();  // all its tiles were added
   void add(const RgbImage& frame);
 
   int width() const { return width_; }
@@ -54,10 +62,11 @@ class Film {
   double imageRelativeError() const;
 
  private:
-  void addBlocks(const RgbImage& frame);
+  void addBlocks(int x0, int y0, const RgbImage& tile);
   double relative(double m2) const;  // sqrt(m2/(N-1)/N) / Y
 
   int width_, height_, blockColumns_, blockRows_;
+  bool keepsError_;
   int64_t frames_ = 0;
   RunningMoments r_, g_, b_;
   RunningMoments blocks_;  // blocks row-major, then the whole image

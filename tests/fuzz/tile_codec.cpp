@@ -51,7 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   if (data[0] == 255) shape.width = shape.height = 0;
   TileResult tile;
   try {
-    TileDecoder().decode(std::as_bytes(std::span(data + 4, size - 4)), shape, tile);
+    tile = decodeAll(std::as_bytes(std::span(data + 4, size - 4)), shape);
   } catch (const Error&) {
     return 0;
   }
@@ -59,6 +59,6 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   // A decoded tile is an ordinary tile: it can be sent on, and loses nothing but its dither.
   const auto again = TileEncoder().encode(tile, 1, 1);
   NINEFOLD_CHECK(again.replaced == 0);
-  TileDecoder().decode(again.bytes, shape, tile);
+  decodeAll(again.bytes, shape);
   return 0;
 }

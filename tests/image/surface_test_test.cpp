@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/image/frame_filter.h"
+#include "common/image/patch_filter.h"
 #include "tests/image/synthetic.h"
 
 namespace ninefold {
@@ -18,15 +18,6 @@ Point wallAt(Vec3 direction, float depth) {
   return plane(direction, Vec3(0, 0, -depth), Vec3(0, 0, 1));
 }
 Point ground(Vec3 direction) { return plane(direction, Vec3(0, -1, 0), Vec3(0, 1, 0)); }
-
-// E' as an image: filtered as the only thing that the picture shows.
-RgbImage filtered(const FrameBuffer& frame, SurfaceTest test) {
-  FrameFilter filter;
-  RgbImage beauty;
-  filter.reset(frame.grid(), frame.layerMask(), test);
-  filter.compose(frame, camera(), 1, beauty);
-  return beauty;
-}
 
 // Additive noise that differs from light set to light set and sums to zero over the nine.
 float setNoise(int x, int y) { return 0.1f * static_cast<float>(kGrid.phaseOfPixel(x, y) - 4); }
@@ -55,8 +46,8 @@ Count keptNoise(const Shape& shape, int part, SurfaceTest test, bool jitter) {
   const Light noisy = [&](int x, int y, const Point& p) {
     return smooth(x, y, p) + setNoise(x, y);
   };
-  const RgbImage clean = filtered(frameOfShape(kGrid, shape, smooth, jitter), test);
-  const RgbImage got = filtered(frameOfShape(kGrid, shape, noisy, jitter), test);
+  const RgbImage clean = composed(frameOfShape(kGrid, shape, smooth, jitter), test);
+  const RgbImage got = composed(frameOfShape(kGrid, shape, noisy, jitter), test);
   Count count;
   for (int y = 0; y < kHeight; ++y)
     for (int x = 0; x < kWidth; ++x)
@@ -71,8 +62,8 @@ Count keptNoise(const Shape& shape, int part, SurfaceTest test, bool jitter) {
 // Pixels on either side of an edge between part 0 and part 1 that got light from the other side.
 Count crossings(const Shape& shape, SurfaceTest test) {
   const Light light = [](int, int, const Point& p) { return static_cast<float>(p.part); };
-  const FrameBuffer frame = frameOfShape(kGrid, shape, light, true);
-  const RgbImage image = filtered(frame, test);
+  const Frame frame = frameOfShape(kGrid, shape, light, true);
+  const RgbImage image = composed(frame, test);
   Count count;
   for (const float red : image.pixels.r) {
     ++count.pixels;
@@ -170,7 +161,7 @@ TEST(SurfaceTest, NeverAcceptsAPixelWithoutSurface) {
 TEST(SurfaceTest, LetsNothingThatIsNotFiniteCrossAnEdge) {
   const Shape corner = [](Vec3 v) { return nearer(ground(v), wallAt(v, 4)); };
   const Light light = [](int, int, const Point& p) { return p.part == 1 ? NAN : 4.0f; };
-  const RgbImage image = filtered(frameOfShape(kGrid, corner, light), SurfaceTest::surface);
+  const RgbImage image = composed(frameOfShape(kGrid, corner, light), SurfaceTest::surface);
   int finite = 0, expected = 0;
   const CameraRays rays(camera(), kWidth, kHeight);
   for (int y = 0; y < kHeight; ++y)
@@ -186,7 +177,7 @@ TEST(SurfaceTest, LetsNothingThatIsNotFiniteCrossAnEdge) {
 TEST(SurfaceTest, KeepsChainsApartInMirrors) {
   const uint8_t layers = kDiffuseBit | kReflectionBit;
   for (const SurfaceTest test : {SurfaceTest::paper, SurfaceTest::surface}) {
-    const FrameBuffer frame = frameOf(kGrid, layers, 0, [](TileResult& out, size_t i, int x, int) {
+    const Frame frame = frameOf(kGrid, layers, 0, [](TileResult& out, size_t i, int x, int) {
       LayerPlanes& layer = out.layers[kReflection];
       layer.distance[i] = 2;
       set(layer.normal, i, Vec3(0, 1, 0));
@@ -194,7 +185,7 @@ TEST(SurfaceTest, KeepsChainsApartInMirrors) {
       layer.chain[i] = x < 100 ? 17 : 18;
       set(layer.irradiance, i, Vec3(x < 100 ? 0.0f : 1.0f));
     });
-    for (const float red : filtered(frame, test).pixels.r) ASSERT_TRUE(red == 0 || red == 0.25f);
+    for (const float red : composed(frame, test).pixels.r) ASSERT_TRUE(red == 0 || red == 0.25f);
   }
 }
 

@@ -4,7 +4,8 @@
 #include <functional>
 #include <random>
 
-#include "common/image/frame_buffer.h"
+#include "common/image/image.h"
+#include "common/image/patch_filter.h"
 #include "common/math/camera.h"
 
 namespace ninefold::synthetic {
@@ -40,29 +41,45 @@ inline Point nearer(Point a, Point b) {
   return b.distance == 0 || (a.distance != 0 && a.distance < b.distance) ? a : b;
 }
 
-// Calls f(result, index in it, x, y) for each pixel of a task's result.
+// A whole frame: the sub-plane of each phase.
+struct Frame {
+  FrameShape shape;
+  std::vector<TileResult> phases;
+
+  const TileGrid& grid() const { return shape.grid; }
+  const TileResult& phase(int p) const { return phases[static_cast<size_t>(p)]; }
+};
+
+// Fills a frame pixel by pixel, phase by phase: f(sub-plane, index, x, y).
 template <typename F>
-void forEachPixel(const TileGrid& grid, int tile, int phase, TileResult& result, const F& f) {
-  const TaskRect rect = grid.rect(tile, phase);
-  for (int j = 0; j < rect.height; ++j)
-    for (int i = 0; i < rect.width; ++i)
-      f(result, static_cast<size_t>(j * rect.width + i), grid.pixelX(phase, rect.i0 + i),
-        grid.pixelY(phase, rect.j0 + j));
+Frame frameOf(const TileGrid& grid, uint8_t layers, uint8_t extras, const F& f) {
+  Frame frame{{grid, layers, extras}, {}};
+  for (int phase = 0; phase < grid.interleave().sets(); ++phase) {
+    TileResult& plane = frame.phases.emplace_back();
+    plane.reset(grid.subWidth(phase), grid.subHeight(phase), layers, extras);
+    for (int j = 0; j < plane.height; ++j)
+      for (int i = 0; i < plane.width; ++i)
+        f(plane, static_cast<size_t>(j * plane.width + i), grid.pixelX(phase, i),
+          grid.pixelY(phase, j));
+  }
+  return frame;
 }
 
-// Fills a frame pixel by pixel, task by task: f(result, index, x, y).
+// A tile with what lies around it.
+inline void fill(Patch& patch, const Frame& frame, int tile) {
+  patch.reset(frame.shape, tile);
+  for (int p = 0; p < patch.phases(); ++p)
+    patch.place(p, {0, 0, frame.phase(p).width, frame.phase(p).height}, frame.phase(p));
+}
+
+// Calls f(index in the patch's planes, x, y) for the tile's own pixels of a phase.
 template <typename F>
-FrameBuffer frameOf(const TileGrid& grid, uint8_t layers, uint8_t extras, const F& f) {
-  FrameBuffer frame(grid, layers, extras);
-  TileResult result;
-  for (int tile = 0; tile < grid.tiles(); ++tile)
-    for (int phase = 0; phase < grid.interleave().sets(); ++phase) {
-      const TaskRect rect = grid.rect(tile, phase);
-      result.reset(rect.width, rect.height, layers, extras);
-      forEachPixel(grid, tile, phase, result, f);
-      frame.place(tile, phase, result);
-    }
-  return frame;
+void forEachInner(const Patch& patch, int phase, const F& f) {
+  const TaskRect& inner = patch.inner(phase);
+  for (int j = 0; j < inner.height; ++j)
+    for (int i = 0; i < inner.width; ++i)
+      f(static_cast<size_t>((j + 1) * Patch::kSide + i + 1),
+        patch.grid().pixelX(phase, inner.i0 + i), patch.grid().pixelY(phase, inner.j0 + j));
 }
 
 inline void set(RgbPlane& plane, size_t i, Vec3 v) {
@@ -70,10 +87,30 @@ inline void set(RgbPlane& plane, size_t i, Vec3 v) {
 }
 inline Vec3 get(const RgbPlane& plane, size_t i) { return {plane.r[i], plane.g[i], plane.b[i]}; }
 
+// The whole frame, filtered tile by tile.
+inline RgbImage composed(const Frame& frame, PatchFilter& filter) {
+  RgbImage beauty, tile;
+  beauty.reset(frame.grid().width(), frame.grid().height());
+  Patch patch;
+  for (int t = 0; t < frame.grid().tiles(); ++t) {
+    fill(patch, frame, t);
+    filter.compose(patch, camera(), 1, tile);
+    for (int y = 0; y < tile.height; ++y)
+      for (int x = 0; x < tile.width; ++x)
+        set(beauty.pixels, beauty.at(patch.x0() + x, patch.y0() + y), tile.rgb(tile.at(x, y)));
+  }
+  return beauty;
+}
+
+inline RgbImage composed(const Frame& frame, SurfaceTest test = SurfaceTest::surface) {
+  PatchFilter filter(test);
+  return composed(frame, filter);
+}
+
 // A diffuse frame of a shape under a light. With `jitter` each film position is anywhere in its
 // pixel.
-inline FrameBuffer frameOfShape(const TileGrid& grid, const Shape& shape, const Light& light,
-                                bool jitter = false) {
+inline Frame frameOfShape(const TileGrid& grid, const Shape& shape, const Light& light,
+                          bool jitter = false) {
   const CameraRays rays(camera(), grid.width(), grid.height());
   std::mt19937 random(7);
   std::uniform_real_distribution<float> uniform(0, 1);

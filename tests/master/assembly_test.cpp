@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <mutex>
 #include <random>
+#include <set>
 
 namespace ninefold {
 namespace {
@@ -40,30 +42,54 @@ std::vector<ReceivedTile> tilesOf(uint32_t frame) {
   return tiles;
 }
 
-FrameKey keyOf(uint32_t frame) {
-  FrameKey key;
-  key.frame = frame;
-  return key;
-}
-
-// Every pixel has a value of this frame's tasks.
-void expectWhole(const FrameBuffer& buffer, uint32_t frame) {
-  for (int phase = 0; phase < kGrid.interleave().sets(); ++phase)
-    for (const float e : buffer.phase(phase).layers[0].irradiance.r)
-      EXPECT_EQ(static_cast<int>(e * 1.01f) / 1000, static_cast<int>(frame) + 1);
+FrameView viewOf(uint32_t frame) {
+  FrameView view{{}, {kGrid, kDiffuseBit, 0}, {}, 1};
+  view.key.frame = frame;
+  return view;
 }
 
 class AssemblyTest : public testing::TestWithParam<int> {
  protected:
+  // Every pixel of the tile and around it has a value of this frame's tasks.
+  void check(const GatheredFrame& frame, int tile) {
+    const int number = static_cast<int>(frame.view.key.frame);
+    if (number != finishing) finished.clear(), finishing = number;
+    TileResult planes;
+    forEachAround(kGrid, tile, [&](int around) {
+      for (int phase = 0; phase < kGrid.interleave().sets(); ++phase) {
+        const UnpackedTile& task = frame.task(around, phase);
+        const TaskRect rect = kGrid.rect(around, phase);
+        EXPECT_EQ(task.width(), rect.width);
+        planes.reset(rect.width, rect.height, kDiffuseBit, 0);
+        task.copy({0, 0, 0, rect.width, rect.height}, kDiffuseBit, rect.width, planes);
+        for (const float e : planes.layers[0].irradiance.r)
+          EXPECT_EQ(static_cast<int>(e * 1.01f) / 1000, number + 1);
+      }
+    });
+    EXPECT_TRUE(finished.insert(tile).second) << "finished twice";
+  }
+  void expectWhole(const Assembly::Complete& frame) {
+    const std::lock_guard lock(mutex);
+    EXPECT_EQ(finishing, static_cast<int>(frame.key.frame));
+    EXPECT_EQ(static_cast<int>(finished.size()), kGrid.tiles());
+  }
+
+  std::mutex mutex;
+  int finishing = -1;      // guarded by mutex: the frame that tiles came from last
+  std::set<int> finished;  // guarded by mutex: its tiles
+  std::atomic<int> good = 0, malformed = 0;
   Assembly::Answer answer = [this](ReceivedTile&&, const std::optional<std::string>& bad) {
     ++(bad ? malformed : good);
   };
-  std::atomic<int> good = 0, malformed = 0;
-  Assembly assembly{kGrid, kDiffuseBit, 0, GetParam(), answer};
+  Assembly::Finish finish = [this](int, const GatheredFrame& frame, int tile) {
+    const std::lock_guard lock(mutex);
+    check(frame, tile);
+  };
+  Assembly assembly{GetParam(), answer, finish};
   Time soon() const { return Clock::now() + seconds(30); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Decoders, AssemblyTest, testing::Values(1, 3));
+INSTANTIATE_TEST_SUITE_P(Workers, AssemblyTest, testing::Values(1, 3));
 
 TEST_P(AssemblyTest, FramesLeaveWholeAndInOrderHoweverTheirTilesArrive) {
   std::mt19937 random(3);
@@ -71,7 +97,7 @@ TEST_P(AssemblyTest, FramesLeaveWholeAndInOrderHoweverTheirTilesArrive) {
   while (done < 9) {
     std::vector<ReceivedTile> tiles;
     for (; assembly.hasRoom(); ++opened) {
-      assembly.open(keyOf(opened));
+      assembly.open(viewOf(opened));
       for (ReceivedTile& tile : tilesOf(opened)) tiles.push_back(std::move(tile));
     }
     std::ranges::shuffle(tiles, random);
@@ -86,23 +112,38 @@ TEST_P(AssemblyTest, FramesLeaveWholeAndInOrderHoweverTheirTilesArrive) {
       const auto frame = assembly.next(soon());
       ASSERT_TRUE(frame);
       EXPECT_EQ(frame->key.frame, done);
-      expectWhole(*frame->buffer, done);
+      expectWhole(*frame);
       assembly.release(*frame);
     }
   }
   EXPECT_EQ(malformed, 0);
 }
 
-TEST_P(AssemblyTest, OpensNoMoreFramesThanItHasBuffers) {
-  for (uint32_t i = 0; i < Assembly::kBuffers; ++i) {
+TEST_P(AssemblyTest, OpensNoMoreFramesThanItHasRoomFor) {
+  for (uint32_t i = 0; i < Assembly::kMostFrames; ++i) {
     ASSERT_TRUE(assembly.hasRoom());
-    assembly.open(keyOf(i));
+    assembly.open(viewOf(i));
   }
   EXPECT_FALSE(assembly.hasRoom());
+  assembly.supersede(3);
+  EXPECT_TRUE(assembly.hasRoom());
+}
+
+TEST_P(AssemblyTest, ASupersededFrameIsNotWaitedFor) {
+  for (uint32_t i = 0; i < 3; ++i) assembly.open(viewOf(i));
+  std::vector<ReceivedTile> first = tilesOf(0);
+  for (size_t i = 0; i < first.size() / 2; ++i) ASSERT_TRUE(assembly.take(first[i]));
+  for (ReceivedTile& tile : tilesOf(2)) ASSERT_TRUE(assembly.take(tile));
+  EXPECT_FALSE(assembly.next(Clock::now()));
+  assembly.supersede(2);
+  const auto frame = assembly.next(soon());
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->key.frame, 2u);
+  expectWhole(*frame);
 }
 
 TEST_P(AssemblyTest, AMalformedTileIsAnsweredAndDoesNotKeepAGoodCopyOut) {
-  assembly.open(keyOf(0));
+  assembly.open(viewOf(0));
   std::vector<ReceivedTile> tiles = tilesOf(0);
   for (size_t i = 0; i < tiles.size(); ++i) {
     ReceivedTile broken = tiles[i];
@@ -113,17 +154,17 @@ TEST_P(AssemblyTest, AMalformedTileIsAnsweredAndDoesNotKeepAGoodCopyOut) {
   for (ReceivedTile& tile : tiles) ASSERT_TRUE(assembly.take(tile));
   const auto frame = assembly.next(soon());
   ASSERT_TRUE(frame);
-  expectWhole(*frame->buffer, 0);
+  expectWhole(*frame);
   EXPECT_EQ(malformed, static_cast<int>(tilesOf(0).size()));
 }
 
 TEST_P(AssemblyTest, TilesOfFramesThatAreNotOpenAreDropped) {
-  assembly.open(keyOf(0));
+  assembly.open(viewOf(0));
   for (ReceivedTile& tile : tilesOf(5)) ASSERT_TRUE(assembly.take(tile));
   for (ReceivedTile& tile : tilesOf(0)) ASSERT_TRUE(assembly.take(tile));
   const auto frame = assembly.next(soon());
   ASSERT_TRUE(frame);
-  expectWhole(*frame->buffer, 0);
+  expectWhole(*frame);
 }
 
 }  // namespace

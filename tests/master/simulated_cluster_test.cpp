@@ -1,7 +1,9 @@
 // The scheduler around a simulated cluster: every frame completes, whatever happens to the clients,
 // and threads do useful work for at least the stated share of the time. Also what 1000 clients
 // cost.
-#include "tests/master/simulated_cluster.h"
+#include "tools/simulated_cluster.h"
+
+#include <gtest/gtest.h>
 
 #include <random>
 

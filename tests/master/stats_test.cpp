@@ -64,7 +64,8 @@ TEST(Stats, HasExactlyTheKeysOfTheInterface) {
   EXPECT_EQ(keysOf(json["frame_ms"]), "p50 p95 max ");
   EXPECT_EQ(keysOf(json["rays"]), "eye shadow photon compensation ");
   EXPECT_EQ(keysOf(json["clients"][0]), "name isa tasks busy_fraction sets_per_frame ");
-  EXPECT_EQ(keysOf(json["master"]), "decode_ms filter_ms idle_fraction ");
+  EXPECT_EQ(keysOf(json["master"]), "decode_ms filter_ms idle_fraction cpu_ms tail_ms memory_mb ");
+  EXPECT_EQ(keysOf(json["master"]["tail_ms"]), "p50 p95 max ");
   EXPECT_EQ(keysOf(json["tiles_dropped"]), "stale duplicate malformed ");
 }
 

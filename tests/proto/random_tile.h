@@ -5,6 +5,7 @@
 
 #include "common/image/layers.h"
 #include "common/math/units.h"
+#include "proto/tile_codec.h"
 
 namespace ninefold {
 
@@ -55,5 +56,16 @@ class TileMaker {
   }
   std::mt19937 random_;
 };
+
+// All of a tile in planes of its own.
+inline TileResult decodeAll(const UnpackedTile& tile, const TileShape& shape) {
+  TileResult out;
+  out.reset(shape.width, shape.height, shape.layerMask, shape.extraMask);
+  tile.copy({0, 0, 0, shape.width, shape.height}, shape.layerMask, shape.width, out);
+  return out;
+}
+inline TileResult decodeAll(ByteView bytes, const TileShape& shape) {
+  return decodeAll(TileDecoder().unpack(Bytes(bytes.begin(), bytes.end()), shape), shape);
+}
 
 }  // namespace ninefold

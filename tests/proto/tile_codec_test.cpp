@@ -18,12 +18,6 @@ TileShape shapeOf(const TileResult& tile) {
   return {tile.width, tile.height, tile.layerMask, tile.extraMask};
 }
 
-TileResult decode(ByteView bytes, const TileShape& shape) {
-  TileResult out;
-  TileDecoder().decode(bytes, shape, out);
-  return out;
-}
-
 Bytes encode(const TileResult& tile, uint64_t dither = 1, int level = 1) {
   return TileEncoder().encode(tile, dither, level).bytes;
 }
@@ -58,7 +52,7 @@ TEST(TileCodec, RoundTripStaysWithinTheStatedBounds) {
   TileMaker make(1);
   for (const int level : {0, 1, 3, -5}) {
     const TileResult sent = make.make(32, 32, kAllLayers, kAllExtraPlanes);
-    const TileResult got = decode(encode(sent, 5, level), shapeOf(sent));
+    const TileResult got = decodeAll(encode(sent, 5, level), shapeOf(sent));
     for (size_t k = 0; k < kLayers; ++k) {
       const LayerPlanes &a = sent.layers[k], &b = got.layers[k];
       expectFractions(a.reflectance, b.reflectance, kInvPi);
@@ -85,7 +79,7 @@ TEST(TileCodec, EveryShapeAndMaskComesBack) {
         const TileResult sent = make.make(w, h, layers, extras);
         const Bytes bytes = encode(sent);
         EXPECT_LE(bytes.size(), kMaxTileBytes);
-        const TileResult got = decode(bytes, shapeOf(sent));
+        const TileResult got = decodeAll(bytes, shapeOf(sent));
         EXPECT_EQ(got.width, w);
         EXPECT_EQ(got.layers[0].chain, sent.layers[0].chain);
         EXPECT_EQ(got.extras.object, sent.extras.object);
@@ -97,7 +91,7 @@ TEST(TileCodec, AnEmptyTaskIsAHeadOnly) {
   empty.reset(0, 0, kDiffuseBit, 0);
   const Bytes bytes = encode(empty);
   EXPECT_LE(bytes.size(), 32u);
-  EXPECT_EQ(decode(bytes, shapeOf(empty)).count(), 0);
+  EXPECT_EQ(decodeAll(bytes, shapeOf(empty)).count(), 0);
 }
 
 TEST(TileCodec, TheSameDitherGivesTheSameBytesAndAnotherGivesOthers) {
@@ -124,7 +118,7 @@ TEST(TileCodec, TheMeanOverDithersIsTheValue) {
   double sum = 0, squares = 0, count = 0;
   TileEncoder encoder;
   for (uint64_t run = 0; run < 400; ++run) {
-    const TileResult got = decode(encoder.encode(tile, mixBits(run), 0).bytes, shapeOf(tile));
+    const TileResult got = decodeAll(encoder.encode(tile, mixBits(run), 0).bytes, shapeOf(tile));
     for (size_t k = 0; k < kLayers; ++k)
       for (size_t i = 0; i < 64; ++i) {
         const Vec3 value = at(tile.layers[k].irradiance, i);
@@ -149,7 +143,7 @@ TEST(TileCodec, UnusableValuesBecomeZeroAndAreCounted) {
   planes.irradiance.r[6] = -0.0f, planes.irradiance.g[6] = -0.0f, planes.irradiance.b[6] = -0.0f;
   const auto encoded = TileEncoder().encode(tile, 1, 1);
   EXPECT_EQ(encoded.replaced, 6u);
-  const TileResult got = decode(encoded.bytes, shapeOf(tile));
+  const TileResult got = decodeAll(encoded.bytes, shapeOf(tile));
   EXPECT_EQ(got.layers[0].irradiance.g[0], 0);
   EXPECT_EQ(got.layers[0].unfiltered.b[1], 0);
   EXPECT_EQ(got.layers[0].reflectance.r[2], 0);
@@ -168,11 +162,11 @@ TEST(TileCodec, PlanesOfNothingCostNothing) {
 TEST(TileCodec, AnythingButTheTasksShapeIsRefused) {
   const TileResult tile = TileMaker(7).make(8, 4, kDiffuseBit, kDepthPlane);
   const Bytes bytes = encode(tile);
-  EXPECT_NO_THROW(decode(bytes, shapeOf(tile)));
-  EXPECT_THROW(decode(bytes, {4, 8, kDiffuseBit, kDepthPlane}), Error);
-  EXPECT_THROW(decode(bytes, {8, 4, kAllLayers, kDepthPlane}), Error);
-  EXPECT_THROW(decode(bytes, {8, 4, kDiffuseBit, 0}), Error);
-  EXPECT_THROW(decode(bytes, {0, 0, kDiffuseBit, kDepthPlane}), Error);
+  EXPECT_NO_THROW(decodeAll(bytes, shapeOf(tile)));
+  EXPECT_THROW(decodeAll(bytes, {4, 8, kDiffuseBit, kDepthPlane}), Error);
+  EXPECT_THROW(decodeAll(bytes, {8, 4, kAllLayers, kDepthPlane}), Error);
+  EXPECT_THROW(decodeAll(bytes, {8, 4, kDiffuseBit, 0}), Error);
+  EXPECT_THROW(decodeAll(bytes, {0, 0, kDiffuseBit, kDepthPlane}), Error);
 }
 
 TEST(TileCodec, EveryTruncationIsRefused) {
@@ -180,9 +174,9 @@ TEST(TileCodec, EveryTruncationIsRefused) {
   for (const int level : {0, 1}) {
     Bytes bytes = encode(tile, 1, level);
     for (size_t size = 0; size < bytes.size(); ++size)
-      ASSERT_THROW(decode(ByteView(bytes).first(size), shapeOf(tile)), Error) << size;
+      ASSERT_THROW(decodeAll(ByteView(bytes).first(size), shapeOf(tile)), Error) << size;
     bytes.push_back(std::byte{0});
-    EXPECT_THROW(decode(bytes, shapeOf(tile)), Error) << "one byte too many";
+    EXPECT_THROW(decodeAll(bytes, shapeOf(tile)), Error) << "one byte too many";
   }
 }
 
@@ -196,7 +190,7 @@ TEST(TileCodec, EveryFlippedBitGivesAnErrorOrFiniteValues) {
       Bytes bad = good;
       bad[bit / 8] ^= static_cast<std::byte>(1 << bit % 8);
       try {
-        decoder.decode(bad, shapeOf(tile), got);
+        got = decodeAll(decoder.unpack(std::move(bad), shapeOf(tile)), shapeOf(tile));
       } catch (const Error&) {
         continue;
       }
@@ -209,11 +203,41 @@ TEST(TileCodec, EveryFlippedBitGivesAnErrorOrFiniteValues) {
   }
 }
 
+TEST(TileCodec, PartsAreThoseOfTheWhole) {
+  const TileResult tile = TileMaker(12).make(13, 9, kAllLayers, kAllExtraPlanes);
+  const TileShape shape = shapeOf(tile);
+  for (const int level : {0, 1}) {
+    const UnpackedTile unpacked = TileDecoder().unpack(encode(tile, 1, level), shape);
+    const TileResult whole = decodeAll(unpacked, shape);
+    TileResult part;
+    part.reset(20, 20, kAllLayers, kAllExtraPlanes);
+    unpacked.copy({3, 2, 20 * 5 + 4, 9, 6}, kTransmissionBit, 20, part);
+    for (int j = 0; j < 20; ++j)
+      for (int i = 0; i < 20; ++i) {
+        const bool inside = i >= 4 && i < 13 && j >= 5 && j < 11;
+        const auto to = static_cast<size_t>(20 * j + i);
+        const auto from = static_cast<size_t>(inside ? 13 * (j - 5 + 2) + i - 4 + 3 : 0);
+        const auto expectPlane = [&](const auto& got, const auto& all) {
+          ASSERT_EQ(got[to], inside ? all[from] : 0) << i << ", " << j;
+        };
+        const auto& got = part.layers[kTransmission];
+        const auto& all = whole.layers[kTransmission];
+        expectPlane(got.reflectance.g, all.reflectance.g);
+        expectPlane(got.unfiltered.b, all.unfiltered.b);
+        expectPlane(got.distance, all.distance);
+        expectPlane(got.normal.r, all.normal.r);
+        expectPlane(got.chain, all.chain);
+        expectPlane(part.extras.object, whole.extras.object);
+        ASSERT_EQ(part.layers[kDiffuse].unfiltered.r[to], 0) << "not asked for";
+      }
+  }
+}
+
 TEST(TileCodec, DeclaredSizesAreCappedBeforeMemoryIsTaken) {
   const TileResult tile = TileMaker(10).make(8, 4, kDiffuseBit, 0);
   Bytes bytes = encode(tile);
   for (size_t i = 8; i < 12; ++i) bytes[i] = std::byte{0xff};  // the size in the head
-  EXPECT_THROW(decode(bytes, shapeOf(tile)), Error);
+  EXPECT_THROW(decodeAll(bytes, shapeOf(tile)), Error);
 }
 
 }  // namespace

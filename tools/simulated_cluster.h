@@ -6,10 +6,10 @@
 // light set the first time that it meets one of a randomization. A frozen client does nothing, its
 // messages wait; a dead one is noticed when its connection closes (after the line's latency), or,
 // if its line was cut, when its heartbeat has been missing for kHeartbeatLost.
+// Threads: none. Errors: CHECKs what the scheduler promises.
 #pragma once
 
-#include <gtest/gtest.h>
-
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <map>
@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/error.h"
 #include "master/scheduler.h"
 
 namespace ninefold {
@@ -63,13 +64,18 @@ class SimulatedCluster {
   bool finished() const { return completed_ == job_.frames; }
   int completed() const { return completed_; }
   double elapsed() const { return now_; }
-  // Time that perfect sharing would need, over the time it took: 1 if no thread ever paused or
-  // worked in vain, light sets included once for each client and set that it must make.
+  // Useful work over what all threads could have done while they were there: 1 if none ever paused
+  // or worked in vain, light sets included once for each client and set that it must make.
   double efficiency() const {
-    double speed = 0;
-    for (const Client& c : clients_) speed += c.model.speed * c.model.threads;
-    return usefulWork_ / speed / now_;
+    double capacity = 0;
+    for (const Client& c : clients_) {
+      const double end = std::min({now_, c.model.dies, c.model.cut});
+      capacity += c.model.speed * c.model.threads * std::max(0.0, end - c.model.joins);
+    }
+    return usefulWork_ / capacity;
   }
+  // Seconds from opening a frame to its completion, frame by frame.
+  const std::vector<double>& latencies() const { return latencies_; }
   const Scheduler& scheduler() const { return scheduler_; }
   std::vector<ClientReport> reports() const { return scheduler_.report(at(now_)); }
   const std::vector<uint32_t>& completionOrder() const { return completionOrder_; }
@@ -160,6 +166,7 @@ class SimulatedCluster {
   void carryOut() {
     while (scheduler_.openFrames() < job_.framesInFlight && scheduler_.wantsFrame()) {
       const uint32_t frame = nextFrame_++;
+      opened_[frame] = now_;
       scheduler_.openFrame({.frame = frame, .randomization = job_.moving ? 0 : frame}, job_.grid);
     }
     const Actions actions = scheduler_.poll(at(now_));
@@ -172,7 +179,7 @@ class SimulatedCluster {
     }
     for (const Assignment& a : actions.assign) {
       const size_t c = a.client - 1;
-      EXPECT_TRUE(clients_[c].known) << "task for a client that is not there";
+      NINEFOLD_CHECK(clients_[c].known);  // no task for a client that is not there
       schedule(now_ + clients_[c].model.latency, [=, this] { receive(c, a.task); });
     }
   }
@@ -216,6 +223,8 @@ class SimulatedCluster {
     if (verdict != Verdict::completedFrame) return;
     everyTaskOnce_ &= static_cast<int>(placed.size()) == tasksWithPixels();
     placed_.erase(task.frame);
+    latencies_.push_back(now_ - opened_.at(task.frame));
+    opened_.erase(task.frame);
     completionOrder_.push_back(task.frame);
     ++completed_;
   }
@@ -244,6 +253,8 @@ class SimulatedCluster {
   bool everyTaskOnce_ = true;
   std::map<uint32_t, std::set<std::pair<int, int>>> placed_;
   std::vector<uint32_t> completionOrder_;
+  std::map<uint32_t, double> opened_;  // when
+  std::vector<double> latencies_;
 };
 
 }  // namespace ninefold

@@ -1,4 +1,4 @@
-#include "common/image/frame_filter.h"
+#include "common/image/patch_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -12,16 +12,8 @@ using namespace synthetic;
 
 Point wall(Vec3 direction) { return plane(direction, Vec3(0, 0, -2), Vec3(0, 0, 1)); }
 
-RgbImage compose(const FrameBuffer& frame) {
-  FrameFilter filter;
-  RgbImage beauty;
-  filter.reset(frame.grid(), frame.layerMask(), SurfaceTest::surface);
-  filter.compose(frame, camera(), 1, beauty);
-  return beauty;
-}
-
 // A wall whose texture changes at every pixel, under an even light, with a highlight.
-TEST(FrameFilter, LeavesTexturesAndHighlightsSharp) {
+TEST(PatchFilter, LeavesTexturesAndHighlightsSharp) {
   const CameraRays rays(camera(), 96, 64);
   const auto texture = [](int x, int y) {
     return 0.01f * static_cast<float>((x * 5 + y * 3) % 31);
@@ -29,7 +21,7 @@ TEST(FrameFilter, LeavesTexturesAndHighlightsSharp) {
   const auto highlight = [](int x, int y) { return x == 40 && y == 20 ? 7.0f : 0.0f; };
   const TileGrid grid(96, 64, {3, 3});
   const RgbImage beauty =
-      compose(frameOf(grid, kDiffuseBit, 0, [&](TileResult& out, size_t i, int x, int y) {
+      composed(frameOf(grid, kDiffuseBit, 0, [&](TileResult& out, size_t i, int x, int y) {
         const Point p =
             wall(rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
         LayerPlanes& layer = out.layers[kDiffuse];
@@ -46,12 +38,12 @@ TEST(FrameFilter, LeavesTexturesAndHighlightsSharp) {
     }
 }
 
-TEST(FrameFilter, AddsTheLayersThatAreThere) {
+TEST(PatchFilter, AddsTheLayersThatAreThere) {
   for (const uint8_t layers : {kDiffuseBit, uint8_t(kDiffuseBit | kTransmissionBit),
                                uint8_t(kDiffuseBit | kReflectionBit | kTransmissionBit)}) {
     const TileGrid grid(31, 17, {2, 3});
     const RgbImage beauty =
-        compose(frameOf(grid, layers, 0, [&](TileResult& out, size_t i, int, int) {
+        composed(frameOf(grid, layers, 0, [&](TileResult& out, size_t i, int, int) {
           for (int l = 0; l < kLayers; ++l)
             if (hasLayer(layers, l)) {
               LayerPlanes& layer = out.layers[static_cast<size_t>(l)];
@@ -67,18 +59,16 @@ TEST(FrameFilter, AddsTheLayersThatAreThere) {
   }
 }
 
-TEST(FrameFilter, TakesNothingFromOneFrameToTheNext) {
+TEST(PatchFilter, TakesNothingFromOneFrameToTheNext) {
   const TileGrid grid(64, 48, {3, 3});
   const auto lit = [&](float e) {
     return frameOfShape(grid, wall,
                         [=](int x, int, const Point&) { return e + static_cast<float>(x % 7); });
   };
-  FrameFilter filter;
-  RgbImage first, other, again;
-  filter.reset(grid, kDiffuseBit, SurfaceTest::surface);
-  filter.compose(lit(1), camera(), 1, first);
-  filter.compose(lit(5), camera(), 1, other);
-  filter.compose(lit(1), camera(), 1, again);
+  PatchFilter filter(SurfaceTest::surface);
+  const RgbImage first = composed(lit(1), filter);
+  const RgbImage other = composed(lit(5), filter);
+  const RgbImage again = composed(lit(1), filter);
   EXPECT_NE(first, other);
   EXPECT_EQ(first, again);
 }
@@ -87,11 +77,10 @@ TEST(AovFilm, NamesItsChannelsAndAveragesThem) {
   const TileGrid grid(41, 23, {3, 3});
   const uint8_t extras = kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | kCausticPlane;
   AovFilm film(grid, extras);
-  FrameFilter filter;
-  filter.reset(grid, kDiffuseBit, SurfaceTest::surface);
+  PatchFilter filter(SurfaceTest::surface);
   for (int n = 0; n < 4; ++n) {  // every pixel meets a surface in frames 0 and 1 only
     const bool hit = n < 2;
-    const FrameBuffer frame =
+    const Frame frame =
         frameOf(grid, kDiffuseBit, extras, [&](TileResult& out, size_t i, int x, int y) {
           set(out.extras.albedo, i, Vec3(0.25f * static_cast<float>(n), 0, 1));
           set(out.extras.normal, i, hit ? (n == 0 ? Vec3(1, 0, 0) : Vec3(0, 1, 0)) : Vec3(0));
@@ -101,8 +90,13 @@ TEST(AovFilm, NamesItsChannelsAndAveragesThem) {
           set(out.layers[kDiffuse].irradiance, i, Vec3(static_cast<float>(n)));
         });
     RgbImage beauty;
-    filter.compose(frame, camera(), 1, beauty);
-    film.add(frame, filter);
+    Patch patch;
+    for (int tile = 0; tile < grid.tiles(); ++tile) {
+      fill(patch, frame, tile);
+      filter.compose(patch, camera(), 1, beauty);
+      film.addPatch(patch, filter);
+    }
+    film.frameDone();
   }
   std::string names;
   for (const Channel& channel : film.channels()) names += channel.name + " ";

@@ -1,0 +1,33 @@
+// patch_filter.h: from a patch to radiance:
+//
+//   L(p) = sum over layers of reflectance * E' + U        E' = E through the discontinuity buffer
+//
+// summed in the order of the layers. Only E is filtered, so that textures and highlights stay
+// sharp. Threads: one at a time. No allocation after the first patch of a job.
+#pragma once
+
+#include "common/image/discontinuity_buffer.h"
+#include "common/image/image.h"
+
+namespace ninefold {
+
+class PatchFilter {
+ public:
+  explicit PatchFilter(SurfaceTest test) : buffer_(test) {}
+
+  // Writes the tile's pixels; sets the shape of `beauty`.
+  void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty);
+
+  // E' of the diffuse layer after compose, in the patch's planes.
+  const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }
+
+ private:
+  void composeLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
+                    RgbImage& beauty);
+
+  DiscontinuityBuffer buffer_;
+  std::vector<RgbPlane> irradiance_;  // of the diffuse layer, by phase
+  RgbPlane filtered_;                 // of another layer
+};
+
+}  // namespace ninefold
