@@ -8,7 +8,7 @@
 // stored at the first D vertex if there was an S before it. With `all`, half of them leave the
 // set's indirect VPLs instead (chosen in proportion to flux), aimed in the same way: those are D
 // vertices with every prefix, so ...D S+ D is whole. Each half of n photons is divided by n:
-// emission counts, not landings. Indirect photons have a wider r than those of the emitters.
+// emission counts, not landings. r is wider for photons that would be bright alone (photon_radii.h).
 //
 // Source:  Jensen 1996.   Proved: tests/gi (caustic energy balance; no photon in a diffuse scene).
 // Fails:   flux is blurred over r, which goes with r.   Threads: pure functions.

@@ -10,8 +10,8 @@ void gatherIrradiance(const Transport& t, const LightSet& lights, const Receiver
                       std::vector<Irradiance>* caustic, RayCounts& rays) {
   receivers.pad();
   gatherVpls(t, lights.vpls, samples, pathVertices, scratch.vplGather, receivers, rays.shadow);
-  gatherPhotons(t, lights.photons, pathVertices, receivers, caustic);
-  gatherPhotons(t, lights.indirectPhotons, pathVertices, receivers, caustic);
+  for (const PhotonGrid& grid : lights.photons)
+    gatherPhotons(t, grid, pathVertices, receivers, caustic);
   if (t.settings.compensate && pathVertices < kMaxVertices)
     compensate(t, lights, samples, pathVertices, scratch, receivers, rays);
 }

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "common/gi/light_path.h"
-#include "common/gi/photon_grid.h"
+#include "common/gi/photon_radii.h"
 
 namespace ninefold {
 
@@ -39,9 +39,8 @@ struct Vpl {
 
 struct LightSet {
   std::vector<Vpl> vpls;
-  PhotonGrid photons;          // from the emitters
-  PhotonGrid indirectPhotons;  // from D vertices, of a wider radius
-  RayCounts rays;              // what making it cost
+  CausticPhotons photons;
+  RayCounts rays;  // what making it cost
 };
 
 // m of 2^m light paths a set, from a pilot of fixed size: same on every client.

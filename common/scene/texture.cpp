@@ -61,6 +61,7 @@ Vec4 texelOf(const TextureImage& image, int x, int y) {
 }
 
 int wrapTexel(int i, int size, Wrap wrap) {
+  if (i >= 0 && i < size) return i;  // nearly always, and divisions are slow
   if (wrap == Wrap::clamp) return std::clamp(i, 0, size - 1);
   const int period = wrap == Wrap::mirror ? 2 * size : size;
   const int r = ((i % period) + period) % period;

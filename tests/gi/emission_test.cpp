@@ -143,7 +143,7 @@ TEST(LightSet, DiffuseSceneTracesNoPhoton) {
   const Transport t(tracer, Settings{});
   EXPECT_EQ(layerMaskOf(t.needs, Method::instantRadiosity), kDiffuseBit);
   const LightSet set = makeLightSet(t, FrameKey{0, 0, 0, 0.1f}, 0, lightPathsLog2(t));
-  EXPECT_TRUE(set.photons.empty());
+  for (const PhotonGrid& grid : set.photons) EXPECT_TRUE(grid.empty());
   EXPECT_GT(set.vpls.size(), 8u);
 }
 
@@ -164,9 +164,11 @@ TEST(LightSet, IsAFunctionOfItsKeyAlone) {
       EXPECT_EQ(first.vpls[i].position, second.vpls[i].position);
       EXPECT_EQ(first.vpls[i].power, second.vpls[i].power);
     }
-    ASSERT_EQ(first.photons.size(), second.photons.size());
-    for (size_t i = 0; i < first.photons.size(); ++i)
-      EXPECT_EQ(first.photons.photons()[i].flux, second.photons.photons()[i].flux);
+    for (size_t kind = 0; kind < kPhotonKinds; ++kind) {
+      const auto one = first.photons[kind].photons(), two = second.photons[kind].photons();
+      ASSERT_EQ(one.size(), two.size());
+      for (size_t i = 0; i < one.size(); ++i) EXPECT_EQ(one[i].flux, two[i].flux);
+    }
   }
 }
 
