@@ -9,7 +9,7 @@ from programs import BIN, SCENES, ClusterTest, eventually, is_running, signal
 
 class Ending(ClusterTest):
     def endless(self):
-        master = self.master("--local-clients", 2, "--seconds", 1000, frames=None)
+        master = self.master("--local-clients", 2, "--wait-clients", 2, "--seconds", 1000, frames=None)
         master.waits_for(r"progress: \d+% frame [1-9]")
         return master, master.children()
 
