@@ -19,7 +19,7 @@ struct Options {
   std::optional<std::filesystem::path> keyFile;
   std::optional<std::filesystem::path> cache;  // nothing: no cache on disk
   Isa isa = Isa::automatic;
-  std::string name;  // for people; default the machine's name
+  std::string name;                             // for people; default the machine's name
   std::optional<std::filesystem::path> record;  // keep all results there
   int keyDescriptor =
       -1;  // >= 0: started by the master, which hands its key over by this descriptor

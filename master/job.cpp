@@ -39,6 +39,7 @@ Job makeJob(const Options& options) {
   job.needs = needsOf(scene, job.settings.environment);
   for (const std::string& line : describe(job.needs)) log("{}", line);
   tellSettings(options, job.settings);
+  for (const std::string& line : leftOut(job.needs, job.settings)) warn("{}", line);
   job.layerMask = layerMaskOf(job.needs, job.settings.method);
   job.extraMask = extraPlanes(options, job.needs);
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();

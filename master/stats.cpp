@@ -36,10 +36,15 @@ Json numberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr);
 Json list(Vec3 v) { return Json::array({v.x, v.y, v.z}); }
 
 Json object(const Needs& n) {
-  return {{"reflection", n.reflection},          {"transmission", n.transmission},
-          {"rough_specular", n.roughSpecular},   {"textures", n.textures},
-          {"alpha_mask", n.alphaMask},           {"area_lights", n.areaLights},
-          {"punctual_lights", n.punctualLights}, {"environment", n.environment}};
+  return {{"reflection", n.reflection},
+          {"transmission", n.transmission},
+          {"rough_specular", n.roughSpecular},
+          {"smooth_specular", n.smoothSpecular},
+          {"textures", n.textures},
+          {"alpha_mask", n.alphaMask},
+          {"area_lights", n.areaLights},
+          {"punctual_lights", n.punctualLights},
+          {"environment", n.environment}};
 }
 
 Json object(const Camera& c) {

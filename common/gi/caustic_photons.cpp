@@ -56,9 +56,11 @@ void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count
                      const std::vector<const Vpl*>& sources, const PhotonRadii& radii,
                      RayCounts& rays, SortedPhotons& photons) {
   Deposit out{radii, 1 / static_cast<float>(count), photons};
-  std::vector<float> weights;
-  for (const Vpl* vpl : sources) weights.push_back(maxComponent(vpl->power));
-  const Distribution byFlux(weights);
+  std::vector<double> flux;
+  flux.reserve(sources.size());
+  for (const Vpl* vpl : sources) flux.push_back(static_cast<double>(maxComponent(vpl->power)));
+  const std::vector<double> shares = partlyAlike(flux);
+  const Distribution byFlux(std::vector<float>(shares.begin(), shares.end()));
   if (byFlux.empty()) return;
   const LightSampler sampler(t.settings.seed, SampleUse::indirectPhoton, frame.randomization,
                              static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);

@@ -6,7 +6,7 @@
 // Phi = flux / n^2 in a medium of index n; f: what the photon's disk covers (photon_footprint.h).
 // Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are
 // stored at the first D vertex if there was an S before it. With `all`, half of them leave the
-// set's indirect VPLs instead (chosen in proportion to flux), aimed in the same way: those are D
+// set's indirect VPLs instead (chosen by flux, a tenth alike), aimed in the same way: those are D
 // vertices with every prefix, so ...D S+ D is whole. Each half of n photons is divided by n:
 // emission counts, not landings. r is wider for photons that would be bright alone (photon_radii.h).
 //

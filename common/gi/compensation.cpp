@@ -27,17 +27,22 @@ void aim(const Transport& t, const Receivers& r, size_t i, Vec2 u, size_t lane, 
   rays.active |= 1u << lane;
 }
 
-// W of the hit; 0 where the geometry term is within its bound.
-float excess(const Transport& t, float cosX, float cosY, float distance) {
-  const float g = cosX * cosY / (distance * distance);
-  return g > t.bound ? 1 - t.bound / g : 0.0f;
+// W of the hit; 0 where the geometry term g is within its bound.
+float excess(float g, float bound) { return g > bound ? 1 - bound / g : 0.0f; }
+
+// What the hit emits, weighted by its own bound.
+Radiance excessEmission(const Transport& t, const Hit& hit, const ShadingPoint& y, float g) {
+  const int emitter = t.emitters.find(hit.instance, hit.triangle);
+  if (emitter < 0) return Radiance(0);
+  return excess(g, t.lightBound(static_cast<uint32_t>(emitter))) * emittedRadiance(t, y);
 }
 
-Receiver receiverAt(const ShadingPoint& y, uint32_t pixel) {
+// y is in the same medium as the receiver whose ray met it.
+Receiver receiverAt(const ShadingPoint& y, uint32_t pixel, int absorber) {
   Receiver r;
   r.position = y.surface.position, r.ng = y.ng, r.ns = y.ns;
   r.origin = offsetOrigin(y.surface, y.ng);
-  r.pixel = pixel;
+  r.pixel = pixel, r.absorber = absorber;
   return r;
 }
 
@@ -53,15 +58,17 @@ struct Level {
   // Receiver i met `hit` in direction w.
   void meet(size_t i, float cosX, Vec3 w, const Hit& hit) {
     const SurfacePoint s = t.tracer.surface(hit);
-    const float weight = excess(t, cosX, std::abs(glm::dot(w, s.geometricNormal)), hit.t);
-    if (weight <= 0) return;
+    const float g = cosX * std::abs(glm::dot(w, s.geometricNormal)) / (hit.t * hit.t);
+    const float above = excess(g, t.bound);
+    if (above <= 0) return;
+    const Vec3 left = t.shader.transmittance(receivers.absorber[i], hit.t);
     const ShadingPoint y = t.shader.shade(s, -w, {});
-    receivers.addIrradiance(i, kPi * weight * emittedRadiance(t, y));
-    const Vec3 factor = weight * y.bsdf.diffuse;
+    receivers.addIrradiance(i, kPi * left * excessEmission(t, hit, y, g));
+    const Vec3 factor = above * left * y.bsdf.diffuse;
     const float q = std::min(maxComponent(factor), kMaxSurvival);
     const uint32_t pixel = receivers.pixel[i];
     if (!mayFollow || samples.compensationRoulette(pixel, pathVertices) >= q) return;
-    next.points.add(receiverAt(y, pixel));
+    next.points.add(receiverAt(y, pixel, receivers.absorber[i]));
     next.parents.push_back({i, factor / q});
   }
 

@@ -2,10 +2,10 @@
 // fireflies.
 //
 //   E(x) lacks  integral over hits y of  L(y -> x) cos_s dw  max(G - b, 0) / G
-//   estimate    pi W (L_e(y) + rho_y/pi E(y)),  W = max(G - b, 0) / G,  one direction w with
-//   density cos_s/pi
+//   estimate    pi (W_e L_e(y) + W rho_y/pi E(y)),  W = max(G - b, 0) / G,  one direction w with
+//               density cos_s/pi
 //
-//   G, b, cos_s   as in vpl_gather.h
+//   G, b, cos_s   as in vpl_gather.h; W_e with an emitter's own b
 //   E(y)          from VPLs and photons, of paths one D vertex longer, itself compensated (recursion)
 //
 // W is zero beyond t = sqrt(cos_x / b): the rays are short and cheap, and few of them hit anything.

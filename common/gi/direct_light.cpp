@@ -64,7 +64,13 @@ std::optional<LightSample> sampleLight(const Transport& t, const ShadingPoint& p
   if (e.kind == EmitterKind::triangle)
     return sampleTriangle(t, e, choice.index, choice.probability, p, place);
   if (e.kind == EmitterKind::environment) return sampleEnvironment(t, choice.probability, p, place);
-  return samplePunctual(t.scene.lights[e.light], choice.probability, p);
+  return samplePunctual(t.lights[e.light], choice.probability, p);
+}
+
+Vec3 lightTransmittance(const Transport& t, const ShadingPoint& p, const MediumStack& media,
+                        bool through, const LightSample& light) {
+  const int medium = through ? t.shader.pass(p, media).innermost() : t.shader.before(p, media);
+  return t.shader.transmittance(medium, light.tFar * glm::length(light.segment));
 }
 
 float lightPdf(const Transport& t, const Hit& hit, const SurfacePoint& surface, Vec3 w,

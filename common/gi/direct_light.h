@@ -29,6 +29,11 @@ struct LightSample {
 // or behind.
 std::optional<LightSample> sampleLight(const Transport& transport, const ShadingPoint& p, Vec2 u);
 
+// Share of the sample's light that the medium on its way leaves: the one on wo's side of p or,
+// `through`, the one behind it.
+Vec3 lightTransmittance(const Transport& transport, const ShadingPoint& p, const MediumStack& media,
+                        bool through, const LightSample& light);
+
 // Density with which sampleLight would have found what a BSDF ray met: an emissive triangle ...
 float lightPdf(const Transport& transport, const Hit& hit, const SurfacePoint& surface, Vec3 w,
                float distance);

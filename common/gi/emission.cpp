@@ -64,7 +64,7 @@ LocalSource localSource(const Transport& t, const Source& s, bool backSide) {
     local.flux = (e.doubleSided ? 2.0f : 1.0f) * kPi * e.area / s.probability * p.radiance;
     return local;
   }
-  const PunctualLight& light = t.scene.lights[e.light];
+  const PunctualLight& light = t.lights[e.light];
   local.light = &light, local.position = light.position, local.normal = light.direction;
   local.probability = s.probability;
   local.kind = e.kind == EmitterKind::point ? LocalSource::Kind::sphere : LocalSource::Kind::cone;
@@ -154,7 +154,7 @@ struct Beam {
 
 Beam chooseBeam(const Transport& t, const Source& s, Vec2 u23) {
   if (s.emitter->kind == EmitterKind::directional) {
-    const PunctualLight& light = t.scene.lights[s.emitter->light];
+    const PunctualLight& light = t.lights[s.emitter->light];
     return {light.direction, light.intensity / s.probability};
   }
   return {squareToSphere(u23), t.emitters.environment() / (kSpherePdf * s.probability)};

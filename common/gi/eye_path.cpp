@@ -35,7 +35,8 @@ Radiance directAtLobe(const Transport& t, const Chain& c, Lobe lobe, Vec2 u, Ray
   if (isBlack(contribution)) return Radiance(0);
   ++rays.shadow;
   if (t.tracer.occluded(light->origin, light->segment, light->tFar)) return Radiance(0);
-  return (light->pdf > 0 ? balance(light->pdf, value.pdf) : 1.0f) * contribution;
+  const Vec3 left = lightTransmittance(t, p, c.media, lobe == Lobe::transmission, *light);
+  return (light->pdf > 0 ? balance(light->pdf, value.pdf) : 1.0f) * left * contribution;
 }
 
 // Emission of the surface that a lobe's ray met, weighted against direct light sampling.
@@ -87,10 +88,10 @@ void addToHash(Chain& c, Lobe lobe) {
 }  // namespace
 
 EyePathEnd followLobe(const Transport& t, const ShadingPoint& first, Lobe lobe, float distance,
-                      const MediumStack& media, const PixelSampler& sampler,
+                      Reflectance through, const MediumStack& media, const PixelSampler& sampler,
                       uint32_t firstDimension, RayCounts& rays) {
   Chain c;
-  c.point = first, c.media = media, c.distance = distance;
+  c.point = first, c.media = media, c.distance = distance, c.throughput = through;
   EyePathEnd end;
   for (int depth = 0; depth < t.settings.specularDepth; ++depth) {
     const uint32_t d = firstDimension + 8 * static_cast<uint32_t>(depth);
@@ -105,7 +106,7 @@ EyePathEnd followLobe(const Transport& t, const ShadingPoint& first, Lobe lobe, 
     const float u = sampler.get1D(d + 2) * sum;
     if (u < choice.diffuse) {
       c.gain *= sum / choice.diffuse;
-      end.arrived = true, end.x = c.point;
+      end.arrived = true, end.x = c.point, end.absorber = t.shader.absorber(c.point, c.media);
       end.throughput = c.throughput, end.gain = c.gain;
       end.distance = c.distance, end.chain = foldHash(c.hash);
       break;

@@ -25,6 +25,7 @@ namespace ninefold {
 struct EyePathEnd {
   bool arrived = false;       // at a diffuse point x
   ShadingPoint x;             // valid if arrived
+  int absorber = -1;          // of x, see Receiver
   Reflectance throughput{0};  // up to x
   float gain = 1;
   float distance = 0;      // from the eye to x along the path [m]
@@ -32,11 +33,12 @@ struct EyePathEnd {
   Radiance unfiltered{0};  // U
 };
 
-// Follows `lobe` of the first hit, which lies `distance` from the eye, to the end of its chain.
+// Follows `lobe` of the first hit, which lies `distance` from the eye, to the end of its chain. through:
+// what the medium around the eye leaves of the light on the way from there.
 // firstDimension: 0 mod 8, apart from the other layers' dimensions by eyePathDimensions(settings).
 EyePathEnd followLobe(const Transport& transport, const ShadingPoint& first, Lobe lobe,
-                      float distance, const MediumStack& media, const PixelSampler& sampler,
-                      uint32_t firstDimension, RayCounts& rays);
+                      float distance, Reflectance through, const MediumStack& media,
+                      const PixelSampler& sampler, uint32_t firstDimension, RayCounts& rays);
 
 inline uint32_t eyePathDimensions(const Settings& settings) {
   return 8 * static_cast<uint32_t>(settings.specularDepth + 1);

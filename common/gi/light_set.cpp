@@ -1,6 +1,7 @@
 #include "common/gi/light_set.h"
 
 #include <bit>
+#include <unordered_map>
 
 #include "common/gi/caustic_photons.h"
 
@@ -37,7 +38,7 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
     return vpl;
   }
   if (e.kind != EmitterKind::triangle) {
-    Vpl vpl = punctualVpl(t.scene.lights[e.light]);
+    Vpl vpl = punctualVpl(t.lights[e.light]);
     vpl.power *= share;
     return vpl;
   }
@@ -45,7 +46,7 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
   if (e.doubleSided) u.x = std::min(2 * u.x - (back ? 1.0f : 0.0f), 0x1.fffffep-1f);
   const EmitterPoint p = t.emitters.pointAt(index, squareToTriangle(u));
   Vpl vpl;
-  vpl.emits = true;
+  vpl.emits = true, vpl.bound = t.lightBound(index);
   vpl.position = p.position, vpl.error = p.error;
   vpl.normal = back ? -e.normal : e.normal;
   vpl.power = share * (e.doubleSided ? 2.0f : 1.0f) * e.area * p.radiance;
@@ -56,7 +57,7 @@ void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector
   const int count = t.settings.directVpls;
   const LightSampler sampler(t.settings.seed, SampleUse::directVpl, frame.randomization,
                              static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
-  std::vector<std::pair<uint32_t, size_t>> merged;  // punctual emitter, place of its VPL
+  std::unordered_map<uint32_t, size_t> places;  // of punctual emitters' VPLs
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Vec2 u = sampler.get2D(i, 0);
     const Distribution::Choice choice = t.emitters.byPower().choose(u.x);
@@ -64,13 +65,13 @@ void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector
                               1 / (static_cast<float>(count) * choice.probability));
     const EmitterKind kind = t.emitters[choice.index].kind;
     const bool fixed = kind != EmitterKind::triangle && kind != EmitterKind::environment;
-    const auto same = std::find_if(merged.begin(), merged.end(),
-                                   [&](const auto& m) { return fixed && m.first == choice.index; });
-    if (same != merged.end()) {
-      vpls[same->second].power += vpl.power;
-      continue;
+    if (fixed) {
+      const auto [place, isNew] = places.try_emplace(choice.index, vpls.size());
+      if (!isNew) {
+        vpls[place->second].power += vpl.power;
+        continue;
+      }
     }
-    if (fixed) merged.emplace_back(choice.index, vpls.size());
     vpls.push_back(vpl);
   }
 }
@@ -97,7 +98,7 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
   vpl.normal = p.ng;
   vpl.power = share / t.shader.squaredIndex(a.media) * kInvPi * shadingFactor(p, p.ns, p.wo) *
               p.bsdf.diffuse * a.flux;
-  vpl.diffuseCount = a.diffuseBefore + 1;
+  vpl.diffuseCount = a.diffuseBefore + 1, vpl.bound = t.bound;
   vpl.media = a.media;
   return vpl;
 }

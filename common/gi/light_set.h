@@ -30,6 +30,7 @@ struct Vpl {
   Vec3 position{0};    // directional: unused
   Vec3 normal{
       0};  // surface: of the emitting side; spot: axis; directional: where the light comes from
+  float bound = std::numeric_limits<float>::infinity();  // surface: of its geometry term [1/m^2]
   Vec3 power{0};    // surface: Phi/pi [W/sr]; point, spot: I [W/sr]; directional: E0 [W/m^2]
   float error = 0;  // of position, see SurfacePoint
   float coneScale = 0, coneOffset = 0;  // spot: falloff = clamp(cos * scale + offset)^2

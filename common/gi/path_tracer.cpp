@@ -31,8 +31,8 @@ LobeValue evaluateWay(const ShadingPoint& p, Way way, Vec3 w) {
   return {cosine * kInvPi * p.bsdf.diffuse, cosineHemispherePdf(cosine)};
 }
 
-Radiance directAtVertex(const Transport& t, const ShadingPoint& p, Way way, Vec2 u,
-                        RayCounts& rays) {
+Radiance directAtVertex(const Transport& t, const ShadingPoint& p, const MediumStack& media,
+                        Way way, Vec2 u, RayCounts& rays) {
   if (way != Way::diffuse && p.bsdf.alpha == 0) return Radiance(0);
   const auto light = sampleLight(t, p, u);
   if (!light) return Radiance(0);
@@ -41,7 +41,8 @@ Radiance directAtVertex(const Transport& t, const ShadingPoint& p, Way way, Vec2
   if (isBlack(contribution)) return Radiance(0);
   ++rays.shadow;
   if (t.tracer.occluded(light->origin, light->segment, light->tFar)) return Radiance(0);
-  return (light->pdf > 0 ? balance(light->pdf, value.pdf) : 1.0f) * contribution;
+  const Vec3 left = lightTransmittance(t, p, media, way == Way::transmission, *light);
+  return (light->pdf > 0 ? balance(light->pdf, value.pdf) : 1.0f) * left * contribution;
 }
 
 // Emission met at the end of a ray, weighted against direct light sampling at its start.
@@ -122,7 +123,7 @@ Radiance tracePath(const Transport& t, Vec3 eye, Vec3 direction, const MediumSta
     const uint32_t d = 8 * static_cast<uint32_t>(vertex);
     Way way{};
     if (!chooseWay(t, p, sampler.get1D(d + 2), vertex, path, way)) return sum;
-    sum += path.throughput * directAtVertex(t, p, way, sampler.get2D(d + 4), rays);
+    sum += path.throughput * directAtVertex(t, p, path.media, way, sampler.get2D(d + 4), rays);
     if (!scatter(t, p, way, sampler.get2D(d), sampler.get1D(d + 3), path)) return sum;
   }
   return sum;

@@ -9,7 +9,7 @@
 // so D vertices are counted exactly as by the virtual point lights, and path-length cuts both
 // methods alike. The first kSureVertices vertices survive for sure; later ones with the probability
 // of the lobes' albedo. It cannot find a caustic of a punctual light (L is a point, S is smooth):
-// those paths are missing.
+// those paths are missing, and the log says so (leftOut in scene/needs.h).
 //
 // Dimensions of vertex j: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light. j starts
 // at 1. Source:  Kajiya 1986; Veach 1997.   Proved: tests/gi (furnace, polygon light, agreement

@@ -18,11 +18,12 @@ struct Receiver {
   Vec3 origin{0};      // where shadow rays start: position moved off the surface along ng
   uint32_t pixel = 0;  // names the pixel in the whole image: x + width * y
   float gain = 1;      // 1 / probability of the lobe choices behind it; E is multiplied by it
+  int absorber = -1;   // material of the absorbing solid that it lies in; -1 = none
 };
 
 class Receivers {
  public:
-  void clear() { size_ = 0; }
+  void clear() { size_ = 0, absorbs_ = false; }
   void add(const Receiver& r) {
     if (size_ == pixel.size()) grow();
     const size_t i = size_++;
@@ -31,9 +32,11 @@ class Receivers {
     sx[i] = r.ns.x, sy[i] = r.ns.y, sz[i] = r.ns.z;
     ox[i] = r.origin.x, oy[i] = r.origin.y, oz[i] = r.origin.z;
     gain[i] = r.gain, er[i] = 0, eg[i] = 0, eb[i] = 0;
-    pixel[i] = r.pixel;
+    pixel[i] = r.pixel, absorber[i] = r.absorber;
+    absorbs_ |= r.absorber >= 0;
   }
   size_t size() const { return size_; }
+  bool absorbs() const { return absorbs_; }  // some lie in an absorbing solid
   Vec3 position(size_t i) const { return Vec3(px[i], py[i], pz[i]); }
   Vec3 ng(size_t i) const { return Vec3(gx[i], gy[i], gz[i]); }
   Vec3 ns(size_t i) const { return Vec3(sx[i], sy[i], sz[i]); }
@@ -55,6 +58,7 @@ class Receivers {
   std::vector<float> gain;
   std::vector<float> er, eg, eb;  // gathered irradiance [W/m^2], without gain
   std::vector<uint32_t> pixel;
+  std::vector<int32_t> absorber;
 
  private:
   static constexpr size_t kRoom = 16;  // lanes of a packet
@@ -62,13 +66,14 @@ class Receivers {
   void grow() {
     const size_t room = std::max<size_t>(64 * kRoom, 2 * pixel.size());
     for (auto* plane : planes()) plane->resize(room);
-    pixel.resize(room);
+    pixel.resize(room), absorber.resize(room);
   }
   std::array<std::vector<float>*, 16> planes() {
     return {&px, &py, &pz, &gx, &gy, &gz, &sx, &sy, &sz, &ox, &oy, &oz, &gain, &er, &eg, &eb};
   }
 
   size_t size_ = 0;
+  bool absorbs_ = false;
 };
 
 }  // namespace ninefold

@@ -150,13 +150,18 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   return p;
 }
 
-Vec3 Shader::attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const {
-  const int inside = before(end, media);
-  if (inside == MediumStack::kAir) return Vec3(1);
-  const Vec3 sigma = materials_[static_cast<size_t>(inside)].sigma;
+Vec3 Shader::transmittance(int material, float distance) const {
+  if (material == MediumStack::kAir) return Vec3(1);
+  const Vec3 sigma = materials_[static_cast<size_t>(material)].sigma;
   if (isBlack(sigma)) return Vec3(1);
-  return Vec3(std::exp(-sigma.x * distance), std::exp(-sigma.y * distance),
-              std::exp(-sigma.z * distance));
+  const auto left = [&](float s) { return s == 0 ? 1.0f : std::exp(-s * distance); };
+  return Vec3(left(sigma.x), left(sigma.y), left(sigma.z));
+}
+
+int Shader::absorber(const ShadingPoint& p, const MediumStack& media) const {
+  const int medium = before(p, media);
+  if (medium == MediumStack::kAir) return medium;
+  return isBlack(materials_[static_cast<size_t>(medium)].sigma) ? MediumStack::kAir : medium;
 }
 
 bool Shader::isSolid(int material) const {

@@ -61,9 +61,16 @@ class Shader {
   // is.
   ShadingPoint shade(const SurfacePoint& surface, Vec3 wo, const MediumStack& media) const;
 
-  // Share of radiance left after `distance` metres inside the medium of a ray that ended on this
-  // point.
-  Vec3 attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const;
+  // Share of radiance left after `distance` metres (infinite ones too) in a solid; all of it in air.
+  Vec3 transmittance(int material, float distance) const;
+  // ... inside the medium of a ray that ended on this point.
+  Vec3 attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const {
+    return transmittance(before(end, media), distance);
+  }
+  // The medium on wo's side if it absorbs light, else kAir.
+  int absorber(const ShadingPoint& point, const MediumStack& media) const;
+  // The medium on wo's side.
+  int before(const ShadingPoint& point, const MediumStack& media) const;
 
   // The media after passing through the surface away from wo, and through all in contact with it.
   MediumStack pass(const ShadingPoint& point, MediumStack media) const;
@@ -102,7 +109,6 @@ class Shader {
   };
   float indexOf(int material) const;
   bool isSolid(int material) const;
-  int before(const ShadingPoint& point, const MediumStack& media) const;  // medium on wo's side
   Vec3 shadingNormal(const SurfacePoint& surface, Vec3 ng) const;
   void fillOpaque(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                   float metallic, float alpha, const SurfacePoint& s) const;

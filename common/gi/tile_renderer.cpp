@@ -35,12 +35,12 @@ struct TaskContext {
   int pixelY(int j) const { return grid.pixelY(task.phase, rect.j0 + j); }
 };
 
-void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
+void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel, int absorber,
                  Reflectance throughput, float gain, float distance, uint16_t chain) {
   Receiver r;
   r.position = x.surface.position, r.ng = x.ng, r.ns = x.ns;
   r.origin = offsetOrigin(x.surface, x.ng);
-  r.gain = gain;
+  r.gain = gain, r.absorber = absorber;
   const int i = static_cast<int>(pixel) % c.rect.width, j = static_cast<int>(pixel) / c.rect.width;
   r.pixel = static_cast<uint32_t>(c.pixelX(i) + c.t.settings.width * c.pixelY(j));
   c.scratch.receivers[static_cast<size_t>(layer)].add(r);
@@ -67,15 +67,16 @@ void fillExtras(TaskContext& c, const ShadingPoint& p, size_t pixel, float depth
   if ((mask & kObjectPlane) != 0) e.object[pixel] = p.surface.instance + 1;
 }
 
-void followLayer(TaskContext& c, const ShadingPoint& first, Lobe lobe, float distance, size_t pixel,
-                 const PixelSampler& sampler) {
+void followLayer(TaskContext& c, const ShadingPoint& first, Lobe lobe, float distance,
+                 Reflectance through, size_t pixel, const PixelSampler& sampler) {
   const int layer = lobe == Lobe::reflection ? kReflection : kTransmission;
   const uint32_t dimension = 8 + static_cast<uint32_t>(layer - 1) * eyePathDimensions(c.t.settings);
   const EyePathEnd end =
-      followLobe(c.t, first, lobe, distance, c.eyeMedia, sampler, dimension, c.out.rays);
+      followLobe(c.t, first, lobe, distance, through, c.eyeMedia, sampler, dimension, c.out.rays);
   put(c.out.layers[static_cast<size_t>(layer)].unfiltered, pixel, end.unfiltered);
   if (end.arrived)
-    addReceiver(c, layer, end.x, pixel, end.throughput, end.gain, end.distance, end.chain);
+    addReceiver(c, layer, end.x, pixel, end.absorber, end.throughput, end.gain, end.distance,
+                end.chain);
 }
 
 void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, int i, int j) {
@@ -90,11 +91,12 @@ void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, int i, int j)
   if (c.task.extraMask != 0)
     fillExtras(c, p, pixel, hit.t * glm::dot(direction, c.t.settings.camera.forward));
   put(diffuse.unfiltered, pixel, through * emittedRadiance(c.t, p));
-  if (!isBlack(p.bsdf.diffuse)) addReceiver(c, kDiffuse, p, pixel, through, 1, hit.t, 0);
+  if (!isBlack(p.bsdf.diffuse))
+    addReceiver(c, kDiffuse, p, pixel, c.t.shader.absorber(p, c.eyeMedia), through, 1, hit.t, 0);
   if (!p.bsdf.reflects && !p.bsdf.transmits()) return;
   const PixelSampler sampler = c.sampler(c.pixelX(i), c.pixelY(j));
-  if (p.bsdf.reflects) followLayer(c, p, Lobe::reflection, hit.t, pixel, sampler);
-  if (p.bsdf.transmits()) followLayer(c, p, Lobe::transmission, hit.t, pixel, sampler);
+  if (p.bsdf.reflects) followLayer(c, p, Lobe::reflection, hit.t, through, pixel, sampler);
+  if (p.bsdf.transmits()) followLayer(c, p, Lobe::transmission, hit.t, through, pixel, sampler);
 }
 
 void traceBlock(TaskContext& c, int bi, int bj) {

@@ -61,6 +61,15 @@ std::vector<AimTarget> aimTargets(const Scene& scene, const Shader& shader) {
   return targets;
 }
 
+// A light exactly in a ceiling would be hidden by it: spots go where they shine, points to the front.
+std::vector<PunctualLight> offSurfaces(const Tracer& tracer) {
+  std::vector<PunctualLight> lights = tracer.scene().lights;
+  for (PunctualLight& light : lights)
+    light.position =
+        tracer.clearOf(light.position, light.kind == LightKind::spot ? light.direction : Vec3(0));
+  return lights;
+}
+
 }  // namespace
 
 Transport::Transport(const Tracer& t, const Settings& s)
@@ -69,9 +78,17 @@ Transport::Transport(const Tracer& t, const Settings& s)
       settings(s),
       shader(t.scene()),
       emitters(t.scene(), s.environment),
+      lights(offSurfaces(t)),
       needs(needsOf(t.scene(), s.environment)),
       bound(s.bound / std::max(t.scene().bounds.radius() * t.scene().bounds.radius(), 1e-30f)),
       farRounding(kRayRounding * 2 * t.scene().bounds.radius()),
       targets(aimTargets(t.scene(), shader)) {}
+
+float Transport::lightBound(uint32_t emitter) const {
+  if (!settings.compensate) return bound;  // the paper's: what is cut off stays away
+  const Emitter& e = emitters[emitter];
+  const float sides = e.doubleSided ? 2 : 1;
+  return std::max(bound, emitters.byPower().probability(emitter) / (sides * e.area));
+}
 
 }  // namespace ninefold

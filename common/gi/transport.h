@@ -27,12 +27,18 @@ struct Transport {
   Settings settings;
   Shader shader;
   Emitters emitters;
+  std::vector<PunctualLight> lights;  // the scene's, moved off surfaces that they lie in
   Needs needs;
   float bound;         // b = c/R^2 [1/m^2]
   Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
   std::vector<AimTarget> targets;  // empty if nothing is specular; at most kMaxTargets
 
   static constexpr size_t kMaxTargets = 16;
+
+  // Bound of the geometry term at an area emitter, from all of which one point was taken with probability P:
+  // where G < P/A, such a point adds at most L to E, less than the emitter seen near by does; and a
+  // small lamp's light comes back by no ray that meets it by chance.
+  float lightBound(uint32_t emitter) const;
 
   // Whether a path whose D vertices number `count` (x included) is within the length limit.
   bool allows(int count) const { return settings.pathLength == 0 || count <= settings.pathLength; }

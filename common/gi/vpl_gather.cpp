@@ -47,6 +47,19 @@ void addVisible(const Vpl& vpl, const float* weight, uint32_t visible, Receivers
   }
 }
 
+// The same where receivers lie in absorbing solids: a free segment stays within one medium.
+void addThroughMedia(const Transport& t, const Vpl& vpl, const RayPacket& rays, const float* weight,
+                     uint32_t visible, Receivers& r, size_t first) {
+  const bool infinite = vpl.kind == Vpl::Kind::directional;
+  for (size_t lane = 0; lane < kPacket; ++lane) {
+    if ((visible >> lane & 1u) == 0) continue;
+    const Vec3 along(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
+    const float distance = infinite ? std::numeric_limits<float>::infinity() : glm::length(along);
+    const Vec3 left = t.shader.transmittance(r.absorber[first + lane], distance);
+    r.addIrradiance(first + lane, weight[lane] * left * vpl.power);
+  }
+}
+
 // Asks for light along the rays of one VPL to a chunk of receivers, and adds it.
 void traceVpl(const Transport& t, const Vpl& vpl, size_t v, VplGatherScratch& scratch, size_t begin,
               Receivers& receivers, uint64_t& shadowRays) {
@@ -59,7 +72,10 @@ void traceVpl(const Transport& t, const Vpl& vpl, size_t v, VplGatherScratch& sc
     aimRays(vpl, target, receivers, begin + first, rays);
     shadowRays += static_cast<uint64_t>(std::popcount(active));
     const uint32_t visible = active & ~t.tracer.occluded16(rays, active);
-    addVisible(vpl, weight, visible, receivers, begin + first);
+    if (receivers.absorbs())
+      addThroughMedia(t, vpl, rays, weight, visible, receivers, begin + first);
+    else
+      addVisible(vpl, weight, visible, receivers, begin + first);
   }
 }
 

@@ -5,9 +5,12 @@
 //          + sum_i V E0_i cos_s                                    directional lights
 //
 //   G       cos_x cos_y / d^2 with geometric normals               [1/m^2]
-//   b       bound of G: the energy above it is missing here (compensation gives it back) [1/m^2]
+//   b       bound of G: the energy above it is missing here (compensation gives it back) [1/m^2];
+//           c/R^2, on small emitters more: see Transport::lightBound
 //   cos_s   cosine at x with the shading normal; both cosines at x must be positive
 //   V       1 if the segment is free (one shadow ray), between origins moved off the two surfaces
+//
+// In an absorbing solid each term is attenuated over d, as shading.h says.
 //
 // Factors without V first (vpl_weights.h), then the choice of VPLs that are worth a ray
 // (vpl_roulette.h), then rays, VPL-major, sixteen receivers a packet. Lanes without contribution

@@ -5,6 +5,8 @@ namespace {
 
 // VPLs that are taken on average, if there are so many: a few lights are not worth any noise.
 constexpr int kLeast = 8;
+// Nobody's chance is less: what would add next to nothing may be all that is not hidden.
+constexpr float kLeastChance = 1.0f / 16;
 
 float largest(const float* weight) {
   float most = 0;
@@ -41,7 +43,7 @@ void VplRoulette::playPacket(float f, const std::vector<Vpl>& vpls, float u, siz
   for (size_t v = 0; v < vpls.size(); ++v) {
     const float c = contributions_[v];
     if (c <= 0 || c >= tau) continue;
-    const float p = c / tau;
+    const float p = std::max(c / tau, kLeastChance);
     u += p;
     const bool taken = u >= 1;
     if (taken) u -= 1;

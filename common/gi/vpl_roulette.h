@@ -3,7 +3,7 @@
 //
 //   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between
 //   tau   sum c_v / max(n/f, 8),   n = number of VPLs with c_v > 0; all are asked if n <= 8
-//   p_v   min(1, c_v / tau);   weight times 1/p_v with probability p_v, else 0
+//   p_v   c_v / tau, from 1/16 to 1 (what adds little may be all that is not hidden);   weight times 1/p_v with probability p_v, else 0
 //
 // Which ones is decided by systematic sampling: one uniform number u, and VPL v is taken when the
 // running sum u + p_1 + ... + p_v passes an integer. So the number taken hardly varies, and the

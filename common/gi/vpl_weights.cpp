@@ -4,7 +4,8 @@ namespace ninefold {
 namespace {
 
 // Straight-line loops over planar arrays: the compiler turns them into vector code.
-void surfaceWeights(const Vpl& vpl, float bound, const Receivers& r, size_t first, float* weight) {
+void surfaceWeights(const Vpl& vpl, const Receivers& r, size_t first, float* weight) {
+  const float bound = vpl.bound;
 #pragma GCC ivdep
   for (size_t lane = 0; lane < kPacket; ++lane) {
     const size_t i = first + lane;
@@ -49,21 +50,20 @@ void directionalWeights(const Vpl& vpl, const Receivers& r, size_t first, float*
     const size_t i = first + lane;
     const float cosX = w.x * r.gx[i] + w.y * r.gy[i] + w.z * r.gz[i];
     const float cosS = w.x * r.sx[i] + w.y * r.sy[i] + w.z * r.sz[i];
-    weight[lane] = (cosX > 0) & (cosS > 0) ? cosS : 0.0f;
+    weight[lane] = ((cosX > 0) & (cosS > 0)) ? cosS : 0.0f;
   }
 }
 
-}  // namespace
-
-void packetWeights(const Transport& t, const Vpl& vpl, const Receivers& receivers, size_t first,
-                   float* weight) {
+void packetWeights(const Vpl& vpl, const Receivers& receivers, size_t first, float* weight) {
   if (vpl.kind == Vpl::Kind::surface)
-    surfaceWeights(vpl, t.bound, receivers, first, weight);
+    surfaceWeights(vpl, receivers, first, weight);
   else if (vpl.kind == Vpl::Kind::directional)
     directionalWeights(vpl, receivers, first, weight);
   else
     punctualWeights(vpl, receivers, first, weight);
 }
+
+}  // namespace
 
 void VplWeights::fill(const Transport& t, const std::vector<Vpl>& vpls, int pathVertices,
                       const Receivers& receivers, size_t begin, size_t size) {
@@ -75,7 +75,7 @@ void VplWeights::fill(const Transport& t, const std::vector<Vpl>& vpls, int path
       continue;
     }
     for (size_t first = 0; first < size; first += kPacket)
-      packetWeights(t, vpls[v], receivers, begin + first, at(v, first));
+      packetWeights(vpls[v], receivers, begin + first, at(v, first));
   }
 }
 

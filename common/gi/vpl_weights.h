@@ -15,10 +15,6 @@
 
 namespace ninefold {
 
-// For the sixteen receivers from `first` on.
-void packetWeights(const Transport& transport, const Vpl& vpl, const Receivers& receivers,
-                   size_t first, float* weight);
-
 // The weights of all VPLs at a chunk of receivers, VPL-major. Memory is kept between chunks.
 class VplWeights {
  public:

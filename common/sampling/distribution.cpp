@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "common/base/error.h"
 
@@ -25,9 +26,10 @@ Distribution::Distribution(const std::vector<float>& weights) {
   for (double& c : cumulative_) c /= kept;
 }
 
-Distribution::Choice Distribution::choose(float u) const {
+Distribution::Choice Distribution::choose(float sample) const {
+  const double u = static_cast<double>(sample) + 0x1p-25;  // the middle of what it stands for
   // The first end above u is that of a non-empty interval: an empty one ends with its predecessor.
-  const auto end = std::upper_bound(cumulative_.begin(), cumulative_.end(), static_cast<double>(u));
+  const auto end = std::upper_bound(cumulative_.begin(), cumulative_.end(), u);
   const auto index = static_cast<uint32_t>(end - cumulative_.begin());
   const double begin = index == 0 ? 0 : cumulative_[index - 1];
   const auto place = static_cast<float>((u - begin) / (*end - begin));
@@ -36,6 +38,16 @@ Distribution::Choice Distribution::choose(float u) const {
 
 float Distribution::probability(uint32_t index) const {
   return static_cast<float>(cumulative_[index] - (index == 0 ? 0 : cumulative_[index - 1]));
+}
+
+std::vector<double> partlyAlike(const std::vector<double>& weights) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto some = std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; });
+  std::vector<double> shares;
+  shares.reserve(weights.size());
+  for (const double w : weights)
+    shares.push_back(w > 0 ? (1 - kAlike) * w / total + kAlike / static_cast<double>(some) : 0);
+  return shares;
 }
 
 }  // namespace ninefold

@@ -1,6 +1,8 @@
 // distribution.h: choice among n things in proportion to given weights.
-// A choice spends log2(1/probability) of the 24 bits of u: `remapped` is only as fine as what is
-// left, so with very many entries take another dimension instead.
+// A sample u is a multiple of 2^-24 and stands for the middle of that interval. A choice spends
+// log2(1/probability) of its 24 bits, and `remapped` is as fine as what is left: coarse for one among
+// many, but with the right mean. What has a share below 2^-24 is found by luck or never: see
+// partlyAlike.
 // Proved:  tests/sampling/distribution_test.cpp.
 // Threads: const after construction. Errors: NINEFOLD_CHECK on negative or non-finite weights.
 #pragma once
@@ -33,5 +35,10 @@ class Distribution {
   std::vector<double> cumulative_;  // normalized, last element 1
   double total_ = 0;
 };
+
+// The weights' shares of their total, of which kAlike is dealt out alike to all that are not 0: what is
+// faint on the whole may be all that there is at some place.
+inline constexpr double kAlike = 0.1;
+std::vector<double> partlyAlike(const std::vector<double>& weights);
 
 }  // namespace ninefold

@@ -73,6 +73,33 @@ uint64_t hashOfPlace(const Emitter& e) {
   return hash;
 }
 
+bool sameObject(const Emitter& one, const Emitter& other) {
+  return one.kind == EmitterKind::triangle && other.kind == EmitterKind::triangle &&
+         one.instance == other.instance;
+}
+
+// Each object's share, dealt out to its emitters by power.
+std::vector<float> choiceWeights(const std::vector<Emitter>& emitters,
+                                 const std::vector<float>& power) {
+  std::vector<double> ofObject;
+  std::vector<size_t> objectOf;
+  objectOf.reserve(emitters.size());
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    if (i == 0 || !sameObject(emitters[i - 1], emitters[i])) ofObject.push_back(0);
+    ofObject.back() += static_cast<double>(power[i]);
+    objectOf.push_back(ofObject.size() - 1);
+  }
+  const std::vector<double> share = partlyAlike(ofObject);
+  std::vector<float> weights;
+  weights.reserve(emitters.size());
+  for (size_t i = 0; i < emitters.size(); ++i) {
+    const size_t object = objectOf[i];
+    weights.push_back(
+        static_cast<float>(static_cast<double>(power[i]) / ofObject[object] * share[object]));
+  }
+  return weights;
+}
+
 }  // namespace
 
 Emitters::Emitters(const Scene& scene, Radiance environment)
@@ -96,7 +123,7 @@ Emitters::Emitters(const Scene& scene, Radiance environment)
   Emitter sky;
   sky.kind = EmitterKind::environment, sky.flux = 4 * kPi * kPi * R * R * environment;
   append(sky, maxComponent(sky.flux), power);
-  byPower_ = Distribution(power);
+  byPower_ = Distribution(choiceWeights(emitters_, power));
 }
 
 void Emitters::addTriangles(uint32_t instance, TriangleRadiance& radiance, Places& places,

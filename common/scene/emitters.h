@@ -1,4 +1,6 @@
-// emitters.h: all lights of a scene in one table, chosen in proportion to their power.
+// emitters.h: all lights of a scene in one table, chosen in proportion to their power; but a tenth of
+// the choices is shared alike by all objects that shine (instances, punctual lights, environment),
+// so that a faint lamp is found where a strong one is hidden.
 //
 //   triangle     Phi = pi L A (twice that if double-sided); L of a texture is averaged
 //   point        Phi = 4 pi I

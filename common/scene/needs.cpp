@@ -47,6 +47,8 @@ void addMaterial(const Scene& scene, const Material& m, Needs& needs) {
   needs.reflection |= lobe;
   needs.transmission |= glass || blends(scene, m);
   needs.roughSpecular |= lobe && roughest * roughest >= kSmallestAlpha;
+  const float smoothest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).low;
+  needs.smoothSpecular |= (lobe && smoothest * smoothest < kSmallestAlpha) || blends(scene, m);
   needs.textures |= isTextured(m);
   needs.alphaMask |= m.alphaMode == AlphaMode::mask;
   needs.areaLights |= !isBlack(m.emission);
@@ -101,6 +103,25 @@ std::vector<std::string> describe(const Needs& needs) {
       line("punctual lights", needs.punctualLights, "the file has some", "the file has none"),
       line("environment", needs.environment, "light comes from outside", "outside is black"),
   };
+}
+
+std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
+  std::vector<std::string> lines;
+  if (settings.method == Method::pathTrace) {
+    if (needs.punctualLights && needs.smoothSpecular)
+      lines.emplace_back(
+          "path-trace cannot find light that comes from point, spot or directional lights by way "
+          "of "
+          "smooth mirrors, glass or transparent surfaces: it is missing");
+    return lines;
+  }
+  if (!needs.specular()) return lines;
+  if (settings.caustics == Caustics::off || settings.photons == 0)
+    lines.emplace_back("caustics are off: light by way of mirrors and glass is missing");
+  else if (settings.caustics == Caustics::direct)
+    lines.emplace_back(
+        "caustics are direct: light that lit surfaces send by way of mirrors and glass is missing");
+  return lines;
 }
 
 }  // namespace ninefold

@@ -15,9 +15,10 @@
 namespace ninefold {
 
 struct Needs {
-  bool reflection = false;     // some material keeps a reflection lobe
-  bool transmission = false;   // some material transmits or blends
-  bool roughSpecular = false;  // some S lobe is not smooth: lights are sampled at S vertices
+  bool reflection = false;      // some material keeps a reflection lobe
+  bool transmission = false;    // some material transmits or blends
+  bool roughSpecular = false;   // some S lobe is not smooth: lights are sampled at S vertices
+  bool smoothSpecular = false;  // some S lobe is: only chance meets a light by it
   bool textures = false;
   bool alphaMask = false;
   bool areaLights = false, punctualLights = false, environment = false;
@@ -45,5 +46,8 @@ Needs needsOf(const Scene& scene, Radiance environment);
 
 // One line for each need: what is on or off, and why. First lines of the log.
 std::vector<std::string> describe(const Needs& needs);
+
+// What these settings leave out of the picture, one line for each: warnings of the log.
+std::vector<std::string> leftOut(const Needs& needs, const Settings& settings);
 
 }  // namespace ninefold

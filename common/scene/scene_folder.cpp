@@ -89,7 +89,7 @@ fs::path SceneFolder::locate(std::string_view reference) const {
         shown);
   if (folder_.empty()) fail("'{}' is missing: this scene has no folder", shown);
   std::error_code error;
-  const fs::path file = fs::weakly_canonical(folder_ / path, error);
+  fs::path file = fs::weakly_canonical(folder_ / path, error);
   if (error) fail("'{}' cannot be opened: {}", shown, error.message());
   if (!isBeneath(folder_, file))
     fail("'{}' leads outside the scene's folder: copy the file there", shown);
@@ -102,7 +102,7 @@ bool SceneFolder::exists(std::string_view reference) const {
 }
 
 fs::path SceneFolder::resolve(std::string_view reference) const {
-  const fs::path file = locate(reference);
+  fs::path file = locate(reference);
   const std::string_view shown = reference.substr(0, 200);
   std::error_code error;
   const fs::file_status status = fs::status(file, error);

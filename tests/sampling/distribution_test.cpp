@@ -44,10 +44,35 @@ TEST(Distribution, RemappedIsUniformInsideEachInterval) {
   for (uint32_t i = 0; i < 4096; ++i) {
     const float u = static_cast<float>(i) / 4096;
     const Distribution::Choice c = d.choose(u);
-    EXPECT_FLOAT_EQ(begins[c.index] + c.remapped * c.probability, u);
+    EXPECT_NEAR(begins[c.index] + c.remapped * c.probability, u + 0x1p-25f, 0x1p-23f);
     EXPECT_GE(c.remapped, 0.0f);
     EXPECT_LT(c.remapped, 1.0f);
   }
+}
+
+// One among 100,000 leaves 7 bits for the place inside it: coarse, but neither low nor high on average.
+TEST(Distribution, RemappedHasTheRightMeanAlsoAmongVeryMany) {
+  constexpr uint32_t kCount = 100000, kOne = 31234;
+  const Distribution d(std::vector<float>(kCount, 1));
+  double sum = 0;
+  int found = 0;
+  const uint32_t around = static_cast<uint32_t>(0x1p24 * kOne / kCount);
+  for (uint32_t i = around - 1000; i < around + 1000; ++i) {
+    const Distribution::Choice c = d.choose(static_cast<float>(i) * 0x1p-24f);
+    if (c.index != kOne) continue;
+    sum += static_cast<double>(c.remapped), ++found;
+  }
+  EXPECT_NEAR(found, 0x1p24 / kCount, 1);
+  EXPECT_NEAR(sum / found, 0.5, 0.25 / found);  // half a step of 1/found would be twice that
+}
+
+// 1e-12 of the power is 1/20 of the choices beside one other; nothing stays nothing.
+TEST(Distribution, PartlyAlikeFindsTheFaint) {
+  const std::vector<double> shares = partlyAlike({1e-6, 0, 1e6});
+  EXPECT_NEAR(shares[0], 0.05, 1e-9);
+  EXPECT_EQ(shares[1], 0);
+  EXPECT_NEAR(shares[2], 0.95, 1e-9);
+  EXPECT_EQ(partlyAlike({0, 0}), std::vector<double>({0, 0}));
 }
 
 TEST(Distribution, TheEndsOfTheUnitIntervalAreSafe) {

@@ -1,0 +1,83 @@
+// one_process.h: a frame's whole way in one thread: light sets, tasks, tile codec, patches, filter. What master and
+// clients do, without the network between them.
+#pragma once
+
+#include "common/gi/renderer.h"
+#include "common/gi/scratch.h"
+#include "common/scene/needs.h"
+#include "master/frame_plan.h"
+#include "master/picture.h"
+
+namespace ninefold::testing {
+
+class OneProcess {
+ public:
+  // The scene's first camera and environment.
+  OneProcess(const Tracer& tracer, const Settings& settings)
+      : settings_(completed(settings, tracer.scene())),
+        renderer_(tracer, settings_),
+        scratch_(renderer_.makeScratch()),
+        plan_(settings.photonRadius * tracer.scene().bounds.radius(), settings.interleave.sets(),
+              true) {
+    frame_.view.shape = {
+        TileGrid(settings.width, settings.height, settings.interleave),
+        layerMaskOf(needsOf(tracer.scene(), settings_.environment), settings.method), 0};
+    frame_.view.camera = settings_.camera;
+    beauty_.reset(settings.width, settings.height);
+  }
+
+  const RgbImage& nextFrame() {
+    FrameView& view = frame_.view;
+    view.key = plan_.next(), view.neighbourWeight = plan_.neighbourWeight(view.key.frame);
+    const int tiles = view.shape.grid.tiles(), sets = settings_.interleave.sets();
+    frame_.tasks.clear(), frame_.tasks.resize(static_cast<size_t>(tiles * sets));
+    for (int phase = 0; phase < sets; ++phase) {
+      const auto lights =
+          renderer_.lightSet(view.key, lightSetOfPhase(phase, view.key.rotation, sets));
+      for (int tile = 0; tile < tiles; ++tile)
+        if (view.shape.grid.rect(tile, phase).count() > 0)  // else it is nobody's task
+          frame_.tasks[static_cast<size_t>(tile * sets + phase)] = result(tile, phase, *lights);
+    }
+    for (int tile = 0; tile < tiles; ++tile) finish(tile);
+    return beauty_;
+  }
+
+ private:
+  static Settings completed(Settings s, const Scene& scene) {
+    s.camera = scene.cameras.front(), s.environment = scene.environment;
+    return s;
+  }
+  UnpackedTile result(int tile, int phase, const LightSet& lights) {
+    const FrameShape& shape = frame_.view.shape;
+    const TaskRect rect = shape.grid.rect(tile, phase);
+    renderer_.render(Task{frame_.view.key, tile, phase, 0}, lights, *scratch_, sent_);
+    const uint64_t dither = ditherKey(settings_.seed, frame_.view.key, static_cast<uint32_t>(tile),
+                                      static_cast<uint32_t>(phase));
+    return decoder_.unpack(encoder_.encode(sent_, dither, 1).bytes,
+                           {rect.width, rect.height, shape.layerMask, 0});
+  }
+  void finish(int tile) {
+    gather(frame_, tile, patch_);
+    filter_.compose(patch_, settings_.camera, frame_.view.neighbourWeight, finished_);
+    for (int y = 0; y < finished_.height; ++y)
+      for (int x = 0; x < finished_.width; ++x) {
+        const Vec3 L = finished_.rgb(finished_.at(x, y));
+        const size_t i = beauty_.at(patch_.x0() + x, patch_.y0() + y);
+        beauty_.pixels.r[i] = L.x, beauty_.pixels.g[i] = L.y, beauty_.pixels.b[i] = L.z;
+      }
+  }
+
+  Settings settings_;
+  Renderer renderer_;
+  std::unique_ptr<Scratch, void (*)(Scratch*)> scratch_;
+  FramePlan plan_;
+  GatheredFrame frame_;
+  TileEncoder encoder_;
+  TileDecoder decoder_;
+  TileResult sent_;
+  Patch patch_;
+  PatchFilter filter_{SurfaceTest::surface};
+  RgbImage finished_, beauty_;
+};
+
+}  // namespace ninefold::testing
