@@ -99,8 +99,14 @@ class SecondsToError(unittest.TestCase):
         data = [entry(t, 0.3 / t, noise=0.02) for t in (1, 2, 4, 8)]
         reference = Reference("", [], 1, 1, 0.001, {"relmse": 0.02, "relmse_trimmed": 0.0, "rmse_percent": 1.0})
         row = seconds_to_error.targets_table(data, {"s": reference}, unbiased=("m",)).rows[0]
-        self.assertEqual(row, ["s", "m", "3", "> 8 (~ 30)", "reference too noisy", "3", "> 8 (~ 30)", "> 8 (~ 300)",
+        self.assertEqual(row, ["s", "m", "3", "> 8 (~ 30)", "> 8 (~ 300)", "3", "> 8 (~ 30)", "> 8 (~ 300)",
                                "> 8 (~ 8000000)"])
+
+    def test_an_error_below_the_references_noise_cannot_be_told(self):
+        data = [entry(t, 0.003 / t, noise=0.02) for t in (1, 2, 4, 8)]
+        reference = Reference("", [], 1, 1, 0.001, {"relmse": 0.02, "relmse_trimmed": 0.0, "rmse_percent": 1.0})
+        row = seconds_to_error.targets_table(data, {"s": reference}, unbiased=("m",)).rows[0]
+        self.assertEqual(row[2:6], ["< 1", "< 1", "reference too noisy", "< 1"])
 
     def test_the_references_noise_is_taken_off(self):
         self.assertAlmostEqual(measure.net(entry(1, 0.3, noise=0.1), "relmse"), 0.3)
