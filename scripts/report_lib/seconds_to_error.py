@@ -41,15 +41,17 @@ def targets_table(data, references, unbiased):
 
 
 def _text(entries, key, limit, reference, unbiased):
-    if not can_tell(reference, key, limit):
-        longest = max(entries, key=lambda e: e["seconds"])
-        left = net(longest, key)
-        if left is None or left <= limit:
-            return "reference too noisy"
     points = [(e["seconds"], squared_net(e, key)) for e in entries]
+    if not can_tell(reference, key, limit):
+        left = net(max(entries, key=lambda e: e["seconds"]), key)
+        return "reference too noisy" if left is None or left <= limit else _beyond(points, squared(key, limit), unbiased)
     found = crossing(points, squared(key, limit))
     if found is None:
-        last, left = max(points)
-        text = "> " + figure(last)
-        return f"{text} (~ {figure(last * left / squared(key, limit), 2)})" if unbiased else text
+        return _beyond(points, squared(key, limit), unbiased)
     return ("< " if found == min(points)[0] else "") + figure(found)
+
+
+def _beyond(points, limit, unbiased):
+    last, left = max(points)
+    text = "> " + figure(last)
+    return f"{text} (~ {figure(last * left / limit, 2)})" if unbiased else text
