@@ -4,14 +4,15 @@
 //
 //   f = A/(pi r^2),   A = area of the surface that accepts the photon
 //
-// estimated with one packet of rays along -n through a fixed pattern on the disk, each counting
-// 1/cos of its hit's normal to n. Receivers that accept the photon are those of
-// caustic_photons.h: within r, normals within 60 degrees.
+// estimated with a packet of rays along -n through a fixed pattern on the disk, each counting 1/cos
+// of the normal to n at all layers that it meets: what is under a table accepts light as well as the
+// table does. Receivers that accept the photon are those of caustic_photons.h: within r, normals
+// within 60 degrees, and not of clear glass or bare metal, which have no D lobe.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; the division conserves energy for
 // each photon alone.   Proved: tests/gi (caustic energy balance; a narrow board).
-// Fails:   surface that is hidden from a height of r/2 counts as none; f is known to 1/16; both go
-// with r.   Threads: reentrant.   Errors: none.
+// Fails:   f is known to 1/16; other meshes' sheets that are wound the wrong way do not count. Both go with r.
+// Threads: reentrant.   Errors: none.
 #pragma once
 
 #include "common/gi/transport.h"
@@ -20,8 +21,7 @@ namespace ninefold {
 
 inline constexpr float kPhotonNormalCosine = 0.5f;
 
-// f in [1/16, 2], for a photon that landed at x on the side of unit n. `turn` in [0, 1) turns the
-// pattern.
-float photonFootprint(const Transport& transport, Vec3 x, Vec3 n, Metres r, float turn);
+// f >= 1/16, for a photon that landed at `at`. `turn` in [0, 1) turns the pattern.
+float photonFootprint(const Transport& transport, const ShadingPoint& at, Metres r, float turn);
 
 }  // namespace ninefold

@@ -17,6 +17,12 @@ Vec3 attenuationCoefficient(const Material& m) {
               sigma(m.attenuationColor.z));
 }
 
+bool mayBeDiffuseOf(const Material& m, bool folds) {
+  const bool metal = m.metallic >= 1 && !m.metallicRoughnessMap;
+  const bool glass = m.transmission >= 1 && !m.transmissionMap;
+  return !isBlack(m.baseColor) && (folds || (!metal && !glass));
+}
+
 }  // namespace
 
 MeanReflection::MeanReflection() {
@@ -43,6 +49,7 @@ Shader::Shader(const Scene& scene) : scene_(&scene) {
     p.transmits = m.transmission > 0 && m.metallic < 1;
     p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
     p.specular = p.transmits || !p.folds || m.alphaMode == AlphaMode::blend;
+    p.diffuse = mayBeDiffuseOf(m, p.folds);
     p.sigma = attenuationCoefficient(m);
     p.meanFresnel = p.transmits ? meanFresnelDielectric(m.ior) : 0;
     materials_.push_back(p);

@@ -99,11 +99,17 @@ class Shader {
   // True if the material of an instance keeps an S lobe (photons aim at it).
   bool isSpecular(int material) const { return materials_[static_cast<size_t>(material)].specular; }
 
+  // False if the material has no D lobe anywhere: clear glass, metal that keeps its S lobe.
+  bool mayBeDiffuse(int material) const {
+    return materials_[static_cast<size_t>(material)].diffuse;
+  }
+
  private:
   struct Prepared {
     bool folds = false;      // opaque reflection lobe goes into D
     bool transmits = false;  // dielectric interface
     bool specular = false;   // keeps any S lobe
+    bool diffuse = false;    // may have a D lobe
     Vec3 sigma{0};           // attenuation inside [1/m]
     float meanFresnel = 0;   // of a transmitting material's interface
   };

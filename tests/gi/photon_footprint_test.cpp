@@ -18,8 +18,10 @@ double footprint(SceneBuilder& b, Vec3 x, Vec3 n, Metres r) {
   const Transport transport(tracer, Settings{});
   constexpr int kTurns = 64;
   double sum = 0;
+  ShadingPoint at;
+  at.surface.position = x, at.surface.instance = ~0u, at.ng = n, at.front = true;
   for (int i = 0; i < kTurns; ++i)
-    sum += double(photonFootprint(transport, x, n, r, static_cast<float>(i) / kTurns));
+    sum += double(photonFootprint(transport, at, r, static_cast<float>(i) / kTurns));
   return sum / kTurns;
 }
 
@@ -46,7 +48,7 @@ TEST(PhotonFootprint, OfABoardNarrowerThanTheDisk) {
   EXPECT_NEAR(footprint(b, Vec3(0), Vec3(0, 1, 0), 0.5f), area / (double(kPi) * r * r), 0.02);
 }
 
-// Receivers on a wall across a corner do not accept the photon; those on a slope of 30 degrees do,
+// Receivers on a wall across a corner do not accept the photon; those on a slope of 45 degrees do,
 // and it is longer than its shadow on the disk.
 TEST(PhotonFootprint, WallsAcrossDoNotCountSlopesDo) {
   SceneBuilder wall = square();
@@ -54,12 +56,28 @@ TEST(PhotonFootprint, WallsAcrossDoNotCountSlopesDo) {
             Vec3(0, 0, 2));
   EXPECT_NEAR(footprint(wall, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 1e-4);
 
-  SceneBuilder slope;  // y = |x|/sqrt 3: seen from the photon at the bottom of the groove
+  SceneBuilder slope;  // y = |x|: seen from the photon at the bottom of the groove
   const int matte = slope.material(testing::matte(Vec3(0.5f)));
-  slope.quad(matte, Vec3(0, 0, -1), Vec3(0, 0, 2), Vec3(1.732f, 1, 0));
-  slope.quad(matte, Vec3(-1.732f, 1, -1), Vec3(0, 0, 2), Vec3(1.732f, -1, 0));
+  slope.quad(matte, Vec3(0, 0, -1), Vec3(0, 0, 2), Vec3(1, 1, 0));
+  slope.quad(matte, Vec3(-1, 1, -1), Vec3(0, 0, 2), Vec3(1, -1, 0));
   // Within the sphere each side holds half a disk, whatever its slope.
   EXPECT_NEAR(footprint(slope, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 0.04);
+}
+
+// A table over a floor: both accept the photon within r, the table's underside does not.
+TEST(PhotonFootprint, AllLayersCountOnce) {
+  SceneBuilder b = square();
+  const int matte = b.material(testing::matte(Vec3(0.5f)));
+  b.box(matte, Vec3(-1, 0.1f, -1), Vec3(1, 0.11f, 1), false);
+  const double r = 0.5, floor = 1 - 0.11 * 0.11 / (r * r);  // disk where the sphere meets the floor
+  EXPECT_NEAR(footprint(b, Vec3(0, 0.11f, 0), Vec3(0, 1, 0), 0.5f), 1 + floor, 0.06);
+}
+
+// Water over the floor of a pool takes no share of the light that falls on the floor.
+TEST(PhotonFootprint, ClearGlassAcceptsNothing) {
+  SceneBuilder b = square();
+  b.quad(b.material(testing::glass(1.33f)), Vec3(-1, 0.1f, -1), Vec3(0, 0, 2), Vec3(2, 0, 0));
+  EXPECT_NEAR(footprint(b, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 1e-4);
 }
 
 }  // namespace
