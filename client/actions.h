@@ -42,6 +42,7 @@ struct PrepareJob {
   uint32_t load = 0;
   uint32_t jobVersion = 0;
   Settings settings;
+  Delivery delivery;
 };
 // Render; each task is answered by taskFinished().
 struct StartTasks {

@@ -39,6 +39,7 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
       key_(std::move(key)),
       recorder_(options.record ? std::make_unique<Recorder>(*options.record, hello) : nullptr),
       session_(sessionOptions(options, std::move(hello)), now()),
+      threads_(options.threads),
       builder_(std::move(cache), options.isa, options.threads, answers()),
       workers_(options.threads, kTasksPerThread * static_cast<size_t>(options.threads)) {
   loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
@@ -139,24 +140,31 @@ void Program::on(act::Disconnect&& action) {
 void Program::on(act::StartTasks&& action) {
   for (const msg::TaskItem& item : action.tasks.items) {
     const auto job = [this, job = job_, line = action.line, frame = action.tasks.frame,
-                      item](int thread) { runTask(*job, line, frame, item, thread); };
+                      weight = action.tasks.neighbourWeight,
+                      item](int thread) { runTask(*job, line, frame, weight, item, thread); };
     if (!workers_.start(action.tasks.frame.frame, job)) return session_.tasksRefused(now());
   }
 }
 
 // On a worker's thread.
-void Program::runTask(RenderJob& job, uint32_t line, const FrameKey& frame,
+void Program::runTask(RenderJob& job, uint32_t line, const FrameKey& frame, float neighbourWeight,
                       const msg::TaskItem& item, int thread) {
   try {
-    msg::Result result = job.run(frame, item, thread, now);
-    if (recorder_) recorder_->add(result);
-    later([this, line, result = std::move(result)]() mutable {
-      session_.taskFinished(line, std::move(result), now());
+    RenderJob::Done done = job.run(frame, item, neighbourWeight, level_, thread, now);
+    if (recorder_) recorder_->add(done.result);
+    later([this, line, done = std::move(done)]() mutable {
+      adaptLevel(done);
+      session_.taskFinished(line, std::move(done.result), now());
     });
   } catch (const std::exception& error) {  // no memory, most likely
     later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", frame.frame, item.tile,
                                     item.phase, error.what())] { session_.taskFailed(line); });
   }
+}
+
+void Program::adaptLevel(const RenderJob::Done& done) {
+  wireLevel_.finished(done.rawBytes, std::chrono::nanoseconds(done.result.busyNs));
+  if (connection_) level_ = wireLevel_.choose(connection_->lineRate(), threads_);
 }
 
 void Program::on(act::CancelTasks&& action) {

@@ -5,6 +5,7 @@
 // Owner: main. Errors: ends with a status and one line, see run.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -14,6 +15,7 @@
 #include "client/workers.h"
 #include "proto/connection.h"
 #include "proto/recording.h"
+#include "proto/wire_level.h"
 
 namespace ninefold::client {
 
@@ -40,8 +42,9 @@ class Program {
   void on(act::Exit&&);
 
   void startConnection(std::shared_ptr<Connection> connection);
-  void runTask(RenderJob& job, uint32_t line, const FrameKey& frame, const msg::TaskItem& item,
-               int thread);
+  void runTask(RenderJob& job, uint32_t line, const FrameKey& frame, float neighbourWeight,
+               const msg::TaskItem& item, int thread);
+  void adaptLevel(const RenderJob::Done& done);
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.
   template <typename Event>
@@ -57,6 +60,9 @@ class Program {
   std::shared_ptr<Connection> connection_;
   std::shared_ptr<RenderJob> job_;
   std::unique_ptr<EventLoop::Timer> timer_;
+  const int threads_;
+  WireLevel wireLevel_;
+  std::atomic<int> level_ = WireLevel::kLight;  // of the next results
   int status_ = 0;
   bool ending_ = false;
   SceneBuilder builder_;

@@ -1,7 +1,8 @@
 #include "client/render_job.h"
 
 #include "common/gi/light_set.h"
-#include "common/sampling/interleave.h"
+#include "common/sampling/whole_tile.h"
+#include "common/scene/needs.h"
 
 namespace ninefold {
 namespace {
@@ -9,46 +10,83 @@ namespace {
 // Frames whose light sets are kept: the one that is being finished, the next, and one that
 // stragglers may still be of.
 constexpr size_t kFramesKept = 3;
-constexpr int kZstdLevel = 1;
 
 }  // namespace
 
 RenderJob::RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion,
-                     const Settings& settings, int threads)
+                     const Settings& settings, const Delivery& delivery, int threads)
     : scene_(std::move(scene)),
       jobVersion_(jobVersion),
       settings_(settings),
+      delivery_(delivery),
+      grid_(settings.width, settings.height, settings.interleave),
+      layerMask_(layerMaskOf(needsOf(scene_->scene, settings.environment), settings.method)),
       renderer_(scene_->tracer, settings_),
       sets_([this](const FrameKey& frame, int set) { return renderer_.lightSet(frame, set); },
             kFramesKept) {
-  for (int i = 0; i < threads; ++i) desks_.push_back(std::make_unique<Desk>(renderer_));
+  const SurfaceTest test = delivery.filter.value_or(SurfaceTest::none);
+  for (int i = 0; i < threads; ++i) desks_.push_back(std::make_unique<Desk>(renderer_, test));
 }
 
-msg::Result RenderJob::run(const FrameKey& frame, const msg::TaskItem& item, int thread,
-                           Time (*now)()) {
+RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
+                               float neighbourWeight, int level, int thread, Time (*now)()) {
   Desk& desk = *desks_[static_cast<size_t>(thread)];
-  const Task task{frame, static_cast<int>(item.tile), static_cast<int>(item.phase), item.extraMask};
-  const int set = lightSetOfPhase(task.phase, frame.rotation, settings_.interleave.sets());
-
-  Time start = now();
-  const LightSetCache::Found lights = sets_.get(frame, set);
-  if (!lights.madeHere) start = now();  // waiting for another thread's set is not work
-  renderer_.render(task, *lights.set, *desk.scratch, desk.tile);
+  const Task task{
+      frame, static_cast<int>(item.tile), static_cast<int>(item.phase), item.extraMask, {}};
+  const Time start = now();
+  Work work;
+  if (delivery_.filter)
+    traceAndFilter(task, neighbourWeight, desk, work, now);
+  else
+    trace(task, desk, work, now);
   const uint64_t dither = ditherKey(settings_.seed, frame, item.tile, item.phase);
-  TileEncoder::Encoded encoded = desk.encoder.encode(desk.tile, dither, kZstdLevel);
+  const int used = delivery_.level == Delivery::kAdaptive ? level : delivery_.level;
+  TileEncoder::Encoded encoded = delivery_.filter ? desk.encoder.encode(desk.beauty, dither, used)
+                                                  : desk.encoder.encode(desk.tile, dither, used);
 
   msg::Result result;
   result.jobVersion = jobVersion_;
   result.frame = frame.frame;
   result.tile = item.tile;
   result.phase = item.phase;
-  result.setsMade = lights.madeHere ? 1 : 0;
+  result.setsMade = work.setsMade;
   result.replaced = encoded.replaced;
-  result.rays = desk.tile.rays;
-  if (lights.madeHere) result.rays += lights.set->rays;
+  result.rays = work.rays;
   result.encoded = std::move(encoded.bytes);
-  result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(now() - start).count());
-  return result;
+  const Duration busy = now() - start - work.waited;
+  result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(busy).count());
+  return {std::move(result), encoded.rawBytes};
+}
+
+void RenderJob::trace(const Task& task, Desk& desk, Work& work, Time (*now)()) {
+  const Time start = now();
+  const int set = lightSetOfPhase(task.phase, task.frame.rotation, settings_.interleave.sets());
+  const LightSetCache::Found lights = sets_.get(task.frame, set);
+  if (lights.madeHere)
+    ++work.setsMade, work.rays += lights.set->rays;
+  else
+    work.waited += now() - start;
+  renderer_.render(task, *lights.set, *desk.scratch, desk.tile);
+  work.rays += desk.tile.rays;
+}
+
+void RenderJob::traceAndFilter(const Task& task, float neighbourWeight, Desk& desk, Work& work,
+                               Time (*now)()) {
+  desk.patch.reset({grid_, layerMask_, 0}, task.tile);
+  Task part = task;
+  part.extraMask = 0;
+  const auto place = [&](const TaskRect& rect) {
+    if (rect.count() == 0) return;
+    part.rect = rect;
+    trace(part, desk, work, now);
+    desk.patch.place(part.phase, rect, desk.tile);
+  };
+  for (part.phase = 0; part.phase < settings_.interleave.sets(); ++part.phase) {
+    // The tile's own pixels as the master would have them traced: what share a packet stay together.
+    place(grid_.rect(task.tile, part.phase));
+    for (const TaskRect& strip : borderOf(grid_, task.tile, part.phase)) place(strip);
+  }
+  desk.filter.compose(desk.patch, settings_.camera, neighbourWeight, desk.beauty);
 }
 
 }  // namespace ninefold

@@ -88,7 +88,8 @@ void SceneBuilder::answer(const act::BuildScene& question) {
 }
 
 void SceneBuilder::answer(const act::PrepareJob& question) {
-  auto job = std::make_shared<RenderJob>(scene_, question.jobVersion, question.settings, threads_);
+  auto job = std::make_shared<RenderJob>(scene_, question.jobVersion, question.settings,
+                                         question.delivery, threads_);
   answers_.prepared(question.load, question.jobVersion, std::move(job));
 }
 

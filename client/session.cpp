@@ -111,7 +111,9 @@ void Session::on(msg::Configure&& m, Time) {
   if (scene_ == Scene::built) prepareJob();
 }
 
-void Session::prepareJob() { push(act::PrepareJob{load_, job_->jobVersion, job_->settings}); }
+void Session::prepareJob() {
+  push(act::PrepareJob{load_, job_->jobVersion, job_->settings, job_->delivery});
+}
 
 void Session::jobPrepared(uint32_t load, uint32_t jobVersion, Time) {
   if (load != load_ || state_ != State::syncing || !job_ || job_->jobVersion != jobVersion) return;
@@ -135,10 +137,11 @@ void Session::on(msg::Tasks&& m, Time) {
 void Session::checkTasks(const msg::Tasks& tasks) const {
   const Settings& s = job_->settings;
   const TileGrid grid(s.width, s.height, s.interleave);
+  const int phases = job_->delivery.filter ? 1 : s.interleave.sets();  // of a tile's tasks
   if (tasks.jobVersion != job_->jobVersion) fail("tasks of another job");
   for (const msg::TaskItem& item : tasks.items)
     if (item.tile >= static_cast<uint32_t>(grid.tiles()) ||
-        item.phase >= static_cast<uint32_t>(s.interleave.sets()))
+        item.phase >= static_cast<uint32_t>(phases))
       fail("tile {}, phase {}: outside the picture", item.tile, item.phase);
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/base/cpu_time.h"
 #include "common/base/error.h"
+#include "common/sampling/whole_tile.h"
 
 namespace ninefold {
 namespace {
@@ -40,7 +41,7 @@ void Assembly::open(const FrameView& view) {
   slot->frame.view = view;
   slot->frame.tasks.resize(tasks);
   const std::lock_guard lock(mutex_);
-  books_.open(view.key.frame, view.shape.grid);
+  books_.open(view.key.frame, view.shape.grid, isFiltered(view.shape));
   slots_.emplace(view.key.frame, std::move(slot));
   queueLimit_ = std::max(queueLimit_, kMostFrames * kCopies * tasks);
 }
@@ -99,7 +100,8 @@ std::optional<TileShape> Assembly::shapeIfWanted(const msg::Result& result) {
   const std::lock_guard lock(mutex_);
   if (!books_.isWanted(result.frame, tileOf(result), phaseOf(result))) return std::nullopt;
   const FrameShape& frame = slots_.at(result.frame)->frame.view.shape;
-  const TaskRect rect = frame.grid.rect(tileOf(result), phaseOf(result));
+  const TaskRect rect = isFiltered(frame) ? pixelsOf(frame.grid, tileOf(result))
+                                          : frame.grid.rect(tileOf(result), phaseOf(result));
   return TileShape{rect.width, rect.height, frame.layerMask, frame.extraMask};
 }
 

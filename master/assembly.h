@@ -56,7 +56,7 @@ struct GatheredFrame {
 
 class Assembly {
  public:
-  static constexpr int kMostFrames = 8;
+  static constexpr int kMostFrames = 16;
   static constexpr size_t kMostBytes = 96 << 20;  // of results that wait
 
   // Called on a worker's thread for each result that was taken.

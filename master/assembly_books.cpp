@@ -8,9 +8,10 @@ size_t AssemblyBooks::taskIndex(const Frame& frame, int tile, int phase) {
   return static_cast<size_t>(tile * frame.grid.interleave().sets() + phase);
 }
 
-void AssemblyBooks::open(uint32_t number, const TileGrid& grid) {
+void AssemblyBooks::open(uint32_t number, const TileGrid& grid, bool filtered) {
   const auto tiles = static_cast<size_t>(grid.tiles());
   Frame frame{.grid = grid,
+              .reach = filtered ? 0 : 1,
               .there = std::vector<bool>(static_cast<size_t>(grid.tasks()), false),
               .missing = std::vector<int>(tiles, 0),
               .users = std::vector<int>(tiles, 0),
@@ -18,9 +19,9 @@ void AssemblyBooks::open(uint32_t number, const TileGrid& grid) {
               .left = grid.tiles()};
   for (int tile = 0; tile < grid.tiles(); ++tile) {
     int tasks = 0;  // tasks without pixels are never sent
-    for (int phase = 0; phase < grid.interleave().sets(); ++phase)
+    for (int phase = 0; phase < (filtered ? 1 : grid.interleave().sets()); ++phase)
       tasks += grid.rect(tile, phase).count() > 0 ? 1 : 0;
-    forEachAround(grid, tile, [&](int t) {
+    forEachAround(grid, tile, frame.reach, [&](int t) {
       frame.missing[static_cast<size_t>(t)] += tasks;
       ++frame.users[static_cast<size_t>(t)];
     });
@@ -37,7 +38,7 @@ void AssemblyBooks::place(uint32_t number, int tile, int phase) {
   NINEFOLD_CHECK(isWanted(number, tile, phase));
   Frame& frame = frames_.at(number);
   frame.there[taskIndex(frame, tile, phase)] = true;
-  forEachAround(frame.grid, tile, [&](int t) {
+  forEachAround(frame.grid, tile, frame.reach, [&](int t) {
     if (--frame.missing[static_cast<size_t>(t)] == 0) frame.ready.push_back(t);
   });
 }
@@ -62,7 +63,7 @@ std::vector<int> AssemblyBooks::tileDone(uint32_t number, int tile) {
   Frame& frame = frames_.at(number);
   --frame.left;
   std::vector<int> unused;
-  forEachAround(frame.grid, tile, [&](int t) {
+  forEachAround(frame.grid, tile, frame.reach, [&](int t) {
     if (--frame.users[static_cast<size_t>(t)] == 0) unused.push_back(t);
   });
   return unused;

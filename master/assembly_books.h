@@ -4,7 +4,7 @@
 //   open -> place (each task once) -> nextTile ... tileDone -> ... -> isDone -> close
 //
 // A tile can be finished when all results of it and of the tiles around it are there: the filter
-// looks across its border. Only the *front* frame's tiles are handed out, the open frame of the
+// looks across its border. If tiles come filtered, each can be finished by itself. Only the *front* frame's tiles are handed out, the open frame of the
 // smallest number, so that the film gets frames in their order and can be looked at between two of
 // them; later frames gather their results meanwhile.
 // A result is no longer needed once its tile and those around it are done.
@@ -24,7 +24,7 @@ namespace ninefold {
 class AssemblyBooks {
  public:
   int openFrames() const { return static_cast<int>(frames_.size()); }
-  void open(uint32_t frame, const TileGrid& grid);
+  void open(uint32_t frame, const TileGrid& grid, bool filtered);
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
 
   // Is this result still to come?
@@ -45,6 +45,7 @@ class AssemblyBooks {
  private:
   struct Frame {
     TileGrid grid;
+    int reach;                 // tiles around a tile that it needs: 1, or 0 if tiles come filtered
     std::vector<bool> there;   // by task
     std::vector<int> missing;  // by tile: results of it and of those around it that are to come
     std::vector<int> users;    // by tile: it and those around it, as far as they are not done
@@ -56,12 +57,13 @@ class AssemblyBooks {
   std::map<uint32_t, Frame> frames_;
 };
 
-// Calls f(tile) for a tile and those around it.
+// Calls f(tile) for a tile and those that lie up to `reach` tiles beside it.
 template <typename F>
-void forEachAround(const TileGrid& grid, int tile, const F& f) {
+void forEachAround(const TileGrid& grid, int tile, int reach, const F& f) {
   const int column = tile % grid.columns(), row = tile / grid.columns();
-  for (int r = std::max(0, row - 1); r <= std::min(row + 1, grid.rows() - 1); ++r)
-    for (int c = std::max(0, column - 1); c <= std::min(column + 1, grid.columns() - 1); ++c)
+  for (int r = std::max(0, row - reach); r <= std::min(row + reach, grid.rows() - 1); ++r)
+    for (int c = std::max(0, column - reach); c <= std::min(column + reach, grid.columns() - 1);
+         ++c)
       f(r * grid.columns() + c);
 }
 

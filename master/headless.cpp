@@ -57,8 +57,6 @@ class HeadlessRun {
   Assembly assembly_;
 };
 
-FrameShape shapeOf(const Job& job) { return {job.grid(), job.layerMask, job.extraMask}; }
-
 HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys keys)
     : options_(options),
       job_(job),
@@ -67,7 +65,7 @@ HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys 
       workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
       enough_(false),
-      picture_({shapeOf(job), options.surfaceTest, options.exposure, workers_}),
+      picture_({job.shape, options.surfaceTest, options.exposure, workers_}),
       progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
       cluster_(clusterSetup(), *job.offer, duty()),
       assembly_(
@@ -91,7 +89,8 @@ ClusterSetup HeadlessRun::clusterSetup() const {
                      "--cache=none"};
   local.key = keys_.local;
   local.count = options_.localClients;
-  ServerSetup server{parseEndpoint(options_.listen, "--listen"), keys_, job_.grid(), job_.extraMask,
+  ServerSetup server{parseEndpoint(options_.listen, "--listen"), keys_, job_.shape,
+                     [this](uint32_t frame) { return plan_.neighbourWeight(frame); },
                      options_.waitClients};
   return {std::move(server), std::move(local), keys_.cluster != nullptr};
 }
@@ -106,7 +105,7 @@ std::optional<FrameKey> HeadlessRun::nextFrame() {
   const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
   if (enough_ || allOpened || !assembly_.hasRoom()) return std::nullopt;
   const FrameKey key = plan_.next();
-  assembly_.open({key, shapeOf(job_), job_.settings.camera, plan_.neighbourWeight(key.frame)});
+  assembly_.open({key, job_.shape, job_.settings.camera, plan_.neighbourWeight(key.frame)});
   return key;
 }
 

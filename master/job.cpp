@@ -30,6 +30,13 @@ void tellSettings(const Options& options, const Settings& s) {
       s.interleave.n, s.interleave.m, s.directVpls, s.indirectVpls, s.photons, length, s.seed);
 }
 
+Delivery deliveryOf(const Options& options) {
+  Delivery delivery;
+  delivery.level = options.wireLevel;
+  if (options.filterAtClients) delivery.filter = options.surfaceTest;
+  return delivery;
+}
+
 }  // namespace
 
 Job makeJob(const Options& options) {
@@ -40,12 +47,15 @@ Job makeJob(const Options& options) {
   for (const std::string& line : describe(job.needs)) log("{}", line);
   tellSettings(options, job.settings);
   for (const std::string& line : leftOut(job.needs, job.settings)) warn("{}", line);
-  job.layerMask = layerMaskOf(job.needs, job.settings.method);
-  job.extraMask = extraPlanes(options, job.needs);
+  const TileGrid grid(job.settings.width, job.settings.height, job.settings.interleave);
+  job.shape = options.filterAtClients
+                  ? FrameShape{grid, 0, 0}
+                  : FrameShape{grid, layerMaskOf(job.needs, job.settings.method),
+                               extraPlanes(options, job.needs)};
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
   std::vector<Blob> blobs = packScene(scene);
   job.sceneHash = hashOf(blobs);
-  job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings);
+  job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, deliveryOf(options));
   return job;
 }
 

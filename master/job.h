@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "common/image/patch.h"
 #include "common/scene/needs.h"
 #include "common/scene/settings.h"
 #include "master/job_offer.h"
@@ -15,13 +16,10 @@ namespace ninefold {
 struct Job {
   Settings settings;
   Needs needs;
-  uint8_t layerMask = 1;
-  uint8_t extraMask = 0;
+  FrameShape shape;              // of what clients send
   Metres firstPhotonRadius = 0;  // [m]
   std::string sceneHash;         // SHA-256 over the names of its blobs
   std::unique_ptr<JobOffer> offer;
-
-  TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }
 };
 
 // Reads the scene; the first log lines say what it needs and what will be done.

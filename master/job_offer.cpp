@@ -6,8 +6,8 @@
 
 namespace ninefold {
 
-JobOffer::JobOffer(std::vector<Blob> blobs, const Settings& settings)
-    : blobs_(std::move(blobs)), settings_(settings) {
+JobOffer::JobOffer(std::vector<Blob> blobs, const Settings& settings, const Delivery& delivery)
+    : blobs_(std::move(blobs)), settings_(settings), delivery_(delivery) {
   for (const Blob& blob : blobs_) byHash_[blob.info.hash] = &blob;
 }
 

@@ -12,12 +12,12 @@ namespace ninefold {
 
 class JobOffer {
  public:
-  JobOffer(std::vector<Blob> blobs, const Settings& settings);
+  JobOffer(std::vector<Blob> blobs, const Settings& settings, const Delivery& delivery);
   JobOffer(const JobOffer&) = delete;
   JobOffer& operator=(const JobOffer&) = delete;
 
   msg::SceneOffer sceneOffer() const;
-  msg::Configure configure() const { return {kScene, kJob, settings_}; }
+  msg::Configure configure() const { return {kScene, kJob, settings_, delivery_}; }
   // The piece that was asked for. Error: no such blob or place.
   msg::BlobChunk piece(const msg::BlobRequest& request) const;
 
@@ -27,6 +27,7 @@ class JobOffer {
  private:
   const std::vector<Blob> blobs_;
   const Settings settings_;
+  const Delivery delivery_;
   std::map<Sha256, const Blob*> byHash_;
 };
 

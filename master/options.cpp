@@ -7,6 +7,7 @@
 #include "common/scene/camera_choice.h"
 #include "master/options_flags.h"
 #include "proto/connection.h"
+#include "proto/tile_codec.h"
 
 namespace ninefold {
 namespace {
@@ -126,6 +127,22 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   }
 }
 
+// After the picture: its interleaving and extra layers matter.
+void readDelivery(const RawOptions& raw, Options& o) {
+  if (const auto at = choice(raw, "filter-at", std::array{"master", "clients"}))
+    o.filterAtClients = *at == 1;
+  const auto level = raw.text("wire-level");
+  if (level && *level != "auto")
+    o.wireLevel =
+        static_cast<int>(parseWhole("wire-level", *level, 0, uint64_t{Delivery::kHighestLevel}));
+  if (!o.filterAtClients) return;
+  if (o.aovs) failUsage("--aovs needs --filter-at master: clients send finished tiles only");
+  const int pixels = kTaskSide * kTaskSide * o.settings.interleave.sets();
+  if (pixels > kMaxTilePixels)
+    failUsage("--filter-at clients: --interleave {}x{} makes tiles of {} pixels, at most are {}",
+              o.settings.interleave.n, o.settings.interleave.m, pixels, kMaxTilePixels);
+}
+
 void readRun(const RawOptions& raw, Options& o) {
   o.stop.frames = raw.whole("frames", 1, kMaxFrames);
   o.stop.seconds = raw.real("seconds", 1e-3, kMaxSeconds);
@@ -167,6 +184,7 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   readPicture(raw, o);
   readSampling(raw, o.settings);
   readCluster(raw, cores, o);
+  readDelivery(raw, o);
   readRun(raw, o);
   readFiles(raw, o);
   return o;

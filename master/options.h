@@ -18,6 +18,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/settings.h"
 #include "master/stop_rule.h"
+#include "proto/messages.h"
 
 namespace ninefold {
 
@@ -33,6 +34,8 @@ struct Options {
   Settings settings;                    // camera and environment are the scene's: makeSettings
   std::optional<Radiance> environment;  // nothing: the scene's
   SurfaceTest surfaceTest = SurfaceTest::surface;
+  bool filterAtClients = false;
+  int wireLevel = Delivery::kAdaptive;
   bool converging = true;  // radius and neighbours' weight shrink from frame to frame
 
   int localClients = 1;  // 0 = only remote ones

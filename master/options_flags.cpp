@@ -78,6 +78,13 @@ constexpr Flag kCluster[] = {
     {"key-file", "FILE", "cluster key; needed to listen beyond this machine"},
     {"new-key", "FILE", "make a cluster key and end"},
     {"wait-clients", "N", "do not start before N clients are ready (default 1)"},
+    {"filter-at", "master|clients",
+     "who filters: clients then send finished tiles, a third of the bytes, and trace a border "
+     "twice "
+     "(default master)"},
+    {"wire-level", "auto|N",
+     "lossless compression of results, zstd's levels 1 to 19, 0 = none; auto: what suits each "
+     "client's line (default auto)"},
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
 constexpr Flag kFiles[] = {

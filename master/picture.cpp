@@ -1,13 +1,14 @@
 #include "master/picture.h"
 
-namespace ninefold {
+#include "common/sampling/whole_tile.h"
 
+namespace ninefold {
 void gather(const GatheredFrame& frame, int tile, Patch& patch) {
   const FrameShape& shape = frame.view.shape;
   patch.reset(shape, tile);
   uint8_t bright = 0;
   const auto forEachTask = [&](const auto& f) {
-    forEachAround(shape.grid, tile, [&](int around) {
+    forEachAround(shape.grid, tile, 1, [&](int around) {
       for (int phase = 0; phase < patch.phases(); ++phase) f(around, phase);
     });
   };
@@ -27,23 +28,30 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
 
 PictureMaker::PictureMaker(const Setup& setup)
     : setup_(setup),
-      film_(setup.shape.grid.width(), setup.shape.grid.height(), setup.shape.extraMask != 0),
-      aovs_(setup.shape.grid, setup.shape.extraMask) {
+      film_(setup.shape.grid.width(), setup.shape.grid.height(), setup.shape.extraMask != 0) {
+  if (setup.shape.extraMask != 0) aovs_.emplace(setup.shape.grid, setup.shape.extraMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<Desk>(setup.surfaceTest));
 }
 
 void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) {
   Desk& desk = *desks_[static_cast<size_t>(worker)];
+  if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
   film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
-  if (setup_.shape.extraMask != 0) aovs_.addPatch(desk.patch, desk.filter);
+  if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
+}
+
+void PictureMaker::addFiltered(Desk& desk, const GatheredFrame& frame, int tile) {
+  const TaskRect rect = pixelsOf(frame.view.shape.grid, tile);
+  frame.task(tile, 0).copyRadiance(desk.beauty);
+  film_.addTile(rect.i0, rect.j0, desk.beauty);
 }
 
 void PictureMaker::frameDone() {
   film_.frameDone();
-  aovs_.frameDone();
+  if (aovs_) aovs_->frameDone();
 }
 
 std::string PictureMaker::imageHash() const {
@@ -53,8 +61,8 @@ std::string PictureMaker::imageHash() const {
 }
 
 std::vector<Channel> PictureMaker::extraChannels() const {
-  if (setup_.shape.extraMask == 0) return {};
-  std::vector<Channel> channels = aovs_.channels();
+  if (!aovs_) return {};
+  std::vector<Channel> channels = aovs_->channels();
   RgbImage error;
   film_.standardError(error);
   channels.push_back({"error.R", std::move(error.pixels.r)});

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/image/aov_film.h"
@@ -43,12 +44,13 @@ class PictureMaker {
     PatchFilter filter;
     RgbImage beauty;
   };
+  void addFiltered(Desk& desk, const GatheredFrame& frame, int tile);
   std::vector<Channel> extraChannels() const;
 
   const Setup setup_;
   std::vector<std::unique_ptr<Desk>> desks_;
   Film film_;
-  AovFilm aovs_;
+  std::optional<AovFilm> aovs_;  // if extra layers are wanted
 };
 
 // Fills a patch with a tile of the frame and what lies around it.

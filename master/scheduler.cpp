@@ -71,9 +71,9 @@ int Scheduler::waiting() const {
 
 bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit(); }
 
-void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid) {
+void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles) {
   NINEFOLD_CHECK(key.frame >= nextFrame_);
-  frames_.emplace(key.frame, SchedulerFrame(key, grid));
+  frames_.emplace(key.frame, SchedulerFrame(key, grid, wholeTiles));
   nextFrame_ = key.frame + 1;
 }
 

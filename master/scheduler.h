@@ -55,8 +55,8 @@ class Scheduler {
   void roundTripMeasured(ClientId client, Duration roundTrip);
 
   // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
-  // Tasks without pixels do not exist.
-  void openFrame(const FrameKey& key, const TileGrid& grid);
+  // Tasks without pixels do not exist; of whole tiles, there is phase 0 alone.
+  void openFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles = false);
   // All open frames before `firstWanted` are superseded.
   void viewChanged(uint32_t firstWanted);
 

@@ -7,13 +7,14 @@
 
 namespace ninefold {
 
-SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid)
+SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles)
     : key_(key),
       sets_(grid.interleave().sets()),
       tasks_(static_cast<size_t>(grid.tasks())),
       queues_(static_cast<size_t>(sets_)) {
   for (int task = 0; task < tasks(); ++task) {
     if (grid.rect(task / sets_, task % sets_).count() == 0) continue;
+    if (wholeTiles && task % sets_ != 0) continue;
     at(task).state = TaskState::waiting;
     queueOf(task).order.push_back(task);
     ++queueOf(task).waiting;

@@ -35,7 +35,7 @@ class SchedulerFrame {
   using Stragglers =
       std::set<std::pair<Time, int>>;  // (late, task) of tasks with one active holder
 
-  SchedulerFrame(const FrameKey& key, const TileGrid& grid);
+  SchedulerFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles);
 
   const FrameKey& key() const { return key_; }
   int tasks() const { return static_cast<int>(tasks_.size()); }

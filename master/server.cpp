@@ -11,7 +11,7 @@ namespace {
 
 // Frames that may be open at once. One that ends, one that is worked on and one to start are enough
 // for like clients; many mixed ones run ahead of the slowest.
-constexpr int kMaxOpenFrames = 8;
+constexpr int kMaxOpenFrames = 16;
 
 TaskId taskOf(const msg::Result& result) {
   return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
@@ -170,7 +170,7 @@ void Server::openFrames(Time) {
     const std::optional<FrameKey> key = duty_.nextFrame();
     if (!key) return;
     keys_[key->frame] = *key;
-    scheduler_.openFrame(*key, setup_.grid);
+    scheduler_.openFrame(*key, setup_.shape.grid, isFiltered(setup_.shape));
   }
 }
 
@@ -179,14 +179,15 @@ void Server::sendTasks(const std::vector<Assignment>& assignments) {
   for (const Assignment& a : assignments)
     bundles[{a.client, a.task.frame}].push_back({static_cast<uint32_t>(a.task.tile),
                                                  static_cast<uint32_t>(a.task.phase),
-                                                 setup_.extraMask});
+                                                 setup_.shape.extraMask});
   if (!bundles.empty() && !tally_.firstDispatch) {
     tally_.firstDispatch = Clock::now();
     tally_.cpuAtDispatch = processCpuTime();
   }
   for (auto& [to, items] : bundles)
     if (const auto& connection = peers_.at(to.first).connection)
-      connection->send(msg::Tasks{JobOffer::kJob, keys_.at(to.second), std::move(items)});
+      connection->send(msg::Tasks{JobOffer::kJob, keys_.at(to.second), std::move(items),
+                                  setup_.neighbourWeight(to.second)});
 }
 
 void Server::close(const std::string& reason) {

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "common/image/patch.h"
 #include "master/admission.h"
 #include "master/client_session.h"
 #include "master/job_offer.h"
@@ -29,9 +30,9 @@ namespace ninefold {
 struct ServerSetup {
   Endpoint listen;
   Listener::Keys keys;
-  TileGrid grid;
-  uint8_t extraMask = 0;
-  int waitClients = 1;  // no frame before that many are ready
+  FrameShape shape;
+  std::function<float(uint32_t frame)> neighbourWeight;  // of the filter, for clients that do it
+  int waitClients = 1;                                   // no frame before that many are ready
 };
 
 // What the server is there for; called in the loop's thread, must not wait.

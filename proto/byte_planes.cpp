@@ -45,7 +45,7 @@ void addDifferences(std::span<uint8_t> plane, size_t width) {
 
 }  // namespace
 
-void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out) {
+void writePlane(std::span<const uint8_t> plane, size_t width, bool mayDiffer, Bytes& out) {
   NINEFOLD_CHECK(!plane.empty() && plane.size() % width == 0);
   ByteWriter writer(out);
   const uint8_t first = plane.front();
@@ -54,7 +54,7 @@ void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out) {
     if (first != 0) writer.number(first);
     return;
   }
-  const bool differences = differencesPay(plane);
+  const bool differences = mayDiffer && differencesPay(plane);
   writer.number<uint8_t>(differences ? kDifferences : kPlain);
   if (differences)
     writeDifferences(plane, width, out);

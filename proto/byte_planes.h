@@ -17,8 +17,8 @@
 
 namespace ninefold {
 
-// `plane` is `width` bytes times any number of rows.
-void writePlane(std::span<const uint8_t> plane, size_t width, Bytes& out);
+// `plane` is `width` bytes times any number of rows. Differences only if they are allowed.
+void writePlane(std::span<const uint8_t> plane, size_t width, bool differences, Bytes& out);
 // What writePlane writes for a plane of zeros.
 void writeZeroPlane(Bytes& out);
 

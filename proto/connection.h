@@ -73,6 +73,8 @@ class Connection {
   virtual const std::string& peer() const = 0;  // "address:port"
   virtual uint64_t bytesReceived() const = 0;   // from the network, any thread
   virtual uint64_t bytesSent() const = 0;
+  // What the line takes, as far as it was used so far [bytes/s]; 0 if not known. The loop's thread.
+  virtual double lineRate() = 0;
 };
 
 class Listener {

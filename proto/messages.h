@@ -11,12 +11,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "common/base/counters.h"
 #include "common/image/layers.h"
+#include "common/image/surface_test.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
 #include "proto/framing.h"
@@ -71,6 +73,16 @@ struct BlobInfo {
 
 enum class Phase : uint8_t { fetching = 0, building = 1 };
 
+// How results are to be sent.
+struct Delivery {
+  static constexpr int kAdaptive = -1, kHighestLevel = 19;
+  int level = kAdaptive;  // of zstd; kAdaptive: what suits the client's line
+  // A task is a whole tile, sent as finished radiance after this filter; else one phase of a tile,
+  // sent as layers.
+  std::optional<SurfaceTest> filter;
+  bool operator==(const Delivery&) const = default;
+};
+
 namespace msg {
 
 struct Hello {
@@ -106,6 +118,7 @@ struct Configure {
   uint32_t sceneVersion = 0;
   uint32_t jobVersion = 0;
   Settings settings;
+  Delivery delivery = {};
 };
 struct Ready {
   uint32_t sceneVersion = 0;
@@ -125,6 +138,7 @@ struct Tasks {
   uint32_t jobVersion = 0;
   FrameKey frame;
   std::vector<TaskItem> items;  // 1..kMaxTasksPerMessage
+  float neighbourWeight = 1;    // of the filter, in [0, 1]; for tiles that are filtered there
 };
 struct Cancel {
   uint32_t jobVersion =
@@ -137,7 +151,7 @@ struct Result {
   uint32_t tile = 0;
   uint32_t phase = 0;
   uint64_t busyNs = 0;    // one thread's time for this task, its light set included if made for it
-  uint32_t setsMade = 0;  // light sets made on the way: 0 or 1
+  uint32_t setsMade = 0;  // light sets made on the way: one at most for each phase
   uint64_t replaced = 0;  // values that were not finite and were sent as 0
   RayCounts rays;
   Bytes encoded;  // as tile_codec.h made them

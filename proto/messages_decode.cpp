@@ -5,6 +5,7 @@
 #include "proto/scene_blobs.h"
 #include "proto/settings_wire.h"
 #include "proto/text.h"
+#include "proto/tile_codec.h"
 
 namespace ninefold {
 namespace {
@@ -83,7 +84,16 @@ msg::BlobChunk decode(const pb::BlobChunk& in, Bytes&& payload) {
 }
 
 msg::Configure decode(const pb::Configure& in, Bytes&&) {
-  return {in.scene_version(), in.job_version(), fromWire(in.settings())};
+  msg::Configure m{in.scene_version(), in.job_version(), fromWire(in.settings())};
+  if (in.level() < Delivery::kAdaptive || in.level() > Delivery::kHighestLevel)
+    fail("level {} is out of range", in.level());
+  m.delivery.level = in.level();
+  const auto filter =
+      upTo<uint8_t>("filter", in.filter(), 1 + static_cast<uint64_t>(SurfaceTest::surface));
+  if (filter > 0) m.delivery.filter = static_cast<SurfaceTest>(filter - 1);
+  if (filter > 0 && m.settings.interleave.sets() * kTaskSide * kTaskSide > kMaxTilePixels)
+    fail("tiles are too large to be filtered by clients");
+  return m;
 }
 
 msg::Ready decode(const pb::Ready& in, Bytes&&) { return {in.scene_version(), in.job_version()}; }
@@ -97,6 +107,8 @@ msg::Tasks decode(const pb::Tasks& in, Bytes&&) {
   msg::Tasks m;
   m.jobVersion = in.job_version();
   m.frame = fromWire(in.frame());
+  m.neighbourWeight = in.neighbour_weight();
+  if (!(m.neighbourWeight >= 0 && m.neighbourWeight <= 1)) fail("neighbour weight is out of range");
   const auto count =
       upTo<int>("number of tasks", static_cast<uint64_t>(in.tile_size()), kMaxTasksPerMessage, 1);
   if (in.phase_size() != count || in.extra_mask_size() != count)
@@ -116,7 +128,7 @@ msg::Result decode(const pb::Result& in, Bytes&& payload) {
   m.tile = in.tile();
   m.phase = in.phase();
   m.busyNs = in.busy_ns();
-  m.setsMade = upTo<uint32_t>("sets made", in.sets_made(), 1);
+  m.setsMade = upTo<uint32_t>("sets made", in.sets_made(), 256);
   m.replaced = in.replaced();
   m.rays = {in.rays_eye(), in.rays_shadow(), in.rays_photon(), in.rays_compensation()};
   m.encoded = std::move(payload);

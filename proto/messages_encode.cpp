@@ -69,6 +69,8 @@ pb::Configure header(const msg::Configure& m) {
   out.set_scene_version(m.sceneVersion);
   out.set_job_version(m.jobVersion);
   toWire(m.settings, *out.mutable_settings());
+  out.set_level(m.delivery.level);
+  out.set_filter(m.delivery.filter ? 1 + static_cast<uint32_t>(*m.delivery.filter) : 0);
   return out;
 }
 
@@ -92,6 +94,7 @@ pb::Tasks header(const msg::Tasks& m) {
   pb::Tasks out;
   out.set_job_version(m.jobVersion);
   toWire(m.frame, *out.mutable_frame());
+  out.set_neighbour_weight(m.neighbourWeight);
   for (const msg::TaskItem& item : m.items) {
     out.add_tile(item.tile);
     out.add_phase(item.phase);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "proto/line_rate.h"
+
 namespace ninefold {
 namespace {
 
@@ -23,6 +25,8 @@ SecureSocket::SecureSocket(tcp::socket socket, std::shared_ptr<const TlsContext>
   peer_ = textOf(socket_.remote_endpoint(ignored));
   socket_.set_option(tcp::no_delay(true), ignored);
 }
+
+double SecureSocket::lineRate() { return deliveryRate(socket_.native_handle()); }
 
 asio::awaitable<void> SecureSocket::receive(size_t most) {
   NetError error;

@@ -39,6 +39,8 @@ class SecureSocket {
   const std::string& peer() const { return peer_; }
   const std::atomic<uint64_t>& received() const { return received_; }
   const std::atomic<uint64_t>& sent() const { return sent_; }
+  // The kernel's latest measurement of what it could deliver [bytes/s]; 0 if it has none.
+  double lineRate();
 
  private:
   asio::awaitable<void> receive(size_t most);

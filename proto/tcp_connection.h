@@ -27,6 +27,7 @@ class TcpConnection : public Connection, public std::enable_shared_from_this<Tcp
   const std::string& peer() const override { return socket_->peer(); }
   uint64_t bytesReceived() const override { return socket_->received(); }
   uint64_t bytesSent() const override { return socket_->sent(); }
+  double lineRate() override { return socket_->lineRate(); }
 
  private:
   enum class State : uint8_t { open, finishing, closing };

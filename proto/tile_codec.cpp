@@ -17,7 +17,7 @@ bool isTileShape(int width, int height) {
          (width > 0 && height > 0 && int64_t{width} * height <= kMaxTilePixels);
 }
 
-void writeHead(const TileResult& tile, Storage storage, size_t fieldBytes, Bytes& out) {
+void writeHead(const TileShape& tile, Storage storage, size_t fieldBytes, Bytes& out) {
   ByteWriter writer(out);
   writer.number(kVersion);
   writer.number(tile.layerMask);
@@ -71,37 +71,52 @@ struct TileEncoder::Impl {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), ZSTD_freeCCtx};
   BytePlanes scratch;
   Bytes fields;
+
+  template <typename Write>
+  Encoded encode(const TileShape& shape, uint64_t dither, int level, const Write& write);
 };
 
-TileEncoder::TileEncoder() : impl_(std::make_unique<Impl>()) {}
-TileEncoder::~TileEncoder() = default;
-
-TileEncoder::Encoded TileEncoder::encode(const TileResult& tile, uint64_t dither, int level) {
-  NINEFOLD_CHECK(isTileShape(tile.width, tile.height));
-  Bytes& fields = impl_->fields;
+template <typename Write>
+TileEncoder::Encoded TileEncoder::Impl::encode(const TileShape& shape, uint64_t dither, int level,
+                                               const Write& write) {
+  NINEFOLD_CHECK(isTileShape(shape.width, shape.height));
   fields.clear();
   Encoded encoded;
-  if (tile.count() > 0) {
-    FieldWriter writer(tile.width, static_cast<size_t>(tile.count()), dither, impl_->scratch,
-                       fields);
-    forEachField(writer, tile);
+  if (shape.width > 0) {
+    FieldWriter writer(shape.width, static_cast<size_t>(shape.width * shape.height), dither,
+                       level != 0, scratch, fields);
+    write(writer);
     encoded.replaced = writer.replaced();
   }
+  encoded.rawBytes = kHeadBytes + fields.size();
   Bytes& out = encoded.bytes;
   if (level != 0) {
-    writeHead(tile, kZstd, fields.size(), out);
+    writeHead(shape, kZstd, fields.size(), out);
     out.resize(kHeadBytes + ZSTD_compressBound(fields.size()));
     const size_t size =
-        ZSTD_compressCCtx(impl_->zstd.get(), out.data() + kHeadBytes, out.size() - kHeadBytes,
+        ZSTD_compressCCtx(zstd.get(), out.data() + kHeadBytes, out.size() - kHeadBytes,
                           fields.data(), fields.size(), level);
     NINEFOLD_CHECK(ZSTD_isError(size) == 0);
     out.resize(kHeadBytes + size);
     if (size < fields.size()) return encoded;
     out.clear();
   }
-  writeHead(tile, kStored, fields.size(), out);
+  writeHead(shape, kStored, fields.size(), out);
   out.insert(out.end(), fields.begin(), fields.end());
   return encoded;
+}
+
+TileEncoder::TileEncoder() : impl_(std::make_unique<Impl>()) {}
+TileEncoder::~TileEncoder() = default;
+
+TileEncoder::Encoded TileEncoder::encode(const TileResult& tile, uint64_t dither, int level) {
+  return impl_->encode({tile.width, tile.height, tile.layerMask, tile.extraMask}, dither, level,
+                       [&](FieldWriter& writer) { forEachField(writer, tile); });
+}
+
+TileEncoder::Encoded TileEncoder::encode(const RgbImage& radiance, uint64_t dither, int level) {
+  return impl_->encode({radiance.width, radiance.height, 0, 0}, dither, level,
+                       [&](FieldWriter& writer) { writer.light(radiance.pixels); });
 }
 
 struct TileDecoder::Impl {
@@ -144,7 +159,10 @@ UnpackedTile TileDecoder::unpack(Bytes&& bytes, const TileShape& expected) {
     shape.layerMask = expected.layerMask, shape.extraMask = expected.extraMask;
     FieldOpener opener(expected.width, static_cast<size_t>(pixels), fields, tile.fields_,
                        tile.flat_);
-    forEachField(opener, shape);
+    if (expected.layerMask == 0)
+      opener.light({});
+    else
+      forEachField(opener, shape);
   }
   fields.expectEnd();
   return tile;
@@ -171,6 +189,13 @@ void UnpackedTile::copy(const Part& part, uint8_t layers, int stride, TileResult
       copier.skip(kFieldsOfLayer);
   }
   forEachExtraField(copier, out);
+}
+
+void UnpackedTile::copyRadiance(RgbImage& out) const {
+  out.width = width_, out.height = height_;
+  for (auto* plane : {&out.pixels.r, &out.pixels.g, &out.pixels.b}) plane->resize(out.count());
+  const auto width = static_cast<size_t>(width_);
+  FieldCopier(fields_.data(), {0, width, 0, width, width_, height_}).light(out.pixels);
 }
 
 }  // namespace ninefold

@@ -26,7 +26,7 @@
 #include <deque>
 #include <memory>
 
-#include "common/image/layers.h"
+#include "common/image/image.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
 #include "proto/tile_fields.h"
@@ -35,7 +35,8 @@ namespace ninefold {
 
 inline constexpr int kMaxTilePixels = 1 << 14;
 
-// What a decoder must find; everything follows from the task and the scene's needs.
+// What a decoder must find; everything follows from the task and the scene's needs. No layers: the
+// tile is finished radiance.
 struct TileShape {
   int width = 0, height = 0;  // width * height <= kMaxTilePixels; both 0 for an empty task
   uint8_t layerMask = kDiffuseBit;
@@ -52,10 +53,13 @@ class TileEncoder {
 
   struct Encoded {
     Bytes bytes;            // at most kMaxTileBytes (messages.h)
+    size_t rawBytes = 0;    // at level 0
     uint64_t replaced = 0;  // values that were not finite or negative
   };
-  // level: zstd's (1 is the default of the program); 0 stores the planes uncompressed.
+  // level: zstd's; 0 stores the planes uncompressed. What is decoded does not depend on it.
   Encoded encode(const TileResult& tile, uint64_t dither, int level);
+  // A tile's finished radiance, as one field of light.
+  Encoded encode(const RgbImage& radiance, uint64_t dither, int level);
 
  private:
   struct Impl;
@@ -84,6 +88,8 @@ class UnpackedTile {
     int width = 0, height = 0;
   };
   void copy(const Part& part, uint8_t layers, int stride, TileResult& out) const;
+  // All of a tile of radiance; sets the shape of `out`.
+  void copyRadiance(RgbImage& out) const;
 
  private:
   friend class TileDecoder;

@@ -35,6 +35,7 @@ size_t mostFieldBytes(size_t pixels, uint8_t layerMask, uint8_t extraMask) {
   shape.layerMask = layerMask, shape.extraMask = extraMask;
   FieldSizes sizes{pixels};
   forEachField(sizes, shape);
+  if (layerMask == 0) sizes.light({});  // radiance
   return sizes.planes * (1 + pixels) + sizes.scales * 8;
 }
 
@@ -47,7 +48,8 @@ float FieldWriter::usable(float value) {
 }
 
 void FieldWriter::flush(int planes) {
-  for (int i = 0; i < planes; ++i) writePlane(scratch_.plane[static_cast<size_t>(i)], width_, out_);
+  for (int i = 0; i < planes; ++i)
+    writePlane(scratch_.plane[static_cast<size_t>(i)], width_, differences_, out_);
   ++field_;
 }
 

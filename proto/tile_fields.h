@@ -57,10 +57,13 @@ struct BytePlanes {
 
 class FieldWriter {
  public:
-  FieldWriter(int width, size_t pixels, uint64_t dither, BytePlanes& scratch, Bytes& out)
+  // differences: planes may be written as differences, which costs time and helps zstd only.
+  FieldWriter(int width, size_t pixels, uint64_t dither, bool differences, BytePlanes& scratch,
+              Bytes& out)
       : width_(static_cast<size_t>(width)),
         pixels_(pixels),
         dither_(dither),
+        differences_(differences),
         scratch_(scratch),
         out_(out) {
     scratch_.resize(pixels);
@@ -84,6 +87,7 @@ class FieldWriter {
 
   const size_t width_, pixels_;
   const uint64_t dither_;
+  const bool differences_;
   BytePlanes& scratch_;
   Bytes& out_;
   uint32_t field_ = 0;

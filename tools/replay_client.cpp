@@ -79,8 +79,11 @@ class Recorded {
 // One client: answers tasks in their order, as many at once as it has threads.
 class ReplayClient {
  public:
+  enum class Ending : uint8_t { lost, done, failed };
+  using OnEnd = std::function<void(Ending ending, const std::string& reason)>;
+
   ReplayClient(EventLoop& loop, const Options& options, const Recorded& recorded, int number,
-               std::function<void(const std::string&)> onEnd)
+               OnEnd onEnd)
       : loop_(loop),
         recorded_(recorded),
         paced_(options.pace == "recorded"),
@@ -94,7 +97,7 @@ class ReplayClient {
     events.onMessage = [this](Message&& message) {
       std::visit([this](auto& m) { on(m); }, message);
     };
-    events.onClosed = [this](const std::string& reason) { onEnd_(reason); };
+    events.onClosed = [this](const std::string& reason) { onEnd_(ending_, reason); };
     connection_->start(std::move(events));
     msg::Hello hello;
     hello.name = fmt::format("replay {}", number_);
@@ -116,7 +119,8 @@ class ReplayClient {
     connection_->send(msg::Ready{m.sceneVersion, m.jobVersion});
   }
   void on(msg::Ping& m) { connection_->send(msg::Pong{m.clockNs, 0}); }
-  void on(msg::Refuse& m) { onEnd_("refused: " + m.reason); }
+  void on(msg::Refuse& m) { stop("the master refused: " + m.reason); }
+  void on(msg::Goodbye&) { ending_ = Ending::done; }
   void on(msg::Cancel& m) {
     std::erase_if(waiting_, [&](const auto& a) { return a.second.frame < m.frame; });
   }
@@ -127,12 +131,15 @@ class ReplayClient {
   template <typename Other>
   void on(Other&) {}
 
+  void stop(std::string why) {
+    ending_ = Ending::failed;
+    connection_->close(std::move(why));
+  }
   void take(const FrameKey& frame, const msg::TaskItem& item) {
     const msg::Result* recorded = recorded_.find(frame.frame, item);
     if (recorded == nullptr)
-      return onEnd_(
-          fmt::format("no result for tile {}, phase {}: recorded of another picture size?",
-                      item.tile, item.phase));
+      return stop(fmt::format("no result for tile {}, phase {}: recorded of another picture?",
+                              item.tile, item.phase));
     msg::Result result = *recorded;
     result.jobVersion = job_, result.frame = frame.frame;
     const int set = lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, sets_);
@@ -163,7 +170,7 @@ class ReplayClient {
   const Recorded& recorded_;
   const bool paced_;
   const int number_;
-  const std::function<void(const std::string&)> onEnd_;
+  const OnEnd onEnd_;
   std::shared_ptr<Connection> connection_;
   uint32_t job_ = 0;
   int sets_ = 1;
@@ -171,42 +178,57 @@ class ReplayClient {
   std::multimap<Time, msg::Result> waiting_;  // by when they are due
   std::set<std::pair<uint32_t, int>> made_;   // light sets, by randomization
   std::unique_ptr<EventLoop::Timer> timer_;
+  Ending ending_ = Ending::lost;
 };
 
-// All of them in one loop; ends when the last connection does.
+// All of them in one loop. A lost connection is dialled again; ends when the master is done.
 class Replay {
  public:
   Replay(const Options& options)
       : options_(options),
         recorded_(options.recording),
-        key_(std::make_shared<const Key>(Key::load(options.keyFile))) {}
+        key_(std::make_shared<const Key>(Key::load(options.keyFile))),
+        clients_(static_cast<size_t>(options.clients)),
+        retries_(clients_.size()),
+        left_(options.clients) {}
 
   int run() {
-    for (int i = 1; i <= options_.clients; ++i) dial(i);
+    for (size_t i = 0; i < clients_.size(); ++i) dial(i);
     loop_.run();
-    return failed_ ? 1 : 0;
+    if (failure_.empty()) return 0;
+    std::cerr << "ninefold-replay-client: " << failure_ << "\n";
+    return 1;
   }
 
  private:
-  void dial(int number) {
+  using Ending = ReplayClient::Ending;
+
+  void dial(size_t i) {
+    ConnectionOptions line;
+    line.silence = std::chrono::seconds(10);  // as real clients
     connect(
         loop_, parseEndpoint(options_.master, "--master"), KeyUse::cluster, key_,
-        [this, number](std::shared_ptr<Connection> connection) {
-          ++open_;
-          clients_.push_back(std::make_unique<ReplayClient>(
-              loop_, options_, recorded_, number, [this](const std::string& why) { ended(why); }));
-          clients_.back()->start(std::move(connection));
+        [this, i](std::shared_ptr<Connection> connection) {
+          joined_ = true;
+          clients_[i] = std::make_unique<ReplayClient>(
+              loop_, options_, recorded_, static_cast<int>(i) + 1,
+              [this, i](Ending ending, const std::string& reason) { ended(i, ending, reason); });
+          clients_[i]->start(std::move(connection));
         },
-        [this](const ConnectFailure& failure) { fatal(failure.line); });
+        [this, i](const ConnectFailure& failure) { notConnected(i, failure); }, line);
   }
-  void ended(const std::string& why) {
-    if (why.starts_with("refused") || why.starts_with("no result")) return fatal(why);
-    if (--open_ == 0) loop_.stop();
+  // A master that was there and is no more is done.
+  void notConnected(size_t i, const ConnectFailure& failure) {
+    const bool gone = failure.problem == ConnectProblem::refused;
+    ended(i, !joined_ ? Ending::failed : gone ? Ending::done : Ending::lost, failure.line);
   }
-  void fatal(const std::string& line) {
-    std::cerr << "ninefold-replay-client: " << line << "\n";
-    failed_ = true;
-    loop_.stop();
+  void ended(size_t i, Ending ending, const std::string& reason) {
+    if (ending == Ending::lost) {
+      retries_[i] = loop_.after(milliseconds(500), [this, i] { dial(i); });
+      return;
+    }
+    if (ending == Ending::failed) failure_ = reason;
+    if (--left_ == 0 || ending == Ending::failed) loop_.stop();
   }
 
   const Options& options_;
@@ -214,8 +236,10 @@ class Replay {
   const std::shared_ptr<const Key> key_;
   EventLoop loop_;
   std::vector<std::unique_ptr<ReplayClient>> clients_;
-  int open_ = 0;
-  bool failed_ = false;
+  std::vector<std::unique_ptr<EventLoop::Timer>> retries_;
+  int left_;
+  bool joined_ = false;
+  std::string failure_;
 };
 
 int run(int argc, char** argv) {

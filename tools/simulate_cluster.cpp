@@ -23,7 +23,7 @@ namespace {
 namespace po = boost::program_options;
 
 struct Options {
-  int clients = 16, frames = 100, framesInFlight = 8;
+  int clients = 16, frames = 100, framesInFlight = 16;
   uint32_t seed = 1;
   std::string size = "640x480";
   double taskMs = 4, setMs = 0.5, failEvery = 0, straggleEvery = 0;
@@ -109,8 +109,9 @@ int run(int argc, char** argv) {
   flags.add_options()("clients", po::value(&o.clients), "1 to 10000, default 16")(
       "mixed", po::bool_switch(&o.mixed), "of mixed speed; default: all alike, one thread")(
       "frames", po::value(&o.frames), "to complete, default 100")(
-      "frames-in-flight", po::value(&o.framesInFlight), "open at once at most, default 8")(
-      "size", po::value(&o.size), "WxH, default 640x480")(
+      "frames-in-flight", po::value(&o.framesInFlight),
+      "open at once at most, default 16 as the master")("size", po::value(&o.size),
+                                                        "WxH, default 640x480")(
       "task-ms", po::value(&o.taskMs), "work of a full task for a thread of speed 1, default 4")(
       "set-ms", po::value(&o.setMs), "work of a light set, default 0.5")(
       "fail-every", po::value(&o.failEvery), "seconds; default 0: never")(

@@ -39,7 +39,7 @@ struct SimulatedClient {
 struct SimulatedJob {
   TileGrid grid{640, 480, {3, 3}};
   int frames = 20;
-  int framesInFlight = 3;
+  int framesInFlight = 16;
   bool moving = false;        // all frames share one randomization, as in motion
   double taskSeconds = 4e-3;  // 1024 pixels at 1000 frames a second and 64 clients or so
   double setSeconds = 5e-4;

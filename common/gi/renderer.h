@@ -7,8 +7,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "common/image/layers.h"
+#include "common/sampling/interleave.h"
 #include "common/scene/settings.h"
 #include "common/tracing/tracer.h"
 
@@ -23,6 +25,7 @@ struct Task {
   int tile = 0;
   int phase = 0;
   uint8_t extraMask = 0;
+  std::optional<TaskRect> rect = {};  // other pixels of the phase than the tile's own
 };
 
 class Renderer {

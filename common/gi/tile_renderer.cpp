@@ -175,7 +175,7 @@ void renderTask(const Transport& t, const MediumStack& eyeMedia, const Task& tas
                 const LightSet& lights, Scratch& scratch, TileResult& out) {
   const Settings& s = t.settings;
   const TileGrid grid(s.width, s.height, s.interleave);
-  const TaskRect rect = grid.rect(task.tile, task.phase);
+  const TaskRect rect = task.rect.value_or(grid.rect(task.tile, task.phase));
   out.reset(rect.width, rect.height, layerMaskOf(t.needs, s.method), task.extraMask);
   TaskContext c{
       t, eyeMedia, task, lights, rect, grid, CameraRays(s.camera, s.width, s.height), scratch, out};

@@ -24,6 +24,9 @@ struct FrameShape {
   uint8_t extraMask = 0;
 };
 
+// Tiles come filtered by the clients: as radiance, without layers, each in one task (phase 0).
+inline bool isFiltered(const FrameShape& shape) { return shape.layerMask == 0; }
+
 class Patch {
  public:
   static constexpr int kSide = kTaskSide + 2;

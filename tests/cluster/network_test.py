@@ -187,6 +187,26 @@ class Lan(ClusterTest):
             self.assertEqual(stats["image_hash"], here["image_hash"], attempt)
             self.assertTrue(any((self.folder / "cache").iterdir()))
 
+    def test_a_slow_line_carries_fewer_bytes_and_the_same_picture(self):
+        self.new_key()
+        stats = {}
+        for line in ("fast", "slow"):
+            if line == "slow":
+                for host in self.hosts:
+                    shaped = subprocess.run(["ip", "netns", "exec", host, "tc", "qdisc", "add", "dev", "lan", "root",
+                                             "tbf", "rate", "4mbit", "burst", "16kb", "latency", "50ms"],
+                                            capture_output=True)
+                    if shaped.returncode != 0:
+                        self.skipTest(f"no token bucket here: {shaped.stderr.decode().strip()}")
+            master = self.master("--local-clients", 0, "--listen", "0.0.0.0:4700", "--key-file",
+                                 "cluster.key", frames=30, prefix=self.on(0))
+            master.waits_for("listening on")
+            client = self.client("10.77.0.1:4700", prefix=self.on(1))
+            stats[line] = self.finish(master)
+            self.assertEqual(client.ends(), 0, client.text)
+        self.assertEqual(stats["slow"]["image_hash"], stats["fast"]["image_hash"])
+        self.assertLess(stats["slow"]["bytes_received"], 0.9 * stats["fast"]["bytes_received"])
+
     def test_a_cut_cable_loses_the_client_and_not_the_run(self):
         here = self.render("--local-clients", 1, frames=60)
         self.new_key()

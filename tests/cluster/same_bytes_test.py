@@ -17,6 +17,19 @@ class SameBytes(ClusterTest):
             hashes[clients, threads] = stats["image_hash"]
         self.assertEqual(len(set(hashes.values())), 1, hashes)
 
+    def test_compression_does_not_show(self):
+        hashes = {level: self.render("--local-clients", 2, "--wire-level", level, frames=3)["image_hash"]
+                  for level in ("auto", 0, 1, 5)}
+        self.assertEqual(len(set(hashes.values())), 1, hashes)
+
+    def test_filtered_by_clients_any_number_of_them(self):
+        hashes = {}
+        for clients, threads in [(1, 1), (3, 1), (1, 2)]:
+            stats = self.render("--local-clients", clients, "--client-threads", threads, "--filter-at", "clients",
+                                scene="table_room", frames=3)
+            hashes[clients, threads] = stats["image_hash"]
+        self.assertEqual(len(set(hashes.values())), 1, hashes)
+
     def test_another_seed_is_another_picture(self):
         one = self.render("--local-clients", 1, "--seed", 1, frames=2)
         two = self.render("--local-clients", 1, "--seed", 2, frames=2)

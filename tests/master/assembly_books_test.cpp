@@ -26,7 +26,7 @@ TEST(AssemblyBooks, ATileIsReadyWhenAllAroundItIsThere) {
   std::mt19937 random(5);
   for (int run = 0; run < 20; ++run) {
     AssemblyBooks books;
-    books.open(7, kGrid);
+    books.open(7, kGrid, false);
     auto tasks = tasksOf(kGrid);
     std::ranges::shuffle(tasks, random);
     std::vector<int> toCome(static_cast<size_t>(kGrid.tiles()), 0);
@@ -40,7 +40,7 @@ TEST(AssemblyBooks, ATileIsReadyWhenAllAroundItIsThere) {
       while (const auto next = books.nextTile()) ASSERT_TRUE(handedOut.insert(*next).second);
       for (int t = 0; t < kGrid.tiles(); ++t) {
         bool complete = true;
-        forEachAround(kGrid, t, [&](int a) { complete &= toCome[static_cast<size_t>(a)] == 0; });
+        forEachAround(kGrid, t, 1, [&](int a) { complete &= toCome[static_cast<size_t>(a)] == 0; });
         ASSERT_EQ(handedOut.contains(t), complete) << t;
       }
     }
@@ -50,7 +50,7 @@ TEST(AssemblyBooks, ATileIsReadyWhenAllAroundItIsThere) {
       for (const int u : books.tileDone(7, tile)) ASSERT_TRUE(unused.insert(u).second);
       for (int t = 0; t < kGrid.tiles(); ++t) {
         bool allDone = true;
-        forEachAround(kGrid, t, [&](int a) { allDone &= done.contains(a); });
+        forEachAround(kGrid, t, 1, [&](int a) { allDone &= done.contains(a); });
         ASSERT_EQ(unused.contains(t), allDone) << t;
       }
     }
@@ -61,8 +61,8 @@ TEST(AssemblyBooks, ATileIsReadyWhenAllAroundItIsThere) {
 TEST(AssemblyBooks, OnlyTheFrontFramesTilesAreHandedOut) {
   const TileGrid grid(96, 96, {3, 3});
   AssemblyBooks books;
-  books.open(4, grid);
-  books.open(5, grid);
+  books.open(4, grid, false);
+  books.open(5, grid, false);
   for (const auto& [tile, phase] : tasksOf(grid)) books.place(5, tile, phase);
   EXPECT_FALSE(books.hasTile());
   for (const auto& [tile, phase] : tasksOf(grid)) books.place(4, tile, phase);
@@ -73,6 +73,17 @@ TEST(AssemblyBooks, OnlyTheFrontFramesTilesAreHandedOut) {
   books.close(4);
   EXPECT_EQ(books.nextTile(), 0);
   EXPECT_FALSE(books.isWanted(4, 0, 0));
+}
+
+TEST(AssemblyBooks, ATileThatComesFilteredWaitsForNoOther) {
+  AssemblyBooks books;
+  books.open(1, kGrid, true);
+  for (int tile = 0; tile < kGrid.tiles(); ++tile) {
+    books.place(1, tile, 0);
+    EXPECT_EQ(books.nextTile(), tile);
+    EXPECT_EQ(books.tileDone(1, tile), std::vector<int>{tile});
+  }
+  EXPECT_TRUE(books.isDone(1));
 }
 
 }  // namespace

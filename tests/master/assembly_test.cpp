@@ -55,7 +55,7 @@ class AssemblyTest : public testing::TestWithParam<int> {
     const int number = static_cast<int>(frame.view.key.frame);
     if (number != finishing) finished.clear(), finishing = number;
     TileResult planes;
-    forEachAround(kGrid, tile, [&](int around) {
+    forEachAround(kGrid, tile, 1, [&](int around) {
       for (int phase = 0; phase < kGrid.interleave().sets(); ++phase) {
         const UnpackedTile& task = frame.task(around, phase);
         const TaskRect rect = kGrid.rect(around, phase);

@@ -51,7 +51,7 @@ class ClientSessionTest : public testing::Test {
   }
 
   std::vector<Blob> blobs = someBlobs();
-  JobOffer offer{blobs, Settings()};
+  JobOffer offer{blobs, Settings(), {}};
   Admission admission;
   Time now = Time(std::chrono::hours(1));
   ClientId ids = 0;

@@ -69,7 +69,8 @@ TEST(Options, EveryFlagIsRead) {
       "--environment 1,2,3.5 "
       "--frames 11 --seconds 1.5 --until-error 0.01 --aovs --exposure -1.5 --view beauty "
       "--headless --filter none --randomization random --seed 18446744073709551615 --isa avx2 "
-      "--stats s.json room.glb");
+      "--wire-level 3 --stats s.json room.glb");
+  EXPECT_EQ(o.wireLevel, 3);
   EXPECT_EQ(o.scene, "room.glb");
   EXPECT_EQ(o.settings.width, 320);
   EXPECT_EQ(o.settings.height, 200);
@@ -102,6 +103,16 @@ TEST(Options, EveryFlagIsRead) {
   EXPECT_EQ(o.isa, "avx2");
   EXPECT_EQ(o.stats, "s.json");
   EXPECT_EQ(o.output, "out.exr");
+}
+
+TEST(Options, ClientsFilterWhatTheyCan) {
+  EXPECT_FALSE(parse("room.glb").filterAtClients);
+  EXPECT_TRUE(parse("room.glb --filter-at clients --interleave 4x4").filterAtClients);
+  EXPECT_NE(complaint("room.glb --filter-at clients --interleave 5x4").find("--interleave"),
+            std::string::npos);
+  EXPECT_NE(complaint("room.glb --filter-at clients --aovs").find("--aovs"), std::string::npos);
+  EXPECT_EQ(parse("room.glb --wire-level auto").wireLevel, Delivery::kAdaptive);
+  EXPECT_NE(complaint("room.glb --wire-level 20"), "");
 }
 
 TEST(Options, EqualSignsWorkToo) {

@@ -85,7 +85,8 @@ class ServerTest : public testing::Test {
       loop.post([this, tile] { server->decoded(tile, judge(tile), Clock::now()); });
       return true;
     };
-    const ServerSetup setup{{"127.0.0.1", 0}, {key, nullptr}, grid, 0, 1};
+    const ServerSetup setup{
+        {"127.0.0.1", 0}, {key, nullptr}, {grid, kDiffuseBit, 0}, [](uint32_t) { return 1.0f; }, 1};
     server = std::make_unique<Server>(loop, setup, offer, std::move(duty));
   }
   ~ServerTest() override {
@@ -118,7 +119,7 @@ class ServerTest : public testing::Test {
   EventLoop loop;
   const std::shared_ptr<const Key> key = std::make_shared<const Key>(Key::random());
   const TileGrid grid{96, 72, {3, 3}};
-  const JobOffer offer{anyScene(), smallPicture()};
+  const JobOffer offer{anyScene(), smallPicture(), {}};
   std::function<std::optional<std::string>(const ReceivedTile&)> judge = [](const ReceivedTile&) {
     return std::nullopt;
   };

@@ -43,12 +43,12 @@ std::vector<Message> oneOfEach() {
       msg::SceneOffer{3, {{someHash(1), 10, BlobKind::image}, {someHash(2), 20, BlobKind::rest}}},
       msg::BlobRequest{someHash(3), 1 << 20},
       msg::BlobChunk{someHash(4), 100, 103, Bytes(3, std::byte{9})},
-      msg::Configure{3, 4, oddSettings()},
+      msg::Configure{3, 4, oddSettings(), {9, SurfaceTest::none}},
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
-      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}},
+      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f},
       msg::Cancel{4, 10},
-      msg::Result{4, 10, 1, 2, 12345, 1, 6, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
+      msg::Result{4, 10, 1, 2, 12345, 3, 6, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::Ping{1},
       msg::Pong{1, 2},
       msg::Goodbye{"done"}};
@@ -174,7 +174,7 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
       {"extra mask", msg::Tasks{1, {}, {{0, 0, 32}}}},
       {"phase", msg::Tasks{1, {}, {{0, 256, 0}}}},
       {"photon radius", msg::Tasks{1, {0, 0, 0, NAN}, {{0, 0, 0}}}},
-      {"sets made", msg::Result{1, 1, 1, 1, 1, 2, 0, {}, {}}},
+      {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, {}, {}}},
   };
   for (const auto& [field, message] : cases) {
     const std::string text = refusal(Message(message));

@@ -203,6 +203,30 @@ TEST(TileCodec, EveryFlippedBitGivesAnErrorOrFiniteValues) {
   }
 }
 
+TEST(TileCodec, TheLevelChangesNothingThatIsDecoded) {
+  const TileResult tile = TileMaker(13).make(32, 32, kAllLayers, kAllExtraPlanes);
+  const TileResult stored = decodeAll(encode(tile, 5, 0), shapeOf(tile));
+  for (const int level : {1, 5, 19}) {
+    const TileResult got = decodeAll(encode(tile, 5, level), shapeOf(tile));
+    EXPECT_EQ(got.layers, stored.layers) << level;
+    EXPECT_EQ(got.extras, stored.extras) << level;
+  }
+}
+
+TEST(TileCodec, RadianceComesBackWithinTheBoundOfLight) {
+  const TileResult random = TileMaker(14).make(96, 96, kDiffuseBit, 0);
+  const RgbImage sent{96, 96, random.layers[kDiffuse].unfiltered};
+  for (const int level : {0, 1}) {
+    const Bytes bytes = TileEncoder().encode(sent, 3, level).bytes;
+    EXPECT_LE(bytes.size(), 96u * 96 * 4 + 64);
+    RgbImage got;
+    TileDecoder().unpack(Bytes(bytes), {96, 96, 0, 0}).copyRadiance(got);
+    EXPECT_EQ(got.width, 96);
+    expectLight(sent.pixels, got.pixels);
+    EXPECT_THROW(TileDecoder().unpack(Bytes(bytes), {96, 96, kDiffuseBit, 0}), Error);
+  }
+}
+
 TEST(TileCodec, PartsAreThoseOfTheWhole) {
   const TileResult tile = TileMaker(12).make(13, 9, kAllLayers, kAllExtraPlanes);
   const TileShape shape = shapeOf(tile);

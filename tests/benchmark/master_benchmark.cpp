@@ -1,0 +1,142 @@
+// master_benchmark: what a pixel costs the master, kernel by kernel, beside the memory traffic that the
+// filter cannot do without. One thread, one tile of 96 x 96 pixels with its neighbourhood, in cache as
+// in a run. The column "per_pixel" is seconds.
+#include <benchmark/benchmark.h>
+
+#include <random>
+
+#include "common/image/film.h"
+#include "common/image/patch_filter.h"
+#include "proto/tile_codec.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kPixels = 96 * 96;
+const TileGrid kGrid(288, 288, {3, 3});
+constexpr int kMiddle = 4;  // of 3 x 3 tiles
+
+// A wall with a texture and noise, as a client would send it: diffuse layer only.
+TileResult task(int phase) {
+  std::mt19937 random(static_cast<uint32_t>(phase));
+  std::uniform_real_distribution<float> uniform(0, 1);
+  TileResult tile;
+  tile.reset(kTaskSide, kTaskSide, kDiffuseBit, 0);
+  LayerPlanes& layer = tile.layers[kDiffuse];
+  for (size_t i = 0; i < kTaskSide * kTaskSide; ++i) {
+    layer.distance[i] = 3 + 0.001f * static_cast<float>(i % kTaskSide);
+    layer.normal.b[i] = 1;
+    for (auto* plane : {&layer.irradiance.r, &layer.irradiance.g, &layer.irradiance.b})
+      (*plane)[i] = 1 + 0.1f * uniform(random);
+    for (auto* plane : {&layer.reflectance.r, &layer.reflectance.g, &layer.reflectance.b})
+      (*plane)[i] = 0.2f + 0.05f * uniform(random);
+  }
+  return tile;
+}
+
+std::vector<Bytes> encoded(int level) {
+  std::vector<Bytes> all;
+  for (int phase = 0; phase < 9; ++phase)
+    all.push_back(TileEncoder().encode(task(phase), static_cast<uint64_t>(phase), level).bytes);
+  return all;
+}
+
+void fill(Patch& patch, const std::vector<UnpackedTile>& tasks) {
+  patch.reset({kGrid, kDiffuseBit, 0}, kMiddle);
+  patch.lighten(kDiffuseBit);
+  for (int tile = 0; tile < 9; ++tile)
+    for (int phase = 0; phase < 9; ++phase) {
+      const Patch::Overlap part = patch.overlap(kGrid.rect(tile, phase));
+      tasks[static_cast<size_t>(phase)].copy(
+          {part.fromI, part.fromJ, part.to, part.width, part.height}, kDiffuseBit, Patch::kSide,
+          patch.phase(phase));
+    }
+}
+
+std::vector<UnpackedTile> unpacked(int level) {
+  TileDecoder decoder;
+  std::vector<UnpackedTile> tasks;
+  for (Bytes& bytes : encoded(level))
+    tasks.push_back(decoder.unpack(std::move(bytes), {kTaskSide, kTaskSide, kDiffuseBit, 0}));
+  return tasks;
+}
+
+void perPixel(benchmark::State& state) {
+  state.counters["per_pixel"] = benchmark::Counter(
+      kPixels, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void Unpack(benchmark::State& state) {
+  const std::vector<Bytes> bytes = encoded(static_cast<int>(state.range(0)));
+  TileDecoder decoder;
+  for (auto _ : state)
+    for (const Bytes& task : bytes)
+      benchmark::DoNotOptimize(
+          decoder.unpack(Bytes(task), {kTaskSide, kTaskSide, kDiffuseBit, 0}).bytes());
+  perPixel(state);
+}
+BENCHMARK(Unpack)->ArgName("level")->Arg(0)->Arg(1);
+
+void Decode(benchmark::State& state) {
+  const std::vector<UnpackedTile> tasks = unpacked(0);
+  Patch patch;
+  for (auto _ : state) {
+    fill(patch, tasks);
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(Decode);
+
+void Filter(benchmark::State& state) {
+  Patch patch;
+  fill(patch, unpacked(0));
+  PatchFilter filter(SurfaceTest::surface);
+  RgbImage beauty;
+  const Camera camera{"", Vec3(0), Vec3(0, 0, -1), Vec3(0, 1, 0), 0.8f};
+  for (auto _ : state) {
+    filter.compose(patch, camera, 1, beauty);
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(Filter);
+
+// What the filter reads and writes, without its arithmetic: 17 planes in, 3 out.
+void Traffic(benchmark::State& state) {
+  std::vector<std::vector<float>> planes(17, std::vector<float>(9 * Patch::kPixels, 1.0f));
+  std::vector<std::vector<float>> out(3, std::vector<float>(9 * Patch::kPixels));
+  for (auto _ : state) {
+    for (size_t c = 0; c < 3; ++c) {
+      float* to = out[c].data();
+      std::copy(planes[c].begin(), planes[c].end(), to);
+      for (size_t p = 3 + c; p < planes.size(); p += 3) {
+        const float* from = planes[p].data();
+#pragma GCC ivdep
+        for (size_t i = 0; i < out[c].size(); ++i) to[i] += from[i];
+      }
+    }
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(Traffic);
+
+// The film of a 1920 x 1080 picture, tile after tile: from memory.
+void FilmTile(benchmark::State& state) {
+  Film film(1920, 1056, false);
+  RgbImage tile;
+  tile.reset(96, 96);
+  int next = 0;
+  for (auto _ : state) {
+    film.addTile(next % 20 * 96, next / 20 * 96, tile);
+    next = (next + 1) % 220;
+  }
+  perPixel(state);
+}
+BENCHMARK(FilmTile);
+
+}  // namespace
+}  // namespace ninefold
+
+BENCHMARK_MAIN();
