@@ -37,9 +37,20 @@ struct KeepBlob {
 struct BuildScene {
   uint32_t load = 0;
 };
+// The scene as it was fetched has changed: jobs from here on see it so. Answered by sceneFailed() if
+// that cannot be.
+struct EditScene {
+  uint32_t load = 0;
+  SceneEdit edit;
+};
+// Back to the scene as it was fetched.
+struct RestoreScene {
+  uint32_t load = 0;
+};
 // Make a renderer of the built scene; answered by jobPrepared() or sceneFailed().
 struct PrepareJob {
   uint32_t load = 0;
+  uint32_t line = 0;
   uint32_t jobVersion = 0;
   Settings settings;
   Delivery delivery;
@@ -64,7 +75,7 @@ struct Exit {
   std::string line;
 };
 
-using Action = std::variant<Connect, Send, Disconnect, FindBlobs, KeepBlob, BuildScene, PrepareJob,
-                            StartTasks, CancelTasks, Tell, Exit>;
+using Action = std::variant<Connect, Send, Disconnect, FindBlobs, KeepBlob, BuildScene, EditScene,
+                            RestoreScene, PrepareJob, StartTasks, CancelTasks, Tell, Exit>;
 
 }  // namespace ninefold::act

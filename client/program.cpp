@@ -10,6 +10,7 @@ namespace ninefold::client {
 namespace {
 
 constexpr Duration kTick = milliseconds(100);
+constexpr size_t kEarly = 1024;          // messages with tasks that wait for their job
 constexpr size_t kTasksPerThread = 256;  // twice what the scheduler may ever have out, and some
 
 Time now() { return Clock::now(); }
@@ -80,10 +81,13 @@ SceneBuilder::Answers Program::answers() {
   answers.built = [this](uint32_t load) {
     later([this, load] { session_.sceneBuilt(load, now()); });
   };
-  answers.prepared = [this](uint32_t load, uint32_t version, std::shared_ptr<RenderJob> job) {
-    later([this, load, version, job = std::move(job)] {
-      job_ = job;
-      session_.jobPrepared(load, version, now());
+  answers.prepared = [this](const act::PrepareJob& asked, std::shared_ptr<RenderJob> job) {
+    later([this, load = asked.load, line = asked.line, version = asked.jobVersion,
+           job = std::move(job)] {
+      if (!session_.jobPrepared(load, line, version, now())) return;
+      jobs_[version] = job;
+      while (jobs_.size() > kJobsKept) jobs_.erase(jobs_.begin());
+      startEarly();
     });
   };
   answers.failed = [this](uint32_t load, std::string line) {
@@ -138,11 +142,27 @@ void Program::on(act::Disconnect&& action) {
 }
 
 void Program::on(act::StartTasks&& action) {
+  early_.push_back(std::move(action));
+  if (early_.size() > kEarly) return session_.tasksRefused(now());
+  startEarly();
+}
+
+// In their order, as far as their jobs are there.
+void Program::startEarly() {
+  while (!early_.empty()) {
+    const auto job = jobs_.find(early_.front().tasks.jobVersion);
+    if (job == jobs_.end()) return;
+    start(early_.front(), job->second);
+    early_.pop_front();
+  }
+}
+
+void Program::start(const act::StartTasks& action, const std::shared_ptr<RenderJob>& job) {
   for (const msg::TaskItem& item : action.tasks.items) {
-    const auto job = [this, job = job_, line = action.line, frame = action.tasks.frame,
-                      weight = action.tasks.neighbourWeight,
-                      item](int thread) { runTask(*job, line, frame, weight, item, thread); };
-    if (!workers_.start(action.tasks.frame.frame, job)) return session_.tasksRefused(now());
+    const auto work = [this, job, line = action.line, frame = action.tasks.frame,
+                       weight = action.tasks.neighbourWeight,
+                       item](int thread) { runTask(*job, line, frame, weight, item, thread); };
+    if (!workers_.start(action.tasks.frame.frame, work)) return session_.tasksRefused(now());
   }
 }
 
@@ -168,7 +188,10 @@ void Program::adaptLevel(const RenderJob::Done& done) {
 }
 
 void Program::on(act::CancelTasks&& action) {
-  workers_.cancel([&](uint32_t frame) { return action.everything || frame < action.frame; });
+  const auto isVoid = [&](uint32_t frame) { return action.everything || frame < action.frame; };
+  workers_.cancel(isVoid);
+  std::erase_if(early_, [&](const auto& tasks) { return isVoid(tasks.tasks.frame.frame); });
+  if (action.everything) jobs_.clear();  // another connection counts anew
 }
 
 void Program::on(act::Tell&& action) {

@@ -6,6 +6,8 @@
 #pragma once
 
 #include <atomic>
+#include <deque>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -35,12 +37,16 @@ class Program {
   void on(act::FindBlobs&& a) { builder_.ask(std::move(a)); }
   void on(act::KeepBlob&& a) { builder_.ask(std::move(a)); }
   void on(act::BuildScene a) { builder_.ask(a); }
+  void on(act::EditScene&& a) { builder_.ask(std::move(a)); }
+  void on(act::RestoreScene a) { builder_.ask(a); }
   void on(act::PrepareJob&& a) { builder_.ask(std::move(a)); }
   void on(act::StartTasks&&);
   void on(act::CancelTasks&&);
   void on(act::Tell&&);
   void on(act::Exit&&);
 
+  void start(const act::StartTasks& tasks, const std::shared_ptr<RenderJob>& job);
+  void startEarly();
   void startConnection(std::shared_ptr<Connection> connection);
   void runTask(RenderJob& job, uint32_t line, const FrameKey& frame, float neighbourWeight,
                const msg::TaskItem& item, int thread);
@@ -58,7 +64,8 @@ class Program {
   const std::unique_ptr<Recorder> recorder_;  // null: nothing is kept
   Session session_;
   std::shared_ptr<Connection> connection_;
-  std::shared_ptr<RenderJob> job_;
+  std::map<uint32_t, std::shared_ptr<RenderJob>> jobs_;  // the latest kJobsKept that are prepared
+  std::deque<act::StartTasks> early_;                    // tasks whose job is being prepared
   std::unique_ptr<EventLoop::Timer> timer_;
   const int threads_;
   WireLevel wireLevel_;

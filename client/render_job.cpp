@@ -15,22 +15,45 @@ constexpr size_t kFramesKept = 3;
 
 RenderJob::RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion,
                      const Settings& settings, const Delivery& delivery, int threads)
-    : scene_(std::move(scene)),
+    : light_(std::make_shared<Light>(std::move(scene), settings, delivery, threads)),
       jobVersion_(jobVersion),
       settings_(settings),
       delivery_(delivery),
       grid_(settings.width, settings.height, settings.interleave),
-      layerMask_(layerMaskOf(needsOf(scene_->scene, settings.environment), settings.method)),
-      renderer_(scene_->tracer, settings_),
-      sets_([this](const FrameKey& frame, int set) { return renderer_.lightSet(frame, set); },
-            kFramesKept) {
+      layerMask_(light_->layerMask),
+      renderer_(light_->renderer, settings) {}
+
+RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings)
+    : light_(lit.light_),
+      jobVersion_(jobVersion),
+      settings_(settings),
+      delivery_(lit.delivery_),
+      grid_(settings.width, settings.height, settings.interleave),
+      layerMask_(lit.layerMask_),
+      renderer_(light_->renderer, settings) {}
+
+RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& settings,
+                        const Delivery& delivery, int threads)
+    : scene(std::move(s)),
+      layerMask(layerMaskOf(needsOf(*scene->scene, settings.environment), settings.method)),
+      renderer(scene->tracer, settings),
+      sets([this](const FrameKey& frame, int set) { return renderer.lightSet(frame, set); },
+           kFramesKept) {
   const SurfaceTest test = delivery.filter.value_or(SurfaceTest::none);
-  for (int i = 0; i < threads; ++i) desks_.push_back(std::make_unique<Desk>(renderer_, test));
+  for (int i = 0; i < threads; ++i) desks.push_back(std::make_unique<Desk>(renderer, test));
+}
+
+bool RenderJob::hasLightOf(const std::shared_ptr<const TracedScene>& scene,
+                           const Settings& settings) const {
+  Settings seen = settings_;
+  seen.camera = settings.camera;
+  seen.width = settings.width, seen.height = settings.height;
+  return scene == light_->scene && seen == settings;
 }
 
 RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
                                float neighbourWeight, int level, int thread, Time (*now)()) {
-  Desk& desk = *desks_[static_cast<size_t>(thread)];
+  Desk& desk = *light_->desks[static_cast<size_t>(thread)];
   const Task task{
       frame, static_cast<int>(item.tile), static_cast<int>(item.phase), item.extraMask, {}};
   const Time start = now();
@@ -61,7 +84,7 @@ RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
 void RenderJob::trace(const Task& task, Desk& desk, Work& work, Time (*now)()) {
   const Time start = now();
   const int set = lightSetOfPhase(task.phase, task.frame.rotation, settings_.interleave.sets());
-  const LightSetCache::Found lights = sets_.get(task.frame, set);
+  const LightSetCache::Found lights = light_->sets.get(task.frame, set);
   if (lights.madeHere)
     ++work.setsMade, work.rays += lights.set->rays;
   else

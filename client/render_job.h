@@ -5,6 +5,9 @@
 // is sent is the radiance that the master would have made of them; but that VPL roulette chooses
 // for other packets of receivers, around the tile.
 //
+// Jobs that differ in nothing but camera and size share their light: what was worked out about the
+// lamps, the light sets that were made, and the threads' working memory.
+//
 // Threads: run may be called at once for different `thread` numbers, each has its own working
 // memory; light sets are shared through the cache. Owner: shared_ptr, tasks in progress keep it
 // alive. Errors: the constructor throws Error (settings that the scene cannot serve); run what the
@@ -18,15 +21,23 @@
 #include "common/base/clock.h"
 #include "common/gi/renderer.h"
 #include "common/image/patch_filter.h"
+#include "common/scene/edit.h"
 #include "proto/messages.h"
 #include "proto/tile_codec.h"
 
 namespace ninefold {
 
-// A scene with the hierarchy that refers to it.
+// A scene with the hierarchy that refers to it, as it was fetched or after edits.
 struct TracedScene {
-  TracedScene(Scene&& s, Isa isa) : scene(std::move(s)), tracer(scene, isa) {}
-  const Scene scene;
+  TracedScene(std::shared_ptr<const Scene> fetched, Isa isa)
+      : asFetched(std::move(fetched)), scene(asFetched), tracer(*scene, isa) {}
+  // `all`: edits of the scene as it was fetched. What `before` has is shared as far as it is the same.
+  TracedScene(const TracedScene& before, const SceneEdit& all)
+      : asFetched(before.asFetched),
+        scene(std::make_shared<const Scene>(edited(*asFetched, all))),
+        tracer(before.tracer, *scene, movedInstances(*asFetched, all)) {}
+
+  const std::shared_ptr<const Scene> asFetched, scene;
   const Tracer tracer;
 };
 
@@ -34,6 +45,9 @@ class RenderJob {
  public:
   RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion, const Settings& settings,
             const Delivery& delivery, int threads);
+  // The light of `lit` under settings for which lit.hasLightOf(scene, settings).
+  RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings);
+  bool hasLightOf(const std::shared_ptr<const TracedScene>& scene, const Settings& settings) const;
 
   struct Done {
     msg::Result result;
@@ -63,15 +77,24 @@ class RenderJob {
   void traceAndFilter(const Task& task, float neighbourWeight, Desk& desk, Work& work,
                       Time (*now)());
 
-  const std::shared_ptr<const TracedScene> scene_;
+  // What jobs share.
+  struct Light {
+    Light(std::shared_ptr<const TracedScene> scene, const Settings& settings,
+          const Delivery& delivery, int threads);
+    const std::shared_ptr<const TracedScene> scene;
+    const uint8_t layerMask;
+    const Renderer renderer;
+    LightSetCache sets;
+    std::vector<std::unique_ptr<Desk>> desks;
+  };
+
+  const std::shared_ptr<Light> light_;
   const uint32_t jobVersion_;
   const Settings settings_;
   const Delivery delivery_;
   const TileGrid grid_;
   const uint8_t layerMask_;
   const Renderer renderer_;
-  LightSetCache sets_;
-  std::vector<std::unique_ptr<Desk>> desks_;
 };
 
 }  // namespace ninefold

@@ -33,6 +33,8 @@ SceneBuilder::~SceneBuilder() {
 void SceneBuilder::ask(act::FindBlobs&& question) { queue(std::move(question)); }
 void SceneBuilder::ask(act::KeepBlob&& question) { queue(std::move(question)); }
 void SceneBuilder::ask(act::BuildScene question) { queue(question); }
+void SceneBuilder::ask(act::EditScene&& question) { queue(std::move(question)); }
+void SceneBuilder::ask(act::RestoreScene question) { queue(question); }
 void SceneBuilder::ask(act::PrepareJob&& question) { queue(std::move(question)); }
 
 template <typename Question>
@@ -82,15 +84,31 @@ void SceneBuilder::answer(const act::BuildScene& question) {
     raw.push_back(--uses[blob.hash] > 0 ? bytes : std::move(bytes));
   }
   raw_.clear();
-  scene_.reset();  // the old one first: two at once may not fit
-  scene_ = std::make_shared<TracedScene>(unpackScene(manifest_, raw), isa_);
+  latest_.reset(), scene_.reset();  // the old one first: two at once may not fit
+  edits_ = {};
+  scene_ = std::make_shared<TracedScene>(std::make_shared<const Scene>(unpackScene(manifest_, raw)),
+                                         isa_);
   answers_.built(question.load);
 }
 
+void SceneBuilder::answer(const act::EditScene& question) {
+  checkEdit(*scene_->asFetched, question.edit);
+  merge(edits_, question.edit);
+  scene_ = std::make_shared<TracedScene>(*scene_, edits_);
+}
+
+void SceneBuilder::answer(const act::RestoreScene&) {
+  edits_ = {};
+  scene_ = std::make_shared<TracedScene>(scene_->asFetched, isa_);
+}
+
 void SceneBuilder::answer(const act::PrepareJob& question) {
-  auto job = std::make_shared<RenderJob>(scene_, question.jobVersion, question.settings,
-                                         question.delivery, threads_);
-  answers_.prepared(question.load, question.jobVersion, std::move(job));
+  const bool lit = latest_ && latest_->hasLightOf(scene_, question.settings);
+  auto job = lit ? std::make_shared<RenderJob>(*latest_, question.jobVersion, question.settings)
+                 : std::make_shared<RenderJob>(scene_, question.jobVersion, question.settings,
+                                               question.delivery, threads_);
+  latest_ = job;
+  answers_.prepared(question, std::move(job));
 }
 
 }  // namespace ninefold

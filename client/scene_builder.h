@@ -26,7 +26,7 @@ class SceneBuilder {
   struct Answers {
     std::function<void(uint32_t load, std::vector<BlobInfo> missing)> found;
     std::function<void(uint32_t load)> built;
-    std::function<void(uint32_t load, uint32_t jobVersion, std::shared_ptr<RenderJob>)> prepared;
+    std::function<void(const act::PrepareJob&, std::shared_ptr<RenderJob>)> prepared;
     std::function<void(uint32_t load, std::string line)> failed;
   };
 
@@ -38,6 +38,8 @@ class SceneBuilder {
   void ask(act::FindBlobs&& question);
   void ask(act::KeepBlob&& question);
   void ask(act::BuildScene question);
+  void ask(act::EditScene&& question);
+  void ask(act::RestoreScene question);
   void ask(act::PrepareJob&& question);
 
  private:
@@ -46,6 +48,8 @@ class SceneBuilder {
   void answer(act::FindBlobs& question);
   void answer(act::KeepBlob& question);
   void answer(const act::BuildScene& question);
+  void answer(const act::EditScene& question);
+  void answer(const act::RestoreScene& question);
   void answer(const act::PrepareJob& question);
   bool have(const BlobInfo& blob);
 
@@ -57,6 +61,8 @@ class SceneBuilder {
   std::vector<BlobInfo> manifest_;
   std::map<Sha256, Bytes> raw_;
   std::shared_ptr<const TracedScene> scene_;
+  SceneEdit edits_;  // that scene_ has had
+  std::shared_ptr<const RenderJob> latest_;
 
   BoundedQueue<std::function<void()>> queue_;
   std::thread thread_;

@@ -1,5 +1,6 @@
 #include "client/session.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/base/error.h"
@@ -62,12 +63,16 @@ void Session::on(msg::SceneOffer&& m, Time) {
   if (!inside()) fail("a scene before Welcome");
   checkManifest(m.blobs);
   state_ = State::syncing;
-  job_.reset();
+  jobs_.clear();
   sceneVersion_ = m.sceneVersion;
   const bool kept = scene_ == Scene::building || scene_ == Scene::built;
-  if (kept && m.blobs == manifest_) return;
+  edits_ = {};
+  if (kept && m.blobs == manifest_) {
+    if (std::exchange(edited_, false)) push(act::RestoreScene{load_});
+    return;
+  }
   manifest_ = std::move(m.blobs);
-  scene_ = Scene::checking;
+  scene_ = Scene::checking, edited_ = false;
   push(act::FindBlobs{++load_, manifest_});
 }
 
@@ -100,27 +105,46 @@ void Session::continueFetch(Time now) {
 void Session::sceneBuilt(uint32_t load, Time) {
   if (load != load_ || scene_ != Scene::building) return;
   scene_ = Scene::built;
-  if (job_) prepareJob();
+  if (!edits_.empty()) {
+    edited_ = true;
+    push(act::EditScene{load_, std::exchange(edits_, {})});
+  }
+  if (!jobs_.empty()) prepare(jobs_.back());
+}
+
+void Session::on(msg::Edit&& m, Time) {
+  if (!inside()) fail("an edit before Welcome");
+  if (scene_ != Scene::built) return merge(edits_, m.edit);
+  edited_ = true;
+  push(act::EditScene{load_, std::move(m.edit)});
 }
 
 void Session::on(msg::Configure&& m, Time) {
   if (!inside() || m.sceneVersion != sceneVersion_)
     fail("settings for a scene that was not offered");
-  state_ = State::syncing;
-  job_ = std::move(m);
-  if (scene_ == Scene::built) prepareJob();
+  if (!jobs_.empty() && m.jobVersion <= jobs_.back().jobVersion) fail("a job older than the last");
+  jobs_.push_back(std::move(m));
+  if (jobs_.size() > kJobsKept) jobs_.pop_front();
+  if (scene_ == Scene::built) prepare(jobs_.back());
 }
 
-void Session::prepareJob() {
-  push(act::PrepareJob{load_, job_->jobVersion, job_->settings, job_->delivery});
+void Session::prepare(const msg::Configure& job) {
+  push(act::PrepareJob{load_, line_, job.jobVersion, job.settings, job.delivery});
 }
 
-void Session::jobPrepared(uint32_t load, uint32_t jobVersion, Time) {
-  if (load != load_ || state_ != State::syncing || !job_ || job_->jobVersion != jobVersion) return;
+const msg::Configure* Session::findJob(uint32_t version) const {
+  const auto found = std::ranges::find(jobs_, version, &msg::Configure::jobVersion);
+  return found == jobs_.end() ? nullptr : &*found;
+}
+
+bool Session::jobPrepared(uint32_t load, uint32_t line, uint32_t jobVersion, Time) {
+  if (load != load_ || line != line_ || !inside() || findJob(jobVersion) == nullptr) return false;
+  if (state_ == State::ready) return true;
   state_ = State::ready;
   backoff_.reset();
   lastTrouble_.clear();
   send(msg::Ready{sceneVersion_, jobVersion});
+  return true;
 }
 
 void Session::sceneFailed(uint32_t load, const std::string& line, Time) {
@@ -135,10 +159,11 @@ void Session::on(msg::Tasks&& m, Time) {
 }
 
 void Session::checkTasks(const msg::Tasks& tasks) const {
-  const Settings& s = job_->settings;
+  const msg::Configure* job = findJob(tasks.jobVersion);
+  if (job == nullptr) fail("tasks of a job that is not there");
+  const Settings& s = job->settings;
   const TileGrid grid(s.width, s.height, s.interleave);
-  const int phases = job_->delivery.filter ? 1 : s.interleave.sets();  // of a tile's tasks
-  if (tasks.jobVersion != job_->jobVersion) fail("tasks of another job");
+  const int phases = job->delivery.filter ? 1 : s.interleave.sets();  // of a tile's tasks
   for (const msg::TaskItem& item : tasks.items)
     if (item.tile >= static_cast<uint32_t>(grid.tiles()) ||
         item.phase >= static_cast<uint32_t>(phases))
@@ -146,13 +171,11 @@ void Session::checkTasks(const msg::Tasks& tasks) const {
 }
 
 void Session::on(msg::Cancel&& m, Time) {
-  if (state_ == State::ready && m.jobVersion == job_->jobVersion)
-    push(act::CancelTasks{m.frame, false});
+  if (state_ == State::ready) push(act::CancelTasks{m.frame, false});
 }
 
 void Session::taskFinished(uint32_t line, msg::Result&& result, Time) {
-  if (line == line_ && state_ == State::ready && result.jobVersion == job_->jobVersion)
-    send(std::move(result));
+  if (line == line_ && state_ == State::ready) send(std::move(result));
 }
 
 void Session::taskFailed(const std::string& line) {
@@ -216,7 +239,7 @@ void Session::lost(const std::string& why, Time now) {
   if (!options_.reconnect)
     return end(1, fmt::format("the connection to the master ended: {}", why));
   state_ = State::offline;
-  job_.reset();
+  jobs_.clear();
   if (scene_ == Scene::checking || scene_ == Scene::fetching) scene_ = Scene::none, ++load_;
   push(act::CancelTasks{0, true});
   retryAt_ = now + backoff_.next();

@@ -3,6 +3,8 @@
 //
 //   offline -> connecting -> greeting (Hello sent) -> syncing (fetch, build, prepare) -> ready
 //
+// Once ready it stays so: later jobs are prepared while tasks of earlier ones go on, and tasks may come
+// before their job is prepared.
 // A lost connection leads back to offline: a remote client dials again, ever more rarely, and keeps
 // its scene, so that a restarted master gets it back without sending the scene again; a local one
 // ends, its master will start another. Refuse and Goodbye end the program. Deadlines: Welcome, each
@@ -11,6 +13,7 @@
 // carry takeActions() out in order; tick() every 100 ms or so.
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <string>
 #include <utility>
@@ -50,7 +53,8 @@ class Session {
   // Answers to actions.
   void blobsFound(uint32_t load, std::vector<BlobInfo> missing, Time now);
   void sceneBuilt(uint32_t load, Time now);
-  void jobPrepared(uint32_t load, uint32_t jobVersion, Time now);
+  // False if it is a job of the past.
+  bool jobPrepared(uint32_t load, uint32_t line, uint32_t jobVersion, Time now);
   void sceneFailed(uint32_t load, const std::string& line, Time now);
   void taskFinished(uint32_t line, msg::Result&& result, Time now);
   void taskFailed(const std::string& line);
@@ -73,6 +77,7 @@ class Session {
   void on(msg::Refuse&& m, Time now);
   void on(msg::SceneOffer&& m, Time now);
   void on(msg::BlobChunk&& m, Time now);
+  void on(msg::Edit&& m, Time now);
   void on(msg::Configure&& m, Time now);
   void on(msg::Tasks&& m, Time now);
   void on(msg::Cancel&& m, Time now);
@@ -84,7 +89,8 @@ class Session {
 
   void checkTasks(const msg::Tasks& tasks) const;
   void continueFetch(Time now);
-  void prepareJob();
+  void prepare(const msg::Configure& job);
+  const msg::Configure* findJob(uint32_t version) const;
   void sendProgress(Time now);
   void leave(const std::string& reason, Time now);  // on our own account
   void lost(const std::string& why, Time now);
@@ -106,13 +112,15 @@ class Session {
 
   // The scene, kept from one connection to the next.
   Scene scene_ = Scene::none;
+  bool edited_ = false;  // the built scene is not as it was fetched
+  SceneEdit edits_;      // that wait for the scene to be built
   uint32_t load_ = 0;
   std::vector<BlobInfo> manifest_;
   uint32_t sceneVersion_ = 0;
   BlobFetch fetch_;
   Time nextProgress_;
 
-  std::optional<msg::Configure> job_;  // of this connection
+  std::deque<msg::Configure> jobs_;  // of this connection, the latest kJobsKept, oldest first
 };
 
 }  // namespace ninefold

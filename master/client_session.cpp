@@ -49,6 +49,7 @@ void ClientSession::on(msg::Hello&& m, Time) {
   status_.state = ClientState::syncing;
   send(msg::Welcome{id_, releaseName()});
   send(offer_.sceneOffer());
+  if (auto edits = offer_.allEdits()) send(std::move(*edits));
   send(offer_.configure());
 }
 
@@ -66,14 +67,15 @@ void ClientSession::on(msg::Progress&& m, Time) {
 }
 
 void ClientSession::on(msg::Ready&& m, Time) {
-  if (!inside() || ready() || m.sceneVersion != JobOffer::kScene || m.jobVersion != JobOffer::kJob)
+  if (!inside() || m.sceneVersion != JobOffer::kScene || m.jobVersion > offer_.job())
     fail("ready for something that was not offered");
+  if (ready()) return;  // later jobs need no answer
   status_ = {ClientState::ready, 1.0};
-  push(todo::Join{});
+  push(todo::Join{m.jobVersion});
 }
 
 void ClientSession::on(msg::Result&& m, Time) {
-  if (!ready() || m.jobVersion != JobOffer::kJob) fail("a result before it was ready");
+  if (!ready() || m.jobVersion > offer_.job()) fail("a result before it was ready");
   push(todo::TakeResult{std::move(m)});
 }
 
@@ -106,6 +108,12 @@ void ClientSession::tick(Time now) {
   if (now < nextPing_) return;
   nextPing_ = now + kPingEvery;
   send(msg::Ping{nanoseconds(now)});
+}
+
+void ClientSession::jobChanged(const msg::Edit* edit) {
+  if (!inside()) return;
+  if (edit != nullptr) send(*edit);
+  send(offer_.configure());
 }
 
 void ClientSession::expel(const std::string& reason) {

@@ -30,7 +30,9 @@ struct Send {
 struct Warn {
   std::string line;
 };
-struct Join {};  // ready to render
+struct Join {        // ready to render
+  uint32_t job = 0;  // the first that it can do; it can do all later ones
+};
 struct Heard {};
 struct RoundTrip {
   Duration time;
@@ -66,6 +68,8 @@ class ClientSession {
 
   void received(Message&& message, Time now);
   void tick(Time now);
+  // The offer has a new job, and, if `edit` is not null, another scene.
+  void jobChanged(const msg::Edit* edit);
   // What it sent was malformed: it is told so and must not come back.
   void expel(const std::string& reason);
   void disconnected();

@@ -26,7 +26,7 @@ void append(std::string& text, int count, const char* what) {
 
 }  // namespace
 
-Cluster::Cluster(ClusterSetup setup, const JobOffer& offer, ServerDuty duty)
+Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
     : remoteMayJoin_(setup.remoteMayJoin),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
       local_(withMaster(std::move(setup.local), server_.endpoint())) {}
@@ -68,8 +68,10 @@ void Cluster::tick() {
     fail("all local clients ended and none can be started; see the lines above");
   {
     const std::lock_guard lock(mutex_);
-    summary_ = describeClients(now);
-    firstDispatch_ = server_.tally().firstDispatch;
+    clients_ = server_.clients(now);
+    tally_ = server_.tally();
+    summary_ = describeClients();
+    firstDispatch_ = tally_.firstDispatch;
   }
   timer_ = loop_.after(kTick, [this] { tick(); });
 }
@@ -98,10 +100,10 @@ std::optional<Time> Cluster::firstDispatch() const {
   return firstDispatch_;
 }
 
-std::string Cluster::describeClients(Time now) const {
+std::string Cluster::describeClients() const {
   int connecting = 0, building = 0, ready = 0, lost = 0;
   std::string syncing;
-  for (const ClientInfo& client : server_.clients(now)) {
+  for (const ClientInfo& client : clients_) {
     connecting += client.status.state == ClientState::connecting ? 1 : 0;
     building += client.status.state == ClientState::building ? 1 : 0;
     ready += client.status.state == ClientState::ready ? 1 : 0;
@@ -116,6 +118,24 @@ std::string Cluster::describeClients(Time now) const {
   append(text, lost, "lost");
   text += syncing;
   return text.empty() ? "no client yet" : text;
+}
+
+std::vector<ClientInfo> Cluster::clients() const {
+  const std::lock_guard lock(mutex_);
+  return clients_;
+}
+
+ServerTally Cluster::tally() const {
+  const std::lock_guard lock(mutex_);
+  return tally_;
+}
+
+void Cluster::supersede(uint32_t firstWanted) {
+  loop_.post([this, firstWanted] { server_.supersede(firstWanted, Clock::now()); });
+}
+
+void Cluster::wake() {
+  loop_.post([this] { server_.tick(Clock::now()); });
 }
 
 void Cluster::decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed) {

@@ -27,11 +27,16 @@ struct ClusterSetup {
 
 class Cluster {
  public:
-  Cluster(ClusterSetup setup, const JobOffer& offer, ServerDuty duty);
+  Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty);
   ~Cluster();
 
   const Endpoint& endpoint() const { return server_.endpoint(); }
   void start();
+
+  // No frame before `firstWanted` is wanted any more.
+  void supersede(uint32_t firstWanted);
+  // There may be a frame to open that was not there before.
+  void wake();
 
   // A tile was placed, or could not be.
   void decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed);
@@ -43,6 +48,9 @@ class Cluster {
   // What the clients are doing, for people: "2 ready, 1 syncing 63%".
   std::string summary() const;
   std::optional<Time> firstDispatch() const;
+  // As of the last tick.
+  std::vector<ClientInfo> clients() const;
+  ServerTally tally() const;
 
   // Begins to end: goodbye to all, no process left within a second. Does not wait.
   void stop(const std::string& reason);
@@ -57,7 +65,7 @@ class Cluster {
   void watchSignals();
   bool isOver(Time now) const;
   void fail(const std::string& line);
-  std::string describeClients(Time now) const;
+  std::string describeClients() const;  // needs the lock
 
   EventLoop loop_;
   const bool remoteMayJoin_;
@@ -71,6 +79,8 @@ class Cluster {
   std::optional<std::string> failure_;  // guarded by mutex_
   std::string summary_;                 // guarded by mutex_
   std::optional<Time> firstDispatch_;   // guarded by mutex_
+  std::vector<ClientInfo> clients_;     // guarded by mutex_
+  ServerTally tally_;                   // guarded by mutex_
 
   std::thread thread_;
 };

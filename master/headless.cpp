@@ -9,7 +9,7 @@
 #include "common/base/log.h"
 #include "common/base/process.h"
 #include "master/assembly.h"
-#include "master/cluster.h"
+#include "master/cluster_setup.h"
 #include "master/frame_plan.h"
 #include "master/invitation.h"
 #include "master/job.h"
@@ -31,9 +31,8 @@ class HeadlessRun {
   int run();
 
  private:
-  ClusterSetup clusterSetup() const;
   ServerDuty duty();
-  std::optional<FrameKey> nextFrame();
+  std::optional<FrameOrder> nextFrame();
   void gatherFrames();
   bool isDone();
   void tellProgress();
@@ -48,6 +47,7 @@ class HeadlessRun {
   const StopRule rule_;
   const int workers_;
   FramePlan plan_;            // the network thread's
+  FrameOrder order_;          // of all frames, but for the key
   std::atomic<bool> enough_;  // no more frames are opened
   PictureMaker picture_;
   RunRecord record_;
@@ -57,6 +57,27 @@ class HeadlessRun {
   Assembly assembly_;
 };
 
+// Of all frames, but for key and weight.
+FrameOrder orderOf(const Job& job) {
+  FrameOrder order;
+  order.settings = job.settings;
+  order.extraMask = job.shape.extraMask;
+  order.filtered = isFiltered(job.shape);
+  return order;
+}
+
+PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int workers) {
+  PictureMaker::Setup setup;
+  setup.shape = job.shape;
+  setup.aovMask = options.aovs ? job.shape.extraMask : 0;
+  setup.view = options.view;
+  setup.depthScale = kDepthShownWhite * job.sceneRadius;
+  setup.surfaceTest = options.surfaceTest;
+  setup.exposure = options.exposure;
+  setup.workers = workers;
+  return setup;
+}
+
 HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys keys)
     : options_(options),
       job_(job),
@@ -64,10 +85,11 @@ HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys 
       rule_(options.stop),
       workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
+      order_(orderOf(job)),
       enough_(false),
-      picture_({job.shape, options.surfaceTest, options.exposure, workers_}),
+      picture_(pictureSetup(options, job, workers_)),
       progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
-      cluster_(clusterSetup(), *job.offer, duty()),
+      cluster_(clusterSetup(options, keys_), *job.offer, duty()),
       assembly_(
           workers_,
           [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
@@ -82,31 +104,20 @@ HeadlessRun::~HeadlessRun() {
   cluster_.join();
 }
 
-ClusterSetup HeadlessRun::clusterSetup() const {
-  LocalClients::Plan local;
-  local.program = programBesideUs("ninefold-client");
-  local.arguments = {fmt::format("--threads={}", options_.clientThreads), "--isa=" + options_.isa,
-                     "--cache=none"};
-  local.key = keys_.local;
-  local.count = options_.localClients;
-  ServerSetup server{parseEndpoint(options_.listen, "--listen"), keys_, job_.shape,
-                     [this](uint32_t frame) { return plan_.neighbourWeight(frame); },
-                     options_.waitClients};
-  return {std::move(server), std::move(local), keys_.cluster != nullptr};
-}
-
 ServerDuty HeadlessRun::duty() {
   return {[this] { return nextFrame(); },
           [this](ReceivedTile& tile) { return assembly_.take(tile); }};
 }
 
 // On the network thread.
-std::optional<FrameKey> HeadlessRun::nextFrame() {
+std::optional<FrameOrder> HeadlessRun::nextFrame() {
   const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
   if (enough_ || allOpened || !assembly_.hasRoom()) return std::nullopt;
-  const FrameKey key = plan_.next();
-  assembly_.open({key, job_.shape, job_.settings.camera, plan_.neighbourWeight(key.frame)});
-  return key;
+  FrameOrder order = order_;
+  order.key = plan_.next();
+  order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
+  assembly_.open({order.key, job_.shape, order.settings.camera, order.neighbourWeight});
+  return order;
 }
 
 int HeadlessRun::run() {
@@ -180,13 +191,6 @@ void HeadlessRun::writeStatistics() const {
   stats.settings = job_.settings;
   stats.surfaceTest = options_.surfaceTest;
   writeStats(*options_.stats, stats);
-}
-
-Listener::Keys loadKeys(const Options& options) {
-  Listener::Keys keys;
-  keys.local = std::make_shared<const Key>(Key::random());
-  if (options.keyFile) keys.cluster = std::make_shared<const Key>(Key::load(*options.keyFile));
-  return keys;
 }
 
 }  // namespace

@@ -8,10 +8,10 @@ namespace ninefold {
 namespace {
 
 uint8_t extraPlanes(const Options& options, const Needs& needs) {
-  if (!options.aovs) return 0;
+  if (!options.aovs) return planesOf(options.view);
   const bool photons = needs.specular() && options.settings.caustics != Caustics::off;
   return static_cast<uint8_t>(kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane |
-                              (photons ? kCausticPlane : 0));
+                              (photons ? kCausticPlane : 0) | planesOf(options.view));
 }
 
 std::string hashOf(const std::vector<Blob>& blobs) {
@@ -40,9 +40,11 @@ Delivery deliveryOf(const Options& options) {
 }  // namespace
 
 Job makeJob(const Options& options) {
-  const Scene scene = readScene(options.scene);
   Job job;
-  job.settings = makeSettings(options, scene);
+  auto read = std::make_shared<const Scene>(readScene(options.scene));
+  const Scene& scene = *read;
+  job.settings = settingsFor(options.window || options.script ? PictureView::beauty : options.view,
+                             makeSettings(options, scene));
   job.needs = needsOf(scene, job.settings.environment);
   for (const std::string& line : describe(job.needs)) log("{}", line);
   tellSettings(options, job.settings);
@@ -52,10 +54,12 @@ Job makeJob(const Options& options) {
                   ? FrameShape{grid, 0, 0}
                   : FrameShape{grid, layerMaskOf(job.needs, job.settings.method),
                                extraPlanes(options, job.needs)};
+  job.sceneRadius = scene.bounds.radius();
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
   std::vector<Blob> blobs = packScene(scene);
   job.sceneHash = hashOf(blobs);
   job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, deliveryOf(options));
+  if (options.window || options.script) job.scene = std::move(read);
   return job;
 }
 

@@ -7,6 +7,7 @@
 
 #include "common/image/patch.h"
 #include "common/scene/needs.h"
+#include "common/scene/scene.h"
 #include "common/scene/settings.h"
 #include "master/job_offer.h"
 #include "master/options.h"
@@ -18,8 +19,10 @@ struct Job {
   Needs needs;
   FrameShape shape;              // of what clients send
   Metres firstPhotonRadius = 0;  // [m]
+  Metres sceneRadius = 0;        // R [m]
   std::string sceneHash;         // SHA-256 over the names of its blobs
   std::unique_ptr<JobOffer> offer;
+  std::shared_ptr<const Scene> scene;  // kept where it may be edited: in a window or a script
 };
 
 // Reads the scene; the first log lines say what it needs and what will be done.

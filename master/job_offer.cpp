@@ -11,6 +11,23 @@ JobOffer::JobOffer(std::vector<Blob> blobs, const Settings& settings, const Deli
   for (const Blob& blob : blobs_) byHash_[blob.info.hash] = &blob;
 }
 
+void JobOffer::setJob(uint32_t version, const Settings& settings) {
+  NINEFOLD_CHECK(version > job_);
+  job_ = version;
+  settings_ = settings;
+}
+
+msg::Edit JobOffer::setEdit(uint32_t version, const SceneEdit& edit) {
+  NINEFOLD_CHECK(version > edits_.version);
+  edits_.version = version;
+  merge(edits_.edit, edit);
+  return {version, edit};
+}
+
+std::optional<msg::Edit> JobOffer::allEdits() const {
+  return edits_.version > 0 ? std::optional(edits_) : std::nullopt;
+}
+
 msg::SceneOffer JobOffer::sceneOffer() const {
   msg::SceneOffer offer{kScene, {}};
   for (const Blob& blob : blobs_) offer.blobs.push_back(blob.info);

@@ -1,8 +1,9 @@
-// job_offer.h: what every client is given: the scene as blobs, found by hash, and the settings.
-// Constant after construction; shared read-only by all sessions.
+// job_offer.h: what every client is given: the scene as blobs, found by hash, and the settings of
+// the current job. Threads: the scene is constant; the job is the network thread's, once it runs.
 #pragma once
 
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "proto/messages.h"
@@ -17,16 +18,25 @@ class JobOffer {
   JobOffer& operator=(const JobOffer&) = delete;
 
   msg::SceneOffer sceneOffer() const;
-  msg::Configure configure() const { return {kScene, kJob, settings_, delivery_}; }
+  msg::Configure configure() const { return {kScene, job_, settings_, delivery_}; }
+  uint32_t job() const { return job_; }
+  // The job has changed: `version` is larger than before.
+  void setJob(uint32_t version, const Settings& settings);
+  // The scene has changed: `version` is larger than before. The message for those who have all up to
+  // here; and the one for those who come later, if there was any edit.
+  msg::Edit setEdit(uint32_t version, const SceneEdit& edit);
+  std::optional<msg::Edit> allEdits() const;
+  uint32_t edits() const { return edits_.version; }
   // The piece that was asked for. Error: no such blob or place.
   msg::BlobChunk piece(const msg::BlobRequest& request) const;
 
-  // There is one scene and one job in a run so far.
-  static constexpr uint32_t kScene = 1, kJob = 1;
+  static constexpr uint32_t kScene = 1;  // there is one scene in a run
 
  private:
   const std::vector<Blob> blobs_;
-  const Settings settings_;
+  msg::Edit edits_;  // merged
+  uint32_t job_ = 1;
+  Settings settings_;
   const Delivery delivery_;
   std::map<Sha256, const Blob*> byHash_;
 };

@@ -3,6 +3,8 @@
 #include <thread>
 
 #include "master/headless.h"
+#include "master/script_run.h"
+#include "master/window/session.h"
 #include "proto/key.h"
 
 namespace ninefold {
@@ -17,6 +19,8 @@ int run(const Options& options) {
     createKeyFile(*options.newKey);
     return 0;
   }
+  if (options.window) return runWindow(options);
+  if (options.script) return runScript(options);
   return runHeadless(options);
 }
 

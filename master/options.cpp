@@ -1,5 +1,7 @@
 #include "master/options.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <limits>
@@ -19,10 +21,7 @@ constexpr double kMaxSeconds = 1e9;
 
 // What the interface names and this release does not have. Take a line out when its work is done.
 void refuseWhatIsMissing(const RawOptions& raw) {
-  if (raw.isOn("window")) failUsage("--window is not available in this release");
   if (raw.has("animate")) failUsage("--animate is not available in this release");
-  if (const auto view = raw.text("view"); view && *view != "beauty")
-    failUsage("--view {} is not available in this release, only beauty", *view);
 }
 
 // One of the names, as its place in the list.
@@ -150,10 +149,29 @@ void readRun(const RawOptions& raw, Options& o) {
   if (!o.stop.frames && !o.stop.seconds && !o.stop.untilError) o.stop.frames = kDefaultFrames;
 }
 
+// In a window, or live without one.
+void readLive(const RawOptions& raw, Options& o) {
+  o.window = raw.isOn("window");
+  o.script = raw.text("script");
+  assign(o.frameTime, raw.real("frame-time", 1, 10000));
+  if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
+  if (o.filterAtClients &&
+      (o.window || o.script || raw.text("view").value_or("beauty") != "beauty"))
+    failUsage("--filter-at clients goes with neither --window, --script nor --view");
+  if (o.window && o.script) failUsage("--window with --script is not available in this release");
+  if (const auto view = raw.text("view")) {
+    const auto known = viewNamed(*view);
+    if (!known) failUsage("--view {}: must be {}", *view, fmt::join(kViewNames, ", "));
+    o.view = *known;
+    if (o.view == PictureView::clients && !o.window)
+      failUsage("--view clients is for --window: who rendered what changes from frame to frame");
+  }
+}
+
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
   o.stats = raw.text("stats");
-  if (!o.output && !o.stats)
+  if (!o.output && !o.stats && !o.window)
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
   if (!o.output) return;
   const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
@@ -186,6 +204,7 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   readCluster(raw, cores, o);
   readDelivery(raw, o);
   readRun(raw, o);
+  readLive(raw, o);
   readFiles(raw, o);
   return o;
 }

@@ -18,6 +18,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/settings.h"
 #include "master/stop_rule.h"
+#include "master/view.h"
 #include "proto/messages.h"
 
 namespace ninefold {
@@ -44,6 +45,11 @@ struct Options {
   std::optional<std::string> keyFile;
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
+
+  bool window = false;
+  std::optional<std::string> script;  // file
+  PictureView view = PictureView::beauty;
+  double frameTime = 100;  // target while something moves [ms]
 
   StopRule stop;  // 64 frames if no flag says otherwise
 

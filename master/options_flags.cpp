@@ -27,7 +27,10 @@ constexpr Flag kPicture[] = {
      "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; white 1, with a warning, "
      "if the scene has no light at all)"},
     {"exposure", "EV", "brightness of .png files, -50 to 50 (default 0)"},
-    {"view", "NAME", "what to show: beauty (default)"},
+    {"view", "NAME",
+     "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
+     "error, "
+     "clients or objects"},
 };
 constexpr Flag kMethod[] = {
     {"preset", "NAME",
@@ -65,7 +68,13 @@ constexpr Flag kRun[] = {
      "stop when the relative standard error is below E; looked at after 16, 32, 64... frames"},
     {"animate", "T0:T1:FPS",
      "play the scene's animation into --output out.####.exr (not in this release)"},
-    {"window", nullptr, "show the picture in a window (not in this release)"},
+    {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},
+    {"script", "FILE",
+     "replay the camera paths and edits of a JSON file (docs/script.md), in real time or, if it "
+     "says "
+     "so, into --output out.####.png"},
+    {"frame-time", "MS",
+     "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"headless", nullptr, "no window (default)"},
 };
 constexpr Flag kCluster[] = {

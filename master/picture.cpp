@@ -28,8 +28,9 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
 
 PictureMaker::PictureMaker(const Setup& setup)
     : setup_(setup),
-      film_(setup.shape.grid.width(), setup.shape.grid.height(), setup.shape.extraMask != 0) {
-  if (setup.shape.extraMask != 0) aovs_.emplace(setup.shape.grid, setup.shape.extraMask);
+      film_(setup.shape.grid.width(), setup.shape.grid.height(),
+            setup.aovMask != 0 || setup.view == PictureView::error) {
+  if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<Desk>(setup.surfaceTest));
 }
@@ -39,6 +40,7 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
   if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
+  paint(setup_.view, desk.patch, frame.view.key.rotation, setup_.depthScale, nullptr, desk.beauty);
   film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
   if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
 }
@@ -74,7 +76,9 @@ std::vector<Channel> PictureMaker::extraChannels() const {
 void PictureMaker::write(const std::string& path, const Metadata& metadata) const {
   RgbImage mean;
   film_.mean(mean);
-  writeImage(path, {mean, extraChannels(), metadata}, ToneMap(setup_.exposure));
+  if (setup_.view == PictureView::error) paintError(film_, mean);
+  const float exposure = isFalseColor(setup_.view) ? 0 : setup_.exposure;
+  writeImage(path, {mean, extraChannels(), metadata}, ToneMap(exposure));
 }
 
 }  // namespace ninefold

@@ -15,6 +15,7 @@
 #include "common/image/image_file.h"
 #include "common/image/patch_filter.h"
 #include "master/assembly.h"
+#include "master/view.h"
 
 namespace ninefold {
 
@@ -22,6 +23,9 @@ class PictureMaker {
  public:
   struct Setup {
     FrameShape shape;
+    uint8_t aovMask = 0;  // planes that become layers of the file
+    PictureView view = PictureView::beauty;
+    float depthScale = 1;  // [m], see view.h
     SurfaceTest surfaceTest = SurfaceTest::surface;
     float exposure = 0;  // [EV]
     int workers = 1;

@@ -25,7 +25,7 @@ std::string describe(const ClientSession& session) {
 
 }  // namespace
 
-Server::Server(EventLoop& loop, ServerSetup setup, const JobOffer& offer, ServerDuty duty)
+Server::Server(EventLoop& loop, ServerSetup setup, JobOffer& offer, ServerDuty duty)
     : loop_(loop), setup_(std::move(setup)), offer_(offer), duty_(std::move(duty)) {
   Listener::Events events;
   events.onConnection = [this](std::shared_ptr<Connection> c) { accept(std::move(c)); };
@@ -80,18 +80,35 @@ void Server::on(Handle& peer, todo::Send&& a, Time) {
 
 void Server::on(Handle&, todo::Warn&& a, Time) { warn("{}", a.line); }
 
-void Server::on(Handle& peer, todo::Join&&, Time now) {
+void Server::on(Handle& peer, todo::Join&& a, Time now) {
   peer.second.wasReady = true;
   const ClientSession& session = *peer.second.session;
   log("client {} is ready: {}, {} thread(s), {}", peer.first, describe(session),
       session.hello().threads, session.hello().isa);
-  scheduler_.clientJoined(peer.first, static_cast<int>(session.hello().threads), now);
+  joining_[peer.first] = a.job;
+  letJoin(now);
 }
 
-void Server::on(Handle& peer, todo::Heard&&, Time now) { scheduler_.clientHeard(peer.first, now); }
+// A client that has missed the job of an open frame must get no task of it.
+void Server::letJoin(Time now) {
+  const auto canDoAll = [&](uint32_t job) {
+    return std::ranges::all_of(open_, [&](const auto& frame) { return frame.second.job >= job; });
+  };
+  std::erase_if(joining_, [&](const auto& client) {
+    const auto& [id, job] = client;
+    if (!canDoAll(job)) return false;
+    const int threads = static_cast<int>(peers_.at(id).session->hello().threads);
+    scheduler_.clientJoined(id, threads, now);
+    return true;
+  });
+}
+
+void Server::on(Handle& peer, todo::Heard&&, Time now) {
+  if (!joining_.contains(peer.first)) scheduler_.clientHeard(peer.first, now);
+}
 
 void Server::on(Handle& peer, todo::RoundTrip&& a, Time) {
-  scheduler_.roundTripMeasured(peer.first, a.time);
+  if (!joining_.contains(peer.first)) scheduler_.roundTripMeasured(peer.first, a.time);
 }
 
 void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
@@ -112,6 +129,7 @@ void Server::on(Handle& peer, todo::Finish&& a, Time now) {
 
 void Server::lost(Handle& peer, const std::string& reason, Time now) {
   log("client {} is gone: {}: {}", peer.first, describe(*peer.second.session), reason);
+  joining_.erase(peer.first);
   scheduler_.clientLost(peer.first, now);
 }
 
@@ -129,14 +147,14 @@ void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>&
   if (isAccepted(verdict)) tally_.rays += tile.result.rays, tally_.replaced += tile.result.replaced;
   if (verdict == Verdict::completedFrame) {
     tally_.lastCompletion = now;
-    keys_.erase(tile.result.frame);
+    open_.erase(tile.result.frame);
   }
   dispatch(now);
 }
 
 void Server::supersede(uint32_t firstWanted, Time now) {
   scheduler_.viewChanged(firstWanted);
-  std::erase_if(keys_, [&](const auto& key) { return key.first < firstWanted; });
+  std::erase_if(open_, [&](const auto& frame) { return frame.first < firstWanted; });
   dispatch(now);
 }
 
@@ -155,22 +173,34 @@ void Server::tick(Time now) {
 
 void Server::dispatch(Time now) {
   if (isClosing()) return;
+  letJoin(now);
   started_ = started_ || scheduler_.clients() >= setup_.waitClients;
   if (!started_) return;
   openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
   const Actions actions = scheduler_.poll(now);
   for (const Cancellation& cancel : actions.cancel)
     if (const auto& connection = peers_.at(cancel.client).connection)
-      connection->send(msg::Cancel{JobOffer::kJob, cancel.firstWanted});
+      connection->send(msg::Cancel{offer_.job(), cancel.firstWanted});
   sendTasks(actions.assign);
 }
 
 void Server::openFrames(Time) {
   while (scheduler_.wantsFrame() && scheduler_.openFrames() < kMaxOpenFrames) {
-    const std::optional<FrameKey> key = duty_.nextFrame();
-    if (!key) return;
-    keys_[key->frame] = *key;
-    scheduler_.openFrame(*key, setup_.shape.grid, isFiltered(setup_.shape));
+    const std::optional<FrameOrder> order = duty_.nextFrame();
+    if (!order) return;
+    if (order->job != offer_.job()) announce(*order);
+    open_[order->key.frame] = *order;
+    scheduler_.openFrame(order->key, order->grid(), order->filtered);
+  }
+}
+
+void Server::announce(const FrameOrder& order) {
+  std::optional<msg::Edit> edit;
+  if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit);
+  offer_.setJob(order.job, order.settings);
+  for (Handle& peer : peers_) {
+    peer.second.session->jobChanged(edit ? &*edit : nullptr);
+    carryOut(peer, Clock::now());
   }
 }
 
@@ -179,15 +209,16 @@ void Server::sendTasks(const std::vector<Assignment>& assignments) {
   for (const Assignment& a : assignments)
     bundles[{a.client, a.task.frame}].push_back({static_cast<uint32_t>(a.task.tile),
                                                  static_cast<uint32_t>(a.task.phase),
-                                                 setup_.shape.extraMask});
+                                                 open_.at(a.task.frame).extraMask});
   if (!bundles.empty() && !tally_.firstDispatch) {
     tally_.firstDispatch = Clock::now();
     tally_.cpuAtDispatch = processCpuTime();
   }
-  for (auto& [to, items] : bundles)
+  for (auto& [to, items] : bundles) {
+    const FrameOrder& frame = open_.at(to.second);
     if (const auto& connection = peers_.at(to.first).connection)
-      connection->send(msg::Tasks{JobOffer::kJob, keys_.at(to.second), std::move(items),
-                                  setup_.neighbourWeight(to.second)});
+      connection->send(msg::Tasks{frame.job, frame.key, std::move(items), frame.neighbourWeight});
+  }
 }
 
 void Server::close(const std::string& reason) {

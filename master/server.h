@@ -20,6 +20,7 @@
 #include "common/image/patch.h"
 #include "master/admission.h"
 #include "master/client_session.h"
+#include "master/frame_order.h"
 #include "master/job_offer.h"
 #include "master/received_tile.h"
 #include "master/scheduler.h"
@@ -30,15 +31,13 @@ namespace ninefold {
 struct ServerSetup {
   Endpoint listen;
   Listener::Keys keys;
-  FrameShape shape;
-  std::function<float(uint32_t frame)> neighbourWeight;  // of the filter, for clients that do it
-  int waitClients = 1;                                   // no frame before that many are ready
+  int waitClients = 1;  // no frame before that many are ready
 };
 
 // What the server is there for; called in the loop's thread, must not wait.
 struct ServerDuty {
   // The next frame to render; nothing when there is none or no room for it now.
-  std::function<std::optional<FrameKey>()> nextFrame;
+  std::function<std::optional<FrameOrder>()> nextFrame;
   // Takes a tile that is wanted, answered by decoded(); false when there is no room.
   std::function<bool(ReceivedTile&)> take;
 };
@@ -65,7 +64,7 @@ struct ClientInfo {
 
 class Server {
  public:
-  Server(EventLoop& loop, ServerSetup setup, const JobOffer& offer, ServerDuty duty);
+  Server(EventLoop& loop, ServerSetup setup, JobOffer& offer, ServerDuty duty);
   ~Server();
 
   const Endpoint& endpoint() const { return listener_->endpoint(); }
@@ -110,17 +109,20 @@ class Server {
   void lost(Handle& peer, const std::string& reason, Time now);
 
   void dispatch(Time now);
+  void letJoin(Time now);
+  void announce(const FrameOrder& order);
   void openFrames(Time now);
   void sendTasks(const std::vector<Assignment>& assignments);
 
   EventLoop& loop_;
   const ServerSetup setup_;
-  const JobOffer& offer_;
+  JobOffer& offer_;
   const ServerDuty duty_;
   Admission admission_;
   Scheduler scheduler_;
-  std::map<ClientId, Peer> peers_;     // all of the run
-  std::map<uint32_t, FrameKey> keys_;  // of open frames
+  std::map<ClientId, Peer> peers_;        // all of the run
+  std::map<uint32_t, FrameOrder> open_;   // frames
+  std::map<ClientId, uint32_t> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   bool started_ = false;  // waitClients were ready once
   ServerTally tally_;

@@ -14,6 +14,7 @@ struct TypeFacts {
 // A few fields and texts; lists have limits of their own (field keys and lengths included).
 constexpr uint32_t kSmall = 4096;
 constexpr uint32_t kOfferBytes = kMaxBlobs * 64;
+constexpr uint32_t kEditBytes = 3 * kMaxEdits * 128;
 constexpr uint32_t kTasksBytes = kMaxTasksPerMessage * 12 + kSmall;
 
 constexpr TypeFacts kUnknown{"unknown", static_cast<Direction>(0), {0, 0}};
@@ -33,6 +34,7 @@ constexpr TypeFacts kTypes[] = {
     {"Ping", kBoth, {kSmall, 0}},
     {"Pong", kBoth, {kSmall, 0}},
     {"Goodbye", kBoth, {kSmall, 0}},
+    {"Edit", kFromMaster, {kEditBytes, 0}},
 };
 static_assert(std::size(kTypes) == std::variant_size_v<Message>);
 

@@ -19,6 +19,7 @@
 #include "common/base/counters.h"
 #include "common/image/layers.h"
 #include "common/image/surface_test.h"
+#include "common/scene/edit.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
 #include "proto/framing.h"
@@ -36,6 +37,8 @@ std::string releaseName();
 inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text
 inline constexpr size_t kMaxBlobs = 65536;  // in one scene
 inline constexpr size_t kMaxTasksPerMessage = 4096;
+inline constexpr size_t kMaxEdits = 65536;  // things in one edit
+inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
 inline constexpr uint8_t kAllExtraPlanes = 31;           // every bit of ExtraPlane
@@ -48,7 +51,7 @@ enum class MessageType : uint16_t {
   sceneOffer = 4,   // M -> C  the scene's blobs; what is not cached is asked for   -> BlobRequest*
   blobRequest = 5,  // C -> M  one piece of one blob; a few may be in flight        -> BlobChunk
   blobChunk = 6,    // M -> C  the piece, zstd bytes as payload
-  configure = 7,    // M -> C  settings of a job on a scene version                 -> Ready
+  configure = 7,    // M -> C  settings of a job on a scene version; tasks may follow -> Ready, once
   ready = 8,        // C -> M  tasks of this job can be done now
   progress = 9,     // C -> M  how far the client is with fetching or building the scene
   tasks = 10,    // M -> C  work of one frame, done in this order                -> Result for each
@@ -57,6 +60,7 @@ enum class MessageType : uint16_t {
   ping = 13,     // both    sign of life with a clock                            -> Pong
   pong = 14,     // both    the ping's clock and one's own
   goodbye = 15,  // both    the sender leaves on purpose; the connection closes
+  edit = 16,     // M -> C  the scene changed; jobs that are configured from here on see it
 };
 
 // Who sent it. Messages that run the wrong way are malformed.
@@ -141,9 +145,8 @@ struct Tasks {
   float neighbourWeight = 1;    // of the filter, in [0, 1]; for tiles that are filtered there
 };
 struct Cancel {
-  uint32_t jobVersion =
-      0;  // tasks of older jobs, and of this job's frames before `frame`, are void
-  uint32_t frame = 0;
+  uint32_t jobVersion = 0;  // the latest
+  uint32_t frame = 0;       // tasks of frames before this one are void, whatever their job
 };
 struct Result {
   uint32_t jobVersion = 0;
@@ -166,6 +169,10 @@ struct Pong {
 struct Goodbye {
   std::string reason;
 };
+struct Edit {
+  uint32_t version = 0;  // how often the scene was edited; grows
+  SceneEdit edit;        // what has changed since the version that the client has
+};
 
 }  // namespace msg
 
@@ -173,7 +180,7 @@ struct Goodbye {
 using Message =
     std::variant<msg::Hello, msg::Welcome, msg::Refuse, msg::SceneOffer, msg::BlobRequest,
                  msg::BlobChunk, msg::Configure, msg::Ready, msg::Progress, msg::Tasks, msg::Cancel,
-                 msg::Result, msg::Ping, msg::Pong, msg::Goodbye>;
+                 msg::Result, msg::Ping, msg::Pong, msg::Goodbye, msg::Edit>;
 
 inline MessageType typeOf(const Message& message) {
   return static_cast<MessageType>(message.index() + 1);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "proto/edit_wire.h"
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
 #include "proto/settings_wire.h"
@@ -138,6 +139,7 @@ msg::Result decode(const pb::Result& in, Bytes&& payload) {
 msg::Ping decode(const pb::Ping& in, Bytes&&) { return {in.clock_ns()}; }
 msg::Pong decode(const pb::Pong& in, Bytes&&) { return {in.echo_ns(), in.clock_ns()}; }
 msg::Goodbye decode(const pb::Goodbye& in, Bytes&&) { return {text("reason", in.reason())}; }
+msg::Edit decode(const pb::Edit& in, Bytes&&) { return {in.version(), fromWire(in)}; }
 
 template <typename Header>
 Message decodeAs(Frame&& frame) {
@@ -150,7 +152,8 @@ constexpr Decoder kDecoders[] = {  // in the order of MessageType
     decodeAs<pb::SceneOffer>, decodeAs<pb::BlobRequest>, decodeAs<pb::BlobChunk>,
     decodeAs<pb::Configure>,  decodeAs<pb::Ready>,       decodeAs<pb::Progress>,
     decodeAs<pb::Tasks>,      decodeAs<pb::Cancel>,      decodeAs<pb::Result>,
-    decodeAs<pb::Ping>,       decodeAs<pb::Pong>,        decodeAs<pb::Goodbye>};
+    decodeAs<pb::Ping>,       decodeAs<pb::Pong>,        decodeAs<pb::Goodbye>,
+    decodeAs<pb::Edit>};
 static_assert(std::size(kDecoders) == std::variant_size_v<Message>);
 
 }  // namespace

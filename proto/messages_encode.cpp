@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "proto/edit_wire.h"
 #include "proto/messages.h"
 #include "proto/settings_wire.h"
 #include "proto/text.h"
@@ -137,6 +138,15 @@ pb::Pong header(const msg::Pong& m) {
   pb::Pong out;
   out.set_echo_ns(m.echoNs);
   out.set_clock_ns(m.clockNs);
+  return out;
+}
+
+pb::Edit header(const msg::Edit& m) {
+  NINEFOLD_CHECK(m.edit.objects.size() <= kMaxEdits && m.edit.lights.size() <= kMaxEdits &&
+                 m.edit.materials.size() <= kMaxEdits);
+  pb::Edit out;
+  out.set_version(m.version);
+  toWire(m.edit, out);
   return out;
 }
 

@@ -35,6 +35,14 @@ void packMeshes(const std::vector<Mesh>& meshes, std::vector<Blob>& blobs) {
   }
 }
 
+template <typename T>
+Bytes bytesOf(const T& value) {
+  Bytes raw;
+  WriteArchive archive(raw);
+  archive(value);
+  return raw;
+}
+
 ByteReader readerOf(const Bytes& raw) { return ByteReader(raw, "scene blob"); }
 
 template <typename T>
@@ -55,18 +63,10 @@ void readMeshes(const Bytes& raw, std::vector<Mesh>& meshes) {
 
 std::vector<Blob> packScene(const Scene& scene) {
   std::vector<Blob> blobs;
-  Bytes raw;
-  for (const TextureImage& image : scene.images) {
-    raw.clear();
-    WriteArchive archive(raw);
-    archive(image);
-    blobs.push_back(seal(BlobKind::image, raw));
-  }
+  for (const TextureImage& image : scene.images)
+    blobs.push_back(seal(BlobKind::image, bytesOf(image)));
   packMeshes(scene.meshes, blobs);
-  raw.clear();
-  WriteArchive archive(raw);
-  archive(scene);
-  blobs.push_back(seal(BlobKind::rest, raw));
+  blobs.push_back(seal(BlobKind::rest, bytesOf(scene)));
   std::vector<BlobInfo> manifest;
   for (const Blob& blob : blobs) manifest.push_back(blob.info);
   checkManifest(manifest);
@@ -107,12 +107,15 @@ Scene unpackScene(const std::vector<BlobInfo>& manifest, const std::vector<Bytes
   NINEFOLD_CHECK(manifest.size() == raw.size());
   Scene scene;
   readOne(raw.back(), scene);
+  std::vector<TextureImage> images;
+  std::vector<Mesh> meshes;
   for (size_t i = 0; i + 1 < manifest.size(); ++i) {
     if (manifest[i].kind == BlobKind::image)
-      readOne(raw[i], scene.images.emplace_back());
+      readOne(raw[i], images.emplace_back());
     else
-      readMeshes(raw[i], scene.meshes);
+      readMeshes(raw[i], meshes);
   }
+  scene.images = std::move(images), scene.meshes = std::move(meshes);
   validate(scene);
   return scene;
 }

@@ -33,39 +33,51 @@ MediumStack mediaAround(const Transport& t, Vec3 eye) {
 }
 
 // An eye exactly on a surface would see nothing but it, at no distance.
-Settings offSurfaces(const Tracer& tracer, Settings settings) {
-  settings.camera.eye = tracer.clearOf(settings.camera.eye, settings.camera.forward);
-  return settings;
+View viewOf(const Transport& t, const Settings& s) {
+  View view{s.camera, s.width, s.height, {}};
+  view.camera.eye = t.tracer.clearOf(s.camera.eye, s.camera.forward);
+  view.eyeMedia = mediaAround(t, view.camera.eye);
+  return view;
 }
 
 }  // namespace
 
 struct Renderer::Impl {
-  Transport transport;
-  MediumStack eyeMedia;
-  int pathsLog2;
+  // What all cameras share.
+  struct Light {
+    Transport transport;
+    int pathsLog2;
 
-  Impl(const Tracer& tracer, const Settings& settings)
-      : transport(tracer, offSurfaces(tracer, settings)),
-        eyeMedia(mediaAround(transport, transport.settings.camera.eye)),
-        pathsLog2(settings.method == Method::instantRadiosity ? lightPathsLog2(transport) : -1) {}
+    Light(const Tracer& tracer, const Settings& settings)
+        : transport(tracer, settings),
+          pathsLog2(settings.method == Method::instantRadiosity ? lightPathsLog2(transport) : -1) {}
+  };
+  std::shared_ptr<const Light> light;
+  View view;
+
+  Impl(std::shared_ptr<const Light> l, const Settings& settings)
+      : light(std::move(l)), view(viewOf(light->transport, settings)) {}
 };
 
 Renderer::Renderer(const Tracer& tracer, const Settings& settings)
-    : impl_(std::make_unique<Impl>(tracer, settings)) {}
+    : impl_(std::make_unique<Impl>(std::make_shared<const Impl::Light>(tracer, settings),
+                                   settings)) {}
+
+Renderer::Renderer(const Renderer& lit, const Settings& settings)
+    : impl_(std::make_unique<Impl>(lit.impl_->light, settings)) {}
 
 Renderer::~Renderer() = default;
 
 std::shared_ptr<const LightSet> Renderer::lightSet(const FrameKey& frame, int k) const {
-  if (impl_->transport.settings.method == Method::pathTrace)
+  if (impl_->light->transport.settings.method == Method::pathTrace)
     return std::make_shared<const LightSet>();
   return std::make_shared<const LightSet>(
-      makeLightSet(impl_->transport, frame, k, impl_->pathsLog2));
+      makeLightSet(impl_->light->transport, frame, k, impl_->light->pathsLog2));
 }
 
 void Renderer::render(const Task& task, const LightSet& lights, Scratch& scratch,
                       TileResult& out) const {
-  renderTask(impl_->transport, impl_->eyeMedia, task, lights, scratch, out);
+  renderTask(impl_->light->transport, impl_->view, task, lights, scratch, out);
 }
 
 std::unique_ptr<Scratch, void (*)(Scratch*)> Renderer::makeScratch() const {

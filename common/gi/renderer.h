@@ -1,7 +1,8 @@
 // renderer.h: what a client does with a scene: light sets and tasks. The door of common/gi.
 //
 // A Renderer is made once per scene and settings; after that everything is a pure function of its
-// arguments: any client makes the same light set and the same tile, bit for bit.
+// arguments: any client makes the same light set and the same tile, bit for bit. Another camera or
+// size on the same light costs next to nothing: light sets do not depend on them.
 // Threads: const functions are reentrant; each thread has its own Scratch. Owner: refers to the
 // Tracer. Errors: constructor throws Error for settings that the scene cannot serve.
 #pragma once
@@ -31,6 +32,9 @@ struct Task {
 class Renderer {
  public:
   Renderer(const Tracer& tracer, const Settings& settings);
+  // The same light seen by the camera, and in the size, of `settings`; the rest of them must be
+  // those of `lit`. Bit for bit what a new Renderer would be.
+  Renderer(const Renderer& lit, const Settings& settings);
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;

@@ -17,7 +17,7 @@ void put(RgbPlane& plane, size_t i, Vec3 v) {
 // One task's constants, so that the functions below stay short.
 struct TaskContext {
   const Transport& t;
-  const MediumStack& eyeMedia;
+  const View& view;
   const Task& task;
   const LightSet& lights;
   TaskRect rect;
@@ -42,7 +42,7 @@ void addReceiver(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
   r.origin = offsetOrigin(x.surface, x.ng);
   r.gain = gain, r.absorber = absorber;
   const int i = static_cast<int>(pixel) % c.rect.width, j = static_cast<int>(pixel) / c.rect.width;
-  r.pixel = static_cast<uint32_t>(c.pixelX(i) + c.t.settings.width * c.pixelY(j));
+  r.pixel = static_cast<uint32_t>(c.pixelX(i) + c.view.width * c.pixelY(j));
   c.scratch.receivers[static_cast<size_t>(layer)].add(r);
   c.scratch.places[static_cast<size_t>(layer)].push_back(static_cast<uint32_t>(pixel));
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
@@ -71,8 +71,8 @@ void followLayer(TaskContext& c, const ShadingPoint& first, Lobe lobe, float dis
                  Reflectance through, size_t pixel, const PixelSampler& sampler) {
   const int layer = lobe == Lobe::reflection ? kReflection : kTransmission;
   const uint32_t dimension = 8 + static_cast<uint32_t>(layer - 1) * eyePathDimensions(c.t.settings);
-  const EyePathEnd end =
-      followLobe(c.t, first, lobe, distance, through, c.eyeMedia, sampler, dimension, c.out.rays);
+  const EyePathEnd end = followLobe(c.t, first, lobe, distance, through, c.view.eyeMedia, sampler,
+                                    dimension, c.out.rays);
   put(c.out.layers[static_cast<size_t>(layer)].unfiltered, pixel, end.unfiltered);
   if (end.arrived)
     addReceiver(c, layer, end.x, pixel, end.absorber, end.throughput, end.gain, end.distance,
@@ -86,13 +86,14 @@ void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, int i, int j)
     put(diffuse.unfiltered, pixel, c.t.emitters.environment());
     return;
   }
-  const ShadingPoint p = c.t.shader.shade(c.t.tracer.surface(hit), -direction, c.eyeMedia);
-  const Vec3 through = c.t.shader.attenuation(p, c.eyeMedia, hit.t);
+  const ShadingPoint p = c.t.shader.shade(c.t.tracer.surface(hit), -direction, c.view.eyeMedia);
+  const Vec3 through = c.t.shader.attenuation(p, c.view.eyeMedia, hit.t);
   if (c.task.extraMask != 0)
-    fillExtras(c, p, pixel, hit.t * glm::dot(direction, c.t.settings.camera.forward));
+    fillExtras(c, p, pixel, hit.t * glm::dot(direction, c.view.camera.forward));
   put(diffuse.unfiltered, pixel, through * emittedRadiance(c.t, p));
   if (!isBlack(p.bsdf.diffuse))
-    addReceiver(c, kDiffuse, p, pixel, c.t.shader.absorber(p, c.eyeMedia), through, 1, hit.t, 0);
+    addReceiver(c, kDiffuse, p, pixel, c.t.shader.absorber(p, c.view.eyeMedia), through, 1, hit.t,
+                0);
   if (!p.bsdf.reflects && !p.bsdf.transmits()) return;
   const PixelSampler sampler = c.sampler(c.pixelX(i), c.pixelY(j));
   if (p.bsdf.reflects) followLayer(c, p, Lobe::reflection, hit.t, through, pixel, sampler);
@@ -110,7 +111,7 @@ void traceBlock(TaskContext& c, int bi, int bj) {
     const Vec2 offset = c.t.settings.jitter ? c.sampler(x, y).get2D(0) : Vec2(0.5f);
     const Vec3 direction =
         c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
-    rays.set(lane, c.t.settings.camera.eye, direction, 0, std::numeric_limits<float>::infinity());
+    rays.set(lane, c.view.camera.eye, direction, 0, std::numeric_limits<float>::infinity());
     const bool inside = bi + lane % kBlock < c.rect.width && bj + lane / kBlock < c.rect.height;
     active |= (inside ? 1u : 0u) << lane;
   }
@@ -153,7 +154,7 @@ void pathTracePixel(TaskContext& c, int i, int j) {
     const Vec2 offset = s.jitter ? sampler.get2D(0) : Vec2(0.5f);
     const Vec3 direction =
         c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
-    sum += tracePath(c.t, s.camera.eye, direction, c.eyeMedia, sampler, c.out.rays);
+    sum += tracePath(c.t, c.view.camera.eye, direction, c.view.eyeMedia, sampler, c.out.rays);
   }
   put(c.out.layers[kDiffuse].unfiltered, static_cast<size_t>(j * c.rect.width + i),
       sum / static_cast<float>(kPathsPerPixel));
@@ -171,14 +172,15 @@ void radiosityTask(TaskContext& c) {
 
 }  // namespace
 
-void renderTask(const Transport& t, const MediumStack& eyeMedia, const Task& task,
-                const LightSet& lights, Scratch& scratch, TileResult& out) {
+void renderTask(const Transport& t, const View& view, const Task& task, const LightSet& lights,
+                Scratch& scratch, TileResult& out) {
   const Settings& s = t.settings;
-  const TileGrid grid(s.width, s.height, s.interleave);
+  const TileGrid grid(view.width, view.height, s.interleave);
   const TaskRect rect = task.rect.value_or(grid.rect(task.tile, task.phase));
   out.reset(rect.width, rect.height, layerMaskOf(t.needs, s.method), task.extraMask);
   TaskContext c{
-      t, eyeMedia, task, lights, rect, grid, CameraRays(s.camera, s.width, s.height), scratch, out};
+      t,       view, task, lights, rect, grid, CameraRays(view.camera, view.width, view.height),
+      scratch, out};
   if (s.method == Method::instantRadiosity) return radiosityTask(c);
   for (int j = 0; j < rect.height; ++j)
     for (int i = 0; i < rect.width; ++i) pathTracePixel(c, i, j);

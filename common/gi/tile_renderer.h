@@ -15,8 +15,14 @@
 
 namespace ninefold {
 
-// media: the solids that the eye is inside of.
-void renderTask(const Transport& transport, const MediumStack& eyeMedia, const Task& task,
+// Whose pixels they are. The settings of the Transport may be those of another view.
+struct View {
+  Camera camera;
+  int width, height;
+  MediumStack eyeMedia;  // the solids that the eye is inside of
+};
+
+void renderTask(const Transport& transport, const View& view, const Task& task,
                 const LightSet& lights, Scratch& scratch, TileResult& out);
 
 }  // namespace ninefold

@@ -20,7 +20,7 @@ namespace ninefold {
 class GltfMaterials {
  public:
   GltfMaterials(const tinygltf::Model& model, Scene& scene)
-      : model_(&model), scene_(&scene), images_(scene.images) {}
+      : model_(&model), scene_(&scene), images_(scene.images.own()) {}
 
   // Index into scene.materials of the file's material; -1 asks for glTF's default one.
   int use(int material);

@@ -139,7 +139,7 @@ struct ObjMaterials::Sources {
 ObjMaterials::ObjMaterials(const SceneFolder& folder, Scene& scene)
     : folder_(&folder),
       scene_(&scene),
-      images_(scene.images),
+      images_(scene.images.own()),
       sources_(std::make_shared<Sources>()) {}
 
 // False if the folder has no such file; what leads outside of it is an error.

@@ -5,7 +5,7 @@
 // is the origin (`origin` keeps what was subtracted): float precision is then best where it
 // matters. Everything in a Scene that left a reader or the wire is valid: finite numbers, indices
 // in range, unit directions, at least one triangle.
-// Owner: value type.
+// Owner: value type; copies share images and meshes.
 // Threads: plain data, shared read-only.
 #pragma once
 
@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/shared_list.h"
 #include "common/math/bounds.h"
 #include "common/math/camera.h"
 #include "common/math/units.h"
@@ -102,9 +103,9 @@ struct PunctualLight {
 
 struct Scene {
   std::string name;
-  std::vector<TextureImage> images;
+  SharedList<TextureImage> images;
   std::vector<Material> materials;
-  std::vector<Mesh> meshes;
+  SharedList<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;  // at least one after reading

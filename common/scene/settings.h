@@ -36,6 +36,8 @@ struct Settings {
   Randomization randomization = Randomization::owen;
   bool jitter = true;      // anti-aliasing: film positions spread over the pixel
   bool compensate = true;  // give the bounded geometry term its energy back (compensation.h)
+
+  bool operator==(const Settings&) const = default;
 };
 
 // What changes from frame to frame. At rest, frame i has randomization i and rotation i; while

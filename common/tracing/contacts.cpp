@@ -73,16 +73,44 @@ bool isInside(glm::dvec2 uv) {
 
 }  // namespace
 
-Contacts::Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geometries,
-                   const std::vector<AlphaMask>& masks, RTCScene hierarchy)
+Contacts::Contacts(const Scene& scene, const Geometries& geometries,
+                   const std::vector<AlphaMask>& masks, RTCScene hierarchy, const Contacts* before)
     : scene_(&scene),
-      geometries_(&geometries),
+      geometries_(geometries),
       masks_(&masks),
       hierarchy_(hierarchy),
       margin_(kMargin * scene.bounds.radius()),
+      from_(geometries.size()),
       touching_(geometries.size()) {
-  for (uint32_t i = 0; i < geometries.size(); ++i)
-    if (opacity(material(i)) < 2 || !isBlack(material(i).emission)) findFrom(i);
+  if (before != nullptr && before->margin_ != margin_) before = nullptr;
+  const std::vector<Bounds> changed =
+      before != nullptr ? changedSince(*before) : std::vector<Bounds>();
+  for (uint32_t i = 0; i < geometries.size(); ++i) {
+    if (opacity(material(i)) == 2 && isBlack(material(i).emission)) continue;
+    const bool known = before != nullptr && before->from_[i] != nullptr && !isNear(i, changed);
+    from_[i] = known ? before->from_[i] : std::make_shared<const Marks>(findFrom(i));
+    mark(*from_[i]);
+  }
+}
+
+// Where something is, or was, that has moved.
+std::vector<Bounds> Contacts::changedSince(const Contacts& before) const {
+  std::vector<Bounds> boxes;
+  for (size_t i = 0; i < geometries_.size(); ++i) {
+    if (geometries_[i] == before.geometries_[i]) continue;
+    boxes.push_back(geometries_[i]->bounds());
+    boxes.push_back(before.geometries_[i]->bounds());
+  }
+  return boxes;
+}
+
+bool Contacts::isNear(uint32_t instance, const std::vector<Bounds>& changed) const {
+  const Bounds& own = geometries_[instance]->bounds();
+  for (const Bounds& box : changed)
+    if (glm::all(glm::lessThanEqual(own.low, box.high + 4 * margin_)) &&
+        glm::all(glm::lessThanEqual(box.low, own.high + 4 * margin_)))
+      return true;
+  return false;
 }
 
 const Material& Contacts::material(uint32_t instance) const {
@@ -90,18 +118,21 @@ const Material& Contacts::material(uint32_t instance) const {
 }
 
 Contacts::Face Contacts::face(uint32_t instance, uint32_t triangle) const {
-  const InstanceGeometry& geometry = (*geometries_)[instance];
+  const InstanceGeometry& geometry = *geometries_[instance];
   return {instance, triangle, geometry.corners(triangle), geometry.frontNormal(triangle)};
 }
 
-void Contacts::mark(const Face& f) {
-  std::vector<bool>& flags = touching_[f.instance];
-  if (flags.empty()) flags.resize((*geometries_)[f.instance].mesh().triangles.size());
-  flags[f.triangle] = true;
+void Contacts::mark(const Marks& marks) {
+  for (const auto& [instance, triangle] : marks) {
+    std::vector<bool>& flags = touching_[instance];
+    if (flags.empty()) flags.resize(geometries_[instance]->mesh().triangles.size());
+    flags[triangle] = true;
+  }
 }
 
-void Contacts::findFrom(uint32_t instance) {
-  const size_t count = (*geometries_)[instance].mesh().triangles.size();
+Contacts::Marks Contacts::findFrom(uint32_t instance) const {
+  Marks marks;
+  const size_t count = geometries_[instance]->mesh().triangles.size();
   for (uint32_t i = 0; i < count; ++i) {
     const Face one = face(instance, i);
     const Vec3 low = lowOf(one.at), high = highOf(one.at);
@@ -110,13 +141,16 @@ void Contacts::findFrom(uint32_t instance) {
       const float cosine = glm::dot(one.normal, other.normal);
       if (std::abs(cosine) < 0.9f || (otherInstance == instance && cosine > 0)) return;
       if (!boxesMeet(one.at, other.at, margin_)) return;
-      if (liesInPlane(one.at, other.at, one.normal, other.normal) ||
-          liesInPlane(other.at, one.at, other.normal, one.normal))
-        mark(one), mark(other);
+      if (!liesInPlane(one.at, other.at, one.normal, other.normal) &&
+          !liesInPlane(other.at, one.at, other.normal, one.normal))
+        return;
+      marks.emplace_back(instance, i);
+      marks.emplace_back(otherInstance, otherTriangle);
     };
     forEachNear(hierarchy_, 0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_,
                 visit);
   }
+  return marks;
 }
 
 std::vector<Contacts::Contact> Contacts::at(const Hit& hit, Vec3 p) const {
@@ -156,7 +190,7 @@ Hit Contacts::foremost(const Hit& hit, Vec3 direction) const {
     const bool emits = !isBlack(m.emission) && (front || m.doubleSided);
     return std::tuple(opacity(m), emits, front, ~h.instance, ~h.triangle);
   };
-  const Tracer::Corners own = (*geometries_)[hit.instance].corners(hit.triangle);
+  const Tracer::Corners own = geometries_[hit.instance]->corners(hit.triangle);
   Hit best = hit;
   for (const Contact& c : at(hit, pointOnTriangle(own.a, own.b, own.c, hit.u, hit.v))) {
     const Hit other{c.instance, c.triangle, c.u, c.v, hit.t};
@@ -187,7 +221,7 @@ void Contacts::addSolids(const Hit& hit, SurfacePoint& p) const {
   for (const Contact& c : at(hit, p.position)) {
     p.error = std::max(p.error, c.reach);
     if (!isSolid(material(c.instance)) || p.contactCount == SurfacePoint::kMaxContacts) continue;
-    p.contacts[static_cast<size_t>(p.contactCount++)] = {(*geometries_)[c.instance].mesh().material,
+    p.contacts[static_cast<size_t>(p.contactCount++)] = {geometries_[c.instance]->mesh().material,
                                                          c.sameSide};
   }
 }

@@ -12,23 +12,27 @@
 // apart than the sum of their errors (math/rounding.h). Triangles of one instance are if they look
 // in opposite directions.
 //
-// Which triangles touch any is found at load; a hit on another one costs a look-up.
+// Which triangles touch any is found at load; a hit on another one costs a look-up. After an edit,
+// only what is near to something that moved is looked at anew.
 // Proved:  tests/tracing/contacts_test.cpp, tests/gi/glass_test.cpp.
 // Private to this folder. Threads: const after construction. Owner: refers to its arguments.
 // Errors: none; of more than SurfacePoint::kMaxContacts solids at one point the rest is forgotten.
 #pragma once
 
+#include <memory>
+#include <utility>
 #include <vector>
 
-#include "common/tracing/alpha_mask.h"
+#include "common/tracing/part.h"
 
 namespace ninefold {
 
 class Contacts {
  public:
   // `hierarchy` holds all geometries, is committed, and its triangles are numbered as theirs.
-  Contacts(const Scene& scene, const std::vector<InstanceGeometry>& geometries,
-           const std::vector<AlphaMask>& masks, RTCScene hierarchy);
+  // `before`: of the same scene before an edit, or null.
+  Contacts(const Scene& scene, const Geometries& geometries, const std::vector<AlphaMask>& masks,
+           RTCScene hierarchy, const Contacts* before);
 
   Hit which(const Hit& hit, Vec3 direction) const {
     return touches(hit) ? foremost(hit, direction) : hit;
@@ -56,8 +60,12 @@ class Contacts {
   bool touches(const Hit& hit) const {
     return !touching_[hit.instance].empty() && touching_[hit.instance][hit.triangle];
   }
-  void findFrom(uint32_t instance);
-  void mark(const Face& face);
+  using Marks = std::vector<std::pair<uint32_t, uint32_t>>;  // (instance, triangle)
+
+  bool isNear(uint32_t instance, const std::vector<Bounds>& changed) const;
+  std::vector<Bounds> changedSince(const Contacts& before) const;
+  Marks findFrom(uint32_t instance) const;
+  void mark(const Marks& marks);
   Hit foremost(const Hit& hit, Vec3 direction) const;
   void addSolids(const Hit& hit, SurfacePoint& p) const;
   std::vector<Contact> at(const Hit& hit, Vec3 position) const;
@@ -65,10 +73,12 @@ class Contacts {
   const Material& material(uint32_t instance) const;
 
   const Scene* scene_;
-  const std::vector<InstanceGeometry>* geometries_;
+  const Geometries geometries_;
   const std::vector<AlphaMask>* masks_;
   RTCScene hierarchy_;
-  float margin_;                             // larger than any two errors [m]
+  float margin_;  // larger than any two errors [m]
+  std::vector<std::shared_ptr<const Marks>>
+      from_;                                 // by instance: what is in contact with it; or null
   std::vector<std::vector<bool>> touching_;  // [instance][triangle]; empty where nothing touches
 };
 

@@ -85,6 +85,7 @@ void InstanceGeometry::flatten(const Instance& instance) {
       fail("instance \"{}\" reaches {:g} m from the scene's middle; scale the scene below {:g} m",
            instance.name, reach, kMaxDistance);
     vertices_.push_back(world);
+    bounds_.add(world);
   }
   vertices_.emplace_back(0);
 }

@@ -25,6 +25,7 @@ class InstanceGeometry {
   // World-space positions of the mesh's vertices; one more follows as the padding that Embree
   // reads.
   const Vec3* vertices() const { return vertices_.data(); }
+  const Bounds& bounds() const { return bounds_; }
   Tracer::Corners corners(uint32_t triangle) const;
   // Unit; 0 for a triangle without area.
   Vec3 frontNormal(uint32_t triangle) const { return planes_[triangle].normal; }
@@ -49,6 +50,7 @@ class InstanceGeometry {
 
   const Mesh* mesh_;
   bool tangents_ = false;  // whether anything reads them: a normal map
+  Bounds bounds_;
   std::vector<Vec3> vertices_;
   std::vector<Plane> planes_;  // one a triangle
   Mat3 directionToWorld_{1};   // both only up to a positive factor

@@ -1,5 +1,6 @@
 #include "common/tracing/tracer.h"
 
+#include <map>
 #include <new>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "common/tracing/device.h"
 #include "common/tracing/geometry.h"
 #include "common/tracing/packet.h"
+#include "common/tracing/part.h"
 #include "common/tracing/ray_log.h"
 
 namespace ninefold {
@@ -26,50 +28,68 @@ RTCRay singleRay(Vec3 origin, Vec3 direction, float tFar) {
 
 struct Tracer::Impl {
   const Scene& scene;
-  std::vector<InstanceGeometry> geometries;
-  std::vector<AlphaMask> masks;
-  Device device;
-  Hierarchy hierarchy;
-  std::optional<Contacts> contacts;
+  const Scene& asRead;  // of the first tracer
+  std::shared_ptr<const Device> device;
   std::string isaName;
   bool wide;  // Embree has 16-wide kernels here
+  Geometries geometries;
+  std::vector<AlphaMask> masks;
+  std::vector<std::shared_ptr<const Part>> parts;  // all that never moved, then by node what did
+  Hierarchy whole;                                 // null if there is one part
+  RTCScene hierarchy = nullptr;                    // what is traced
+  std::optional<Contacts> contacts;
 
   Impl(const Scene& s, Isa isa)
-      : scene(s), device(makeDevice(isa)), isaName(isaOf(device.get())), wide(isaName == "avx512") {
-    flatten();
-    build();
+      : scene(s),
+        asRead(s),
+        device(std::make_shared<const Device>(makeDevice(isa))),
+        isaName(isaOf(device->get())),
+        wide(isaName == "avx512") {
+    for (const Instance& instance : scene.instances)
+      geometries.push_back(std::make_shared<const InstanceGeometry>(scene, instance));
+    build(nullptr, std::vector<bool>(scene.instances.size(), false));
   }
 
-  void flatten() {
-    geometries.reserve(scene.instances.size());
-    masks.reserve(scene.instances.size());
-    for (const Instance& instance : scene.instances) {
-      const Mesh& mesh = geometries.emplace_back(scene, instance).mesh();
-      masks.push_back({&scene, &mesh, &scene.materials[static_cast<size_t>(mesh.material)]});
-    }
+  Impl(const Impl& before, const Scene& s, const std::vector<bool>& moved)
+      : scene(s),
+        asRead(before.asRead),
+        device(before.device),
+        isaName(before.isaName),
+        wide(before.wide),
+        geometries(before.geometries) {
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+      if (scene.instances[i].toWorld != before.scene.instances[i].toWorld)
+        geometries[i] = std::make_shared<const InstanceGeometry>(scene, scene.instances[i]);
+    build(&before, moved);
   }
 
-  void build() {
-    hierarchy.reset(rtcNewScene(device.get()));
-    rtcSetSceneFlags(hierarchy.get(), RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(hierarchy.get(), RTC_BUILD_QUALITY_MEDIUM);
-    for (size_t i = 0; i < geometries.size(); ++i) attach(i);
-    rtcCommitScene(hierarchy.get());
-    throwOnError(device.get(), "building the ray hierarchy");
-    contacts.emplace(scene, geometries, masks, hierarchy.get());
+  void build(const Impl* before, const std::vector<bool>& moved) {
+    for (const auto& geometry : geometries)
+      masks.push_back({&scene, &geometry->mesh(),
+                       &scene.materials[static_cast<size_t>(geometry->mesh().material)]});
+    for (const std::vector<uint32_t>& instances : partition(moved))
+      parts.push_back(part(before, instances));
+    if (parts.size() > 1) whole = joinParts(device->get(), parts);
+    hierarchy = whole ? whole.get() : parts.front()->hierarchy();
+    contacts.emplace(scene, geometries, masks, hierarchy,
+                     before != nullptr ? &*before->contacts : nullptr);
   }
 
-  void attach(size_t i) {
-    const Mesh& mesh = geometries[i].mesh();
-    RTCGeometry geometry = rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                               geometries[i].vertices(), 0, sizeof(Vec3), mesh.positions.size());
-    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                               mesh.triangles.data(), 0, sizeof(Triangle), mesh.triangles.size());
-    if (masks[i].material->alphaMode == AlphaMode::mask) attachAlphaMask(geometry, masks[i]);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometryByID(hierarchy.get(), geometry, static_cast<unsigned>(i));
-    rtcReleaseGeometry(geometry);
+  std::vector<std::vector<uint32_t>> partition(const std::vector<bool>& moved) const {
+    std::vector<std::vector<uint32_t>> sets(1);
+    std::map<int, std::vector<uint32_t>> nodes;
+    for (uint32_t i = 0; i < moved.size(); ++i)
+      (moved[i] ? nodes[scene.instances[i].node] : sets[0]).push_back(i);
+    for (auto& [node, instances] : nodes) sets.push_back(std::move(instances));
+    return sets;
+  }
+
+  std::shared_ptr<const Part> part(const Impl* before,
+                                   const std::vector<uint32_t>& instances) const {
+    if (before != nullptr)
+      for (const auto& old : before->parts)
+        if (old->isOf(geometries, instances)) return old;
+    return std::make_shared<const Part>(device, asRead, geometries, instances);
   }
 };
 
@@ -79,6 +99,9 @@ Tracer::Tracer(const Scene& scene, Isa isa) try : impl_(std::make_unique<Impl>(s
        scene.name);
 }
 
+Tracer::Tracer(const Tracer& before, const Scene& scene, const std::vector<bool>& moved)
+    : impl_(std::make_unique<Impl>(*before.impl_, scene, moved)) {}
+
 Tracer::~Tracer() = default;
 
 Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
@@ -87,7 +110,7 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
   RTCRayHit query{};
   query.ray = singleRay(origin, direction, tFar);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  embree::intersect1(impl_->hierarchy.get(), &query);
+  embree::intersect1(impl_->hierarchy, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit::none();
   return impl_->contacts->which(
       {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar}, direction);
@@ -97,7 +120,7 @@ void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coheren
   if (log_ != nullptr) log_->packets.push_back({rays, active, false, coherent});
   RTCRayHit16 query;
   const uint32_t lanes = traceable(rays, active);
-  intersectPacket(impl_->hierarchy.get(), impl_->wide, coherent, rays, lanes, query);
+  intersectPacket(impl_->hierarchy, impl_->wide, coherent, rays, lanes, query);
   const RTCHit16& hit = query.hit;
   for (int i = 0; i < kPacket; ++i) {
     if ((active >> i & 1) == 0) continue;
@@ -114,14 +137,14 @@ bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
   if (log_ != nullptr) log_->singles.push_back({origin, direction, tFar, true});
   if (!traceable(origin, direction, tFar)) return false;
   RTCRay ray = singleRay(origin, direction, tFar);
-  embree::occluded1(impl_->hierarchy.get(), &ray);
+  embree::occluded1(impl_->hierarchy, &ray);
   return ray.tfar < 0;
 }
 
 uint32_t Tracer::occluded16(RayPacket& rays, uint32_t active, bool coherent) const {
   if (log_ != nullptr) log_->packets.push_back({rays, active, true, coherent});
   const uint32_t lanes = traceable(rays, active);
-  occludedPacket(impl_->hierarchy.get(), impl_->wide, coherent, lanes, rays);
+  occludedPacket(impl_->hierarchy, impl_->wide, coherent, lanes, rays);
   uint32_t blocked = 0;
   for (int i = 0; i < kPacket; ++i) blocked |= uint32_t(rays.farT[i] < 0) << i;
   return blocked & lanes;
@@ -130,7 +153,7 @@ uint32_t Tracer::occluded16(RayPacket& rays, uint32_t active, bool coherent) con
 SurfacePoint Tracer::surface(const Hit& hit) const {
   SurfacePoint p;
   p.instance = hit.instance;
-  impl_->geometries[hit.instance].surface(hit.triangle, hit.u, hit.v, p);
+  impl_->geometries[hit.instance]->surface(hit.triangle, hit.u, hit.v, p);
   impl_->contacts->addTo(hit, p);
   return p;
 }
@@ -140,7 +163,7 @@ Vec3 Tracer::clearOf(Vec3 p, Vec3 direction) const {
 }
 
 Tracer::Corners Tracer::corners(uint32_t instance, uint32_t triangle) const {
-  return impl_->geometries[instance].corners(triangle);
+  return impl_->geometries[instance]->corners(triangle);
 }
 
 const Scene& Tracer::scene() const { return impl_->scene; }

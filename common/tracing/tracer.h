@@ -2,7 +2,9 @@
 //
 // All instances are flattened to world-space triangles, one geometry per instance (geomID =
 // instance index). The hierarchy is built by one thread with fixed quality, so that all clients of
-// a class have the same one. Alpha-masked texels are passed through by filter functions; back faces
+// a class have the same one. After an edit, instances that were ever moved have hierarchies of their
+// own beside the rest's, and what the edit left alone is shared with the tracer before; which are
+// moved is told by the caller, so that the result does not depend on how it came about. Alpha-masked texels are passed through by filter functions; back faces
 // are hit like front faces. The robust traversal is used: no cracks between triangles that share an
 // edge.
 //
@@ -15,6 +17,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/scene/scene.h"
 #include "common/tracing/surface.h"
@@ -48,6 +51,10 @@ struct RayLog;  // ray_log.h
 class Tracer {
  public:
   Tracer(const Scene& scene, Isa isa);
+  // Of `scene` after an edit: instances have other places or materials than in `before`. `moved`: by
+  // instance, true for all that are elsewhere than in the scene that was read, and for no less than in
+  // `before`. The scene of the first Tracer must outlive all that come from it.
+  Tracer(const Tracer& before, const Scene& scene, const std::vector<bool>& moved);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;

@@ -79,7 +79,7 @@ class SessionHarness {
     for (const auto& find : take<act::FindBlobs>()) session.blobsFound(find.load, {}, now);
     for (const auto& build : take<act::BuildScene>()) session.sceneBuilt(build.load, now);
     for (const auto& job : take<act::PrepareJob>())
-      session.jobPrepared(job.load, job.jobVersion, now);
+      session.jobPrepared(job.load, job.line, job.jobVersion, now);
   }
 
   Time now = Time(std::chrono::hours(1));

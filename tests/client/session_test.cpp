@@ -43,7 +43,7 @@ TEST(Session, FetchesOnlyWhatTheCacheLacksAndThenBuildsAndIsReady) {
   const auto job = h.take<act::PrepareJob>();
   ASSERT_EQ(job.size(), 1u);
   EXPECT_TRUE(h.sent<msg::Ready>().empty());
-  h.session.jobPrepared(job[0].load, job[0].jobVersion, h.now);
+  h.session.jobPrepared(job[0].load, job[0].line, job[0].jobVersion, h.now);
   EXPECT_EQ(h.sent<msg::Ready>().size(), 1u);
 }
 
@@ -76,6 +76,96 @@ TEST(Session, RunsTasksAndSendsTheirResults) {
   const auto sent = h.sent<msg::Result>();
   ASSERT_EQ(sent.size(), 1u);
   EXPECT_EQ(sent[0].phase, 3u);
+}
+
+TEST(Session, StaysReadyWhileTheCameraMovesAndFinishesOlderJobs) {
+  SessionHarness h;
+  h.becomeReady();
+  h.forget();
+  for (uint32_t job = 2; job <= 4; ++job) h.session.received(SessionHarness::settings(job), h.now);
+  EXPECT_EQ(h.take<act::PrepareJob>().size(), 3u);
+  for (uint32_t job = 1; job <= 4; ++job)
+    h.session.received(Message(msg::Tasks{job, {}, {{0, 0, 0}}}), h.now);
+  EXPECT_EQ(h.take<act::StartTasks>().size(), 4u) << "before any of them was prepared";
+  EXPECT_TRUE(h.session.jobPrepared(1, 1, 3, h.now));
+  EXPECT_TRUE(h.sent<msg::Ready>().empty()) << "Ready is said once";
+  for (uint32_t job = 5; job <= 1 + kJobsKept; ++job)
+    h.session.received(SessionHarness::settings(job), h.now);
+  EXPECT_FALSE(h.session.jobPrepared(1, 1, 1, h.now)) << "only the latest are kept";
+  h.session.received(Message(msg::Tasks{1, {}, {{0, 0, 0}}}), h.now);
+  EXPECT_EQ(h.take<act::Disconnect>().size(), 1u);
+}
+
+TEST(Session, AJobOfAnEarlierConnectionIsNotTakenForOneOfThis) {
+  SessionHarness h;
+  h.becomeReady();
+  h.session.received(SessionHarness::settings(2), h.now);
+  const act::PrepareJob old = h.take<act::PrepareJob>().at(0);
+  h.session.disconnected("connection reset", h.now);
+  h.pass(seconds(1));
+  h.session.connected(h.now);
+  h.session.received(msg::Welcome{1}, h.now);
+  h.session.received(msg::SceneOffer{1, {SessionHarness::blob(1)}}, h.now);
+  h.session.received(SessionHarness::settings(2), h.now);
+  EXPECT_FALSE(h.session.jobPrepared(old.load, old.line, 2, h.now));
+  const act::PrepareJob fresh = h.take<act::PrepareJob>().at(0);
+  EXPECT_TRUE(h.session.jobPrepared(fresh.load, fresh.line, 2, h.now));
+}
+
+SceneEdit emptyRoom(uint32_t material) {
+  SceneEdit edit;
+  edit.materials.push_back({material, Vec3(0.5f), 0, 1, 0, 1.5f, Vec3(0)});
+  return edit;
+}
+
+TEST(Session, EditsReachTheSceneInTheirOrderBeforeTheJobsThatSeeThem) {
+  SessionHarness h;
+  h.becomeReady();
+  h.forget();
+  h.session.received(msg::Edit{1, emptyRoom(0)}, h.now);
+  h.session.received(SessionHarness::settings(2), h.now);
+  const auto actions = h.session.takeActions();
+  ASSERT_EQ(actions.size(), 2u);
+  EXPECT_TRUE(std::holds_alternative<act::EditScene>(actions[0]));
+  EXPECT_TRUE(std::holds_alternative<act::PrepareJob>(actions[1]));
+}
+
+TEST(Session, EditsWaitAsOneForASceneThatIsNotThereYet) {
+  SessionHarness h;
+  h.welcome();
+  h.session.received(msg::SceneOffer{1, {SessionHarness::blob(1)}}, h.now);
+  h.session.received(msg::Edit{5, emptyRoom(0)}, h.now);
+  h.session.received(SessionHarness::settings(), h.now);
+  for (uint32_t i = 1; i <= 3; ++i) h.session.received(msg::Edit{5 + i, emptyRoom(i % 2)}, h.now);
+  EXPECT_TRUE(h.take<act::EditScene>().empty());
+  h.session.blobsFound(h.take<act::FindBlobs>().at(0).load, {}, h.now);
+  h.session.sceneBuilt(h.take<act::BuildScene>().at(0).load, h.now);
+  const auto edits = h.take<act::EditScene>();
+  ASSERT_EQ(edits.size(), 1u);
+  EXPECT_EQ(edits[0].edit.materials.size(), 2u);
+  EXPECT_EQ(h.take<act::PrepareJob>().size(), 1u);
+}
+
+TEST(Session, ARestartedMasterGetsTheSceneAsItWasFetched) {
+  SessionHarness h;
+  h.becomeReady();
+  h.session.received(msg::Edit{1, emptyRoom(0)}, h.now);
+  for (int restart = 0; restart < 2; ++restart) {
+    h.session.disconnected("connection reset", h.now);
+    h.pass(seconds(1));
+    h.forget();
+    h.session.connected(h.now);
+    h.session.received(msg::Welcome{1}, h.now);
+    h.session.received(msg::SceneOffer{1, {SessionHarness::blob(1)}}, h.now);
+    EXPECT_EQ(h.take<act::RestoreScene>().size(), restart == 0 ? 1u : 0u);
+  }
+}
+
+TEST(Session, LeavesAMasterWhoseJobsRunBackwards) {
+  SessionHarness h;
+  h.becomeReady();
+  h.session.received(SessionHarness::settings(1), h.now);
+  EXPECT_EQ(h.take<act::Disconnect>().size(), 1u);
 }
 
 TEST(Session, LeavesAMasterThatAsksForPixelsOutsideThePicture) {
@@ -181,7 +271,7 @@ TEST(Session, ResultsOfAnOldConnectionDoNotReachTheNewOne) {
   h.session.received(msg::SceneOffer{1, {SessionHarness::blob(1)}}, h.now);
   h.session.received(SessionHarness::settings(), h.now);
   for (const auto& job : h.take<act::PrepareJob>())
-    h.session.jobPrepared(job.load, job.jobVersion, h.now);
+    h.session.jobPrepared(job.load, job.line, job.jobVersion, h.now);
   msg::Result result;
   result.jobVersion = 1;
   h.session.taskFinished(oldLine, std::move(result), h.now);

@@ -24,6 +24,8 @@ msg::Hello hello(const std::string& probe = "aaaa") {
   return h;
 }
 
+constexpr uint32_t kJob = 1;
+
 class ClientSessionTest : public testing::Test {
  protected:
   ClientSession session() { return {++ids, "10.0.0.2:5555", offer, admission, now}; }
@@ -45,7 +47,7 @@ class ClientSessionTest : public testing::Test {
   ClientSession ready() {
     ClientSession s = session();
     s.received(hello(), now);
-    s.received(msg::Ready{JobOffer::kScene, JobOffer::kJob}, now);
+    s.received(msg::Ready{JobOffer::kScene, kJob}, now);
     s.takeActions();
     return s;
   }
@@ -132,11 +134,11 @@ TEST_F(ClientSessionTest, LetsAnotherPixelClassInWithAWarning) {
 TEST_F(ClientSessionTest, JoinsWhenReadyAndPassesResultsOn) {
   ClientSession s = session();
   s.received(hello(), now);
-  s.received(msg::Ready{JobOffer::kScene, JobOffer::kJob}, now);
+  s.received(msg::Ready{JobOffer::kScene, kJob}, now);
   auto actions = s.takeActions();
   EXPECT_EQ(take<todo::Join>(actions).size(), 1u);
   msg::Result result;
-  result.jobVersion = JobOffer::kJob, result.tile = 3;
+  result.jobVersion = kJob, result.tile = 3;
   s.received(std::move(result), now);
   actions = s.takeActions();
   const auto results = take<todo::TakeResult>(actions);
@@ -154,8 +156,8 @@ TEST_F(ClientSessionTest, ExpelsWhoSendsThingsOutOfTurn) {
   };
   EXPECT_TRUE(isExpelled(msg::Result{}, false));
   EXPECT_TRUE(isExpelled(msg::Result{}, true)) << "a result before Ready";
-  EXPECT_TRUE(isExpelled(msg::Ready{JobOffer::kScene, JobOffer::kJob}, false));
-  EXPECT_TRUE(isExpelled(msg::Ready{JobOffer::kScene + 1, JobOffer::kJob}, true));
+  EXPECT_TRUE(isExpelled(msg::Ready{JobOffer::kScene, kJob}, false));
+  EXPECT_TRUE(isExpelled(msg::Ready{JobOffer::kScene + 1, kJob}, true));
   EXPECT_TRUE(isExpelled(hello(), true)) << "Hello twice";
   EXPECT_TRUE(isExpelled(msg::Welcome{}, true)) << "a master's message";
 }
@@ -208,7 +210,7 @@ TEST_F(ClientSessionTest, KnowsHowFarTheTransferIs) {
   EXPECT_DOUBLE_EQ(s.status().synced, 0.63);
   s.received(msg::Progress{Phase::building, 0, 1}, now);
   EXPECT_EQ(s.status().state, ClientState::building);
-  s.received(msg::Ready{JobOffer::kScene, JobOffer::kJob}, now);
+  s.received(msg::Ready{JobOffer::kScene, kJob}, now);
   s.received(msg::Progress{Phase::fetching, 0, 0}, now);
   EXPECT_EQ(s.status().state, ClientState::ready);
 }

@@ -224,12 +224,31 @@ TEST(Options, ListeningBeyondThisMachineNeedsAKey) {
 }
 
 TEST(Options, WhatThisReleaseDoesNotHaveSaysSo) {
-  for (const char* flags : {"--window", "--animate 0:1:25", "--animate 0", "--view depth"})
+  for (const char* flags : {"--animate 0:1:25", "--animate 0", "--window --script a.json"})
     EXPECT_NE(complaint(std::string("a.glb ") + flags).find("not available in this release"),
               std::string::npos)
         << flags;
-  EXPECT_EQ(complaint("a.glb", {{"NINEFOLD_WINDOW", "0"}}), "");
-  EXPECT_NE(complaint("a.glb", {{"NINEFOLD_WINDOW", "1"}}), "");
+}
+
+TEST(Options, AWindowNeedsNoOutput) {
+  EXPECT_TRUE(parse("a.glb --window", {}, false).window);
+  EXPECT_TRUE(parse("a.glb", {{"NINEFOLD_WINDOW", "1"}}, false).window);
+  EXPECT_FALSE(parse("a.glb", {{"NINEFOLD_WINDOW", "0"}}).window);
+  EXPECT_NE(complaint("a.glb --window --headless"), "");
+  EXPECT_EQ(parse("a.glb --window --frame-time 50", {}, false).frameTime, 50);
+}
+
+TEST(Options, AScriptMayWritePicturesOrTimes) {
+  EXPECT_EQ(parse("a.glb --script s.json --stats t.json", {}, false).script, "s.json");
+  EXPECT_EQ(parse("a.glb --script s.json --output p.####.png", {}, false).script, "s.json");
+  EXPECT_NE(complaint("a.glb --script s.json", {}, false), "");
+}
+
+TEST(Options, EveryViewHasItsName) {
+  for (const char* name : kViewNames)
+    EXPECT_EQ(nameOf(parse(std::string("a.glb --window --view ") + name).view), std::string(name));
+  EXPECT_NE(complaint("a.glb --view clients"), "");
+  EXPECT_NE(complaint("a.glb --view upside-down").find("albedo, normal"), std::string::npos);
 }
 
 TEST(Options, HelpAndNewKeyNeedNothingElse) {
@@ -239,15 +258,16 @@ TEST(Options, HelpAndNewKeyNeedNothingElse) {
 
 TEST(Options, HelpNamesEveryFlagOfTheInterface) {
   const std::string help = helpText();
-  for (const char* flag :
-       {"size",           "camera",      "local-clients", "client-threads", "listen",
-        "key-file",       "new-key",     "wait-clients",  "method",         "preset",
-        "interleave",     "direct-vpls", "indirect-vpls", "photons",        "path-length",
-        "specular-depth", "bound",       "photon-radius", "caustics",       "environment",
-        "frames",         "seconds",     "until-error",   "animate",        "output",
-        "aovs",           "exposure",    "view",          "window",         "headless",
-        "seed",           "isa",         "stats",         "randomization",  "filter",
-        "vpl-roulette",   "help"})
+  for (const char* flag : {"size",          "camera",        "local-clients", "client-threads",
+                           "listen",        "key-file",      "new-key",       "wait-clients",
+                           "method",        "preset",        "interleave",    "direct-vpls",
+                           "indirect-vpls", "photons",       "path-length",   "specular-depth",
+                           "bound",         "photon-radius", "caustics",      "environment",
+                           "frames",        "seconds",       "until-error",   "animate",
+                           "output",        "aovs",          "exposure",      "view",
+                           "window",        "headless",      "seed",          "isa",
+                           "stats",         "randomization", "filter",        "vpl-roulette",
+                           "script",        "frame-time",    "help"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;

@@ -47,6 +47,7 @@ class PlayedClient {
   void send(Message message) { connection_->send(std::move(message)); }
 
   bool closed = false;
+  uint32_t announced = 0;  // the latest job
   std::string refusal;
 
  private:
@@ -61,8 +62,10 @@ class PlayedClient {
     connection_->send(std::move(hello));
   }
   void receive(const Message& message) {
-    if (const auto* m = std::get_if<msg::Configure>(&message))
+    if (const auto* m = std::get_if<msg::Configure>(&message)) {
+      announced = m->jobVersion;
       connection_->send(msg::Ready{m->sceneVersion, m->jobVersion});
+    }
     if (const auto* m = std::get_if<msg::Tasks>(&message)) onTasks_(*this, *m);
     if (const auto* m = std::get_if<msg::Refuse>(&message)) refusal = m->reason;
   }
@@ -75,18 +78,19 @@ class ServerTest : public testing::Test {
  protected:
   ServerTest() {
     ServerDuty duty;
-    duty.nextFrame = [this]() -> std::optional<FrameKey> {
+    duty.nextFrame = [this]() -> std::optional<FrameOrder> {
       if (opened == frames) return std::nullopt;
-      FrameKey key;
-      key.frame = opened++;
-      return key;
+      FrameOrder order;
+      order.settings = smallPicture();
+      order.job = jobOf(opened);
+      order.key.frame = opened++;
+      return order;
     };
     duty.take = [this](ReceivedTile& tile) {  // "decodes" later, as an assembly would
       loop.post([this, tile] { server->decoded(tile, judge(tile), Clock::now()); });
       return true;
     };
-    const ServerSetup setup{
-        {"127.0.0.1", 0}, {key, nullptr}, {grid, kDiffuseBit, 0}, [](uint32_t) { return 1.0f; }, 1};
+    const ServerSetup setup{{"127.0.0.1", 0}, {key, nullptr}, 1};
     server = std::make_unique<Server>(loop, setup, offer, std::move(duty));
   }
   ~ServerTest() override {
@@ -119,7 +123,8 @@ class ServerTest : public testing::Test {
   EventLoop loop;
   const std::shared_ptr<const Key> key = std::make_shared<const Key>(Key::random());
   const TileGrid grid{96, 72, {3, 3}};
-  const JobOffer offer{anyScene(), smallPicture(), {}};
+  JobOffer offer{anyScene(), smallPicture(), {}};
+  std::function<uint32_t(uint32_t frame)> jobOf = [](uint32_t) { return 1u; };
   std::function<std::optional<std::string>(const ReceivedTile&)> judge = [](const ReceivedTile&) {
     return std::nullopt;
   };
@@ -175,6 +180,48 @@ TEST_F(ServerTest, ResultsThatNobodyAskedForAreDroppedAndCounted) {
   until([this] { return server->tally().tasks.completedFrames == frames; });
   const SchedulerCounts& tasks = server->tally().tasks;
   EXPECT_GE(tasks.droppedUnknown + tasks.droppedDuplicate + tasks.droppedStale, 2u);
+}
+
+TEST_F(ServerTest, AnnouncesEachJobBeforeItsFirstTasks) {
+  jobOf = [](uint32_t frame) { return 1 + frame; };
+  std::vector<uint32_t> seen;
+  play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    EXPECT_EQ(tasks.jobVersion, 1 + tasks.frame.frame);
+    EXPECT_GE(c.announced, tasks.jobVersion);
+    seen.push_back(tasks.jobVersion);
+    c.answerAll(tasks);
+  });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  EXPECT_EQ(seen.back(), frames);
+}
+
+// The first client keeps the old frame open by one task, and all of the new one.
+TEST_F(ServerTest, AClientThatComesLateGetsNoTaskOfAJobThatItMissed) {
+  frames = 2;
+  jobOf = [](uint32_t frame) { return 1 + frame; };
+  std::optional<msg::Tasks> last;
+  std::vector<msg::Tasks> later;
+  PlayedClient& first = play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    if (tasks.jobVersion == 2) return later.push_back(tasks);
+    for (size_t i = last ? 0 : 1; i < tasks.items.size(); ++i) c.answer(tasks, i);
+    if (!last) last = tasks;
+  });
+  until([&] { return !later.empty(); });
+  bool late = false;
+  play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    EXPECT_EQ(tasks.jobVersion, 2u);
+    late = true;
+    c.answerAll(tasks);
+  });
+  until([&] {
+    const auto clients = server->clients(Clock::now());
+    return clients.size() == 2 && clients[1].status.state == ClientState::ready;
+  });
+  EXPECT_FALSE(late);
+  first.answer(*last, 0);
+  until([&] { return server->tally().tasks.completedFrames == 1; });
+  for (const msg::Tasks& tasks : later) first.answerAll(tasks);
+  until([this] { return server->tally().tasks.completedFrames == frames; });
 }
 
 TEST_F(ServerTest, SaysGoodbyeWhenItCloses) {

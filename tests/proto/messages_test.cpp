@@ -34,6 +34,16 @@ Settings oddSettings() {
   return s;
 }
 
+SceneEdit oddEdit() {
+  SceneEdit edit;
+  ObjectEdit object{7, DMat4(1)};
+  for (int i = 0; i < 12; ++i) object.motion[i / 3][i % 3] = 0.1 * (i + 1);
+  edit.objects.push_back(object);
+  edit.lights.push_back({2, Vec3(1, 2, 3), Vec3(0, -1, 0), Vec3(4, 5, 6)});
+  edit.materials.push_back({3, Vec3(0.1f, 0.2f, 0.3f), 0.4f, 0.5f, 0.6f, 1.7f, Vec3(8, 9, 10)});
+  return edit;
+}
+
 // One message of every type, with every field different from its default.
 std::vector<Message> oneOfEach() {
   return {
@@ -51,7 +61,8 @@ std::vector<Message> oneOfEach() {
       msg::Result{4, 10, 1, 2, 12345, 3, 6, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::Ping{1},
       msg::Pong{1, 2},
-      msg::Goodbye{"done"}};
+      msg::Goodbye{"done"},
+      msg::Edit{9, oddEdit()}};
 }
 
 Peer senderOf(const Message& message) {
@@ -82,6 +93,7 @@ TEST(Messages, FieldsArriveWhereTheyBelong) {
   const auto tasks = std::get<msg::Tasks>(decode(oneOfEach()[9]));
   EXPECT_EQ(tasks.frame.rotation, 12u);
   EXPECT_EQ(tasks.items[1], (msg::TaskItem{4, 255, 31}));
+  EXPECT_EQ(std::get<msg::Edit>(decode(oneOfEach()[15])).edit, oddEdit());
   const auto settings = std::get<msg::Configure>(decode(oneOfEach()[6])).settings;
   EXPECT_EQ(settings.camera, oddSettings().camera);
   EXPECT_EQ(settings.interleave, oddSettings().interleave);
@@ -100,8 +112,25 @@ TEST(Messages, NobodySpeaksTheOthersLines) {
   }
 }
 
+// What travels for a drag is a few numbers, however large the thing is.
+TEST(Messages, AnEditIsAsLongAsWhatChanged) {
+  SceneEdit edit;
+  const auto bytes = [&] { return encodeMessage(msg::Edit{1, edit}).header.size(); };
+  for (int i = 1; i <= 50; ++i) {
+    edit.objects.push_back({i, DMat4(1)});
+    EXPECT_LE(bytes(), 120u * static_cast<size_t>(i) + 16);
+  }
+}
+
+TEST(Messages, AMotionHasTwelveNumbers) {
+  Frame frame = encodeMessage(msg::Edit{1, oddEdit()});
+  // Field 2 of Edit, an ObjectEdit with node 7 and no motion.
+  frame.header = std::string("\x12\x02\x08\x07", 4);
+  EXPECT_THROW(decodeMessage(std::move(frame), Peer::master), Error);
+}
+
 TEST(Messages, UnknownTypesAreRefused) {
-  for (const uint16_t type : {uint16_t{0}, uint16_t{16}, uint16_t{65535}}) {
+  for (const uint16_t type : {uint16_t{0}, uint16_t{17}, uint16_t{65535}}) {
     EXPECT_THROW(decodeMessage(Frame{type, "", {}}, Peer::client), Error);
     EXPECT_EQ(messageLimit(type).header + messageLimit(type).payload, 0u);
   }

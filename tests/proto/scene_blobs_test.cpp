@@ -125,7 +125,7 @@ TEST(SceneBlobs, EveryFieldOfAMaterialIsInTheName) {
 
 TEST(SceneBlobs, SmallMeshesShareABlobAndALargeOneHasItsOwn) {
   Scene scene = someScene();
-  scene.meshes.assign(500, grid("m", 3, 1));
+  scene.meshes = std::vector<Mesh>(500, grid("m", 3, 1));
   size_t meshBlobs = 0;
   for (const Blob& blob : packScene(scene)) meshBlobs += blob.info.kind == BlobKind::meshes ? 1 : 0;
   EXPECT_EQ(meshBlobs, 1u);

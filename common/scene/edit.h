@@ -1,0 +1,71 @@
+// edit.h: changes of a scene while it is looked at, small and absolute: an edit says what a thing is
+// like afterwards, in terms of the scene as it was read. So edits can be merged, sent twice, or given
+// to somebody who comes late, and all who have the same edits have the same scene, bit for bit.
+//
+//   objects    toWorld = motion * toWorld as read, for all instances of a node
+//   lights     punctual ones: place, direction, intensity (off = 0)
+//   materials  the numbers that a person turns; maps stay
+//
+// The scene's bounds, and with them b and r, stay what they were while things move inside of them;
+// what leaves them makes them grow by quarters.
+//
+// Errors: checkEdit throws Error naming what does not exist or is out of range. Threads: plain values.
+// Proved: tests/scene/edit_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+namespace ninefold {
+
+// A node of the file and all instances that came from it.
+struct ObjectEdit {
+  int node = 0;     // Instance::node
+  DMat4 motion{1};  // affine, invertible; in scene coordinates
+  bool operator==(const ObjectEdit&) const = default;
+};
+
+struct LightEdit {
+  uint32_t light = 0;  // index into Scene::lights
+  Vec3 position{0};    // [m]
+  Vec3 direction{0, 0, -1};
+  Vec3 intensity{0};  // as PunctualLight
+  bool operator==(const LightEdit&) const = default;
+};
+
+struct MaterialEdit {
+  uint32_t material = 0;  // index into Scene::materials
+  Vec3 baseColor{1};
+  float metallic = 0, roughness = 1, transmission = 0, ior = 1.5f;
+  Vec3 emission{0};  // radiance [W/(m^2 sr)]
+  bool operator==(const MaterialEdit&) const = default;
+};
+
+struct SceneEdit {
+  std::vector<ObjectEdit> objects;
+  std::vector<LightEdit> lights;
+  std::vector<MaterialEdit> materials;
+  bool operator==(const SceneEdit&) const = default;
+  bool empty() const { return objects.empty() && lights.empty() && materials.empty(); }
+};
+
+// What a thing is like now.
+LightEdit editOf(const Scene& scene, uint32_t light);
+MaterialEdit editOfMaterial(const Scene& scene, uint32_t material);
+
+// `later` over `into`: each thing once, in ascending order, as its last edit has it.
+void merge(SceneEdit& into, const SceneEdit& later);
+
+// Everything that it names exists in `scene`, and every number is in range.
+void checkEdit(const Scene& scene, const SceneEdit& edit);
+
+// The scene that was read with all edits so far. Shares images and meshes with it.
+Scene edited(const Scene& asRead, const SceneEdit& all);
+
+// Instances of nodes that the edit moves: these are kept apart from the rest when tracing.
+std::vector<bool> movedInstances(const Scene& scene, const SceneEdit& all);
+
+}  // namespace ninefold

@@ -1,0 +1,26 @@
+// frame_order.h: a frame that somebody wants: its key, and the job that it is of. Plain value.
+//
+// A job is a version of the settings (camera and size included) on a version of the scene; both are
+// announced to the clients when the first frame opens that shows them. Versions and frame numbers only ever grow, and a frame's job is never older than that
+// of the frame before.
+#pragma once
+
+#include "common/scene/edit.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+struct FrameOrder {
+  FrameKey key;
+  uint32_t job = 1;
+  Settings settings;
+  uint32_t scene = 0;  // how often the scene was edited
+  SceneEdit edit;      // what is different from the frame before
+  uint8_t extraMask = 0;
+  bool filtered = false;      // clients do it: a task is a whole tile
+  float neighbourWeight = 1;  // of the filter
+
+  TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }
+};
+
+}  // namespace ninefold

@@ -1,0 +1,110 @@
+#include "master/live_plan.h"
+
+#include <utility>
+
+namespace ninefold {
+LivePlan::LivePlan(const Setup& setup, Time now)
+    : setup_(setup),
+      state_(setup.state),
+      quality_(setup.target),
+      plan_(planOfRest()),
+      changed_(now),
+      firstUnshown_(now) {
+  latest_.settings = state_.settings;
+  latest_.extraMask = state_.extraMask;
+  latest_.scene = state_.scene;
+}
+
+FramePlan LivePlan::planOfRest() const {
+  const Settings& s = state_.settings;
+  return {s.photonRadius * setup_.sceneRadius, s.interleave.sets(), setup_.converging};
+}
+
+std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
+  if (state == state_) return std::nullopt;
+  state_ = state;
+  changed_ = now;
+  if (!dirty_) firstUnshown_ = now;
+  dirty_ = true;
+  if (!setup_.motion) {
+    plan_ = planOfRest();
+    open_.clear();
+    return nextFrame_;
+  }
+  if (moving_) return std::nullopt;
+  moving_ = true;
+  quality_.begin();
+  if (open_.empty()) return std::nullopt;
+  open_.clear();
+  return nextFrame_;
+}
+
+std::optional<LiveFrame> LivePlan::next(Time now) {
+  if (moving_) return nextInMotion(now);
+  LiveFrame frame = open(now);
+  frame.rested = plan_.opened();
+  const FrameKey key = plan_.next();
+  frame.neighbourWeight = plan_.neighbourWeight(key.frame);
+  frame.order.key = key;
+  frame.order.key.frame = nextFrame_++;
+  open_[frame.order.key.frame] = frame;
+  return frame;
+}
+
+std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
+  if (!dirty_) {
+    if (now - changed_ < kSettle || !open_.empty()) return std::nullopt;
+    moving_ = false;
+    plan_ = planOfRest();
+    return next(now);
+  }
+  if (open_.size() >= kInMotion) return std::nullopt;
+  LiveFrame frame = open(now);
+  frame.moving = true;
+  frame.quality = quality_.current();
+  frame.changed = firstUnshown_;
+  frame.order.key = planOfRest().next();  // the first frame's random bits
+  frame.order.key.frame = nextFrame_++;
+  open_[frame.order.key.frame] = frame;
+  dirty_ = false;
+  return frame;
+}
+
+// All of a frame but its key. A new job begins whenever anything about it differs from the last.
+LiveFrame LivePlan::open(Time now) {
+  FrameOrder order = latest_;
+  order.settings = settingsAt(moving_ ? quality_.current() : Quality{});
+  order.extraMask = state_.extraMask;
+  order.scene = state_.scene;
+  if (!(order.settings == latest_.settings) || order.scene != latest_.scene) ++order.job;
+  latest_ = order;
+  LiveFrame frame;
+  frame.order = order;
+  frame.changed = changed_, frame.opened = now;
+  return frame;
+}
+
+Settings LivePlan::settingsAt(const Quality& quality) const {
+  const double size = MotionQuality::kSizes[static_cast<size_t>(quality.size)];
+  const double light = MotionQuality::kLights[static_cast<size_t>(quality.light)];
+  Settings s = state_.settings;
+  s.width = scaled(s.width, size), s.height = scaled(s.height, size);
+  s.directVpls = scaled(s.directVpls, light);
+  s.indirectVpls = scaled(s.indirectVpls, light);
+  s.photons = scaled(s.photons, light);
+  // Light from lit surfaces through glass comes back at rest.
+  if (moving_ && s.caustics == Caustics::all) s.caustics = Caustics::direct;
+  return s;
+}
+
+std::optional<LiveFrame> LivePlan::completed(uint32_t frame, Time now) {
+  const auto found = open_.find(frame);
+  if (found == open_.end()) return std::nullopt;
+  const LiveFrame done = found->second;
+  open_.erase(found);
+  // Frames overlap: before, the cluster was busy with the one before.
+  quality_.took(done.quality, now - std::max(done.opened, std::exchange(lastCompleted_, now)));
+  return done;
+}
+
+}  // namespace ninefold

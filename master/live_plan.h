@@ -1,0 +1,92 @@
+// live_plan.h: which frames a session wants whose picture changes while it is looked at: changes and
+// the time go in, frames come out. Pure.
+//
+//   rest     frames of full quality, one after another, as FramePlan says; the film sums them up
+//   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
+//            at motion_quality's step, with the random bits of the first frame, so that nothing
+//            flickers; at most kInMotion of them are open
+//
+// The newest state wins: what changed while a frame was rendered is in the next one, and changes that
+// no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
+// motion the open frame is finished, else a hand that never rests would never see one.
+//
+// Threads: plain value, one owner. Errors: none. Proved: tests/master/live_plan_test.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "master/frame_order.h"
+#include "master/frame_plan.h"
+#include "master/motion_quality.h"
+
+namespace ninefold {
+
+// What a session shows: settings (the camera among them) and the planes wanted beside beauty.
+struct LiveState {
+  Settings settings;
+  uint8_t extraMask = 0;
+  uint32_t scene = 0;  // edits made so far
+  uint32_t look = 0;   // what the picture is made to show of it
+  bool operator==(const LiveState&) const = default;
+};
+
+struct LiveFrame {
+  FrameOrder order;
+  bool moving = false;
+  int64_t rested = 0;         // frames at rest before this one: 0 begins the film anew
+  float neighbourWeight = 1;  // of the filter
+  Quality quality;
+  Time changed{}, opened{};  // changed: when what it shows first for became known
+};
+
+class LivePlan {
+ public:
+  static constexpr Duration kSettle = milliseconds(250);
+  static constexpr size_t kInMotion = 2;
+
+  struct Setup {
+    LiveState state;
+    Metres sceneRadius = 0;  // frozen: a photon radius must not change while a thing is dragged
+    bool converging = true;
+    Duration target = milliseconds(100);
+    bool motion =
+        true;  // false: every state is shown as at rest, for pictures that may take their time
+  };
+  LivePlan(const Setup& setup, Time now);
+
+  const LiveState& state() const { return state_; }
+  // Nothing happens if it is what is shown already. Gives back the first frame that is still wanted
+  // if open ones are not.
+  std::optional<uint32_t> change(const LiveState& state, Time now);
+  void setTarget(Duration target) { quality_.setTarget(target); }
+
+  // The next frame to open; nothing while none is wanted.
+  std::optional<LiveFrame> next(Time now);
+  // A frame is complete. Nothing if it was superseded.
+  std::optional<LiveFrame> completed(uint32_t frame, Time now);
+
+  bool isMoving() const { return moving_; }
+  const MotionQuality& quality() const { return quality_; }
+
+ private:
+  LiveFrame open(Time now);
+  FramePlan planOfRest() const;
+  Settings settingsAt(const Quality& quality) const;
+  std::optional<LiveFrame> nextInMotion(Time now);
+  void rest();
+
+  Setup setup_;
+  LiveState state_;
+  MotionQuality quality_;
+  FramePlan plan_;
+  bool moving_ = false, dirty_ = false;
+  Time changed_{};       // the latest change
+  Time firstUnshown_{};  // the first change that no frame shows yet
+  uint32_t nextFrame_ = 0;
+  FrameOrder latest_;  // whose job is current
+  std::map<uint32_t, LiveFrame> open_;
+  Time lastCompleted_{};
+};
+
+}  // namespace ninefold

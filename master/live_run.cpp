@@ -1,0 +1,229 @@
+#include "master/live_run.h"
+
+#include "common/base/log.h"
+#include "master/cluster_setup.h"
+#include "master/invitation.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kLook = milliseconds(20);  // how late the end may be noticed
+constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
+
+LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace pace) {
+  LivePlan::Setup setup;
+  setup.state.settings = job.settings;
+  setup.sceneRadius = job.sceneRadius;
+  setup.converging = options.converging;
+  setup.target = pace.target;
+  setup.motion = pace.motion;
+  return setup;
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
+                 OnPicture onPicture)
+    : job_(job),
+      workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      onPicture_(std::move(onPicture)),
+      picture_(options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius),
+      plan_(planSetup(options, job, pace), Clock::now()),
+      wanted_(job.settings),
+      needs_(job.needs),
+      cluster_(clusterSetup(options, keys), *job.offer,
+               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); }}),
+      assembly_(
+          workers_,
+          [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
+            cluster_.decoded(std::move(tile), malformed);
+          },
+          [this](int worker, const GatheredFrame& frame, int tile) {
+            finishTile(worker, frame, tile);
+          }) {
+  invite(options, cluster_.endpoint());
+}
+
+LiveRun::~LiveRun() {
+  ending_ = true;
+  if (thread_.joinable()) thread_.join();
+  cluster_.stop("the master ends");
+  cluster_.join();
+}
+
+void LiveRun::start() {
+  cluster_.start();
+  thread_ = std::thread([this] { gatherFrames(); });
+}
+
+void LiveRun::stop(const std::string& reason) {
+  ending_ = true;
+  cluster_.stop(reason);
+}
+
+void LiveRun::change(const std::function<void()>& apply) {
+  std::optional<uint32_t> firstWanted;
+  {
+    const std::lock_guard lock(mutex_);
+    apply();
+    const LiveState next = newest();
+    if (next == plan_.state()) return;
+    firstWanted = plan_.change(next, Clock::now());
+    if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
+  }
+  if (!firstWanted) return cluster_.wake();
+  assembly_.supersede(*firstWanted);
+  cluster_.supersede(*firstWanted);
+}
+
+void LiveRun::setSettings(const Settings& settings) {
+  change([&] {
+    const Camera camera = wanted_.camera;
+    wanted_ = settings;
+    wanted_.camera = camera;
+  });
+}
+
+void LiveRun::setCamera(const Camera& camera) {
+  change([&] { wanted_.camera = camera; });
+}
+
+void LiveRun::setView(PictureView view) {
+  change([&] { view_ = view; });
+}
+
+void LiveRun::wantObjects(bool on) {
+  change([&] { objects_ = on; });
+}
+
+void LiveRun::edit(const SceneEdit& edit) {
+  change([&] {
+    merge(all_, edit);
+    merge(unsent_, edit);
+    ++edits_;
+    if (!edit.materials.empty()) needs_ = needsOf(edited(*job_.scene, all_), wanted_.environment);
+  });
+}
+
+void LiveRun::setTarget(Duration target) {
+  const std::lock_guard lock(mutex_);
+  plan_.setTarget(target);
+}
+
+LiveState LiveRun::newest() const {
+  LiveState state;
+  state.settings = settingsFor(view_, wanted_);
+  state.extraMask = static_cast<uint8_t>(planesOf(view_) | (objects_ ? kPickPlanes : 0));
+  state.scene = edits_;
+  state.look = static_cast<uint32_t>(view_);
+  return state;
+}
+
+LiveState LiveRun::state() const {
+  const std::lock_guard lock(mutex_);
+  return plan_.state();
+}
+
+Settings LiveRun::settings() const {
+  const std::lock_guard lock(mutex_);
+  return wanted_;
+}
+
+Needs LiveRun::needs() const {
+  const std::lock_guard lock(mutex_);
+  return needs_;
+}
+
+bool LiveRun::isMoving() const {
+  const std::lock_guard lock(mutex_);
+  return plan_.isMoving();
+}
+
+std::shared_ptr<const Shown> LiveRun::shown() const {
+  const std::lock_guard lock(mutex_);
+  return shown_;
+}
+
+// On the network thread.
+std::optional<FrameOrder> LiveRun::nextFrame() {
+  const std::lock_guard lock(mutex_);
+  if (ending_ || !assembly_.hasRoom()) return std::nullopt;
+  std::optional<LiveFrame> frame = plan_.next(Clock::now());
+  if (!frame) return std::nullopt;
+  FrameOrder& order = frame->order;
+  order.edit = std::exchange(unsent_, {});
+  order.neighbourWeight = frame->neighbourWeight;
+  FrameView view;
+  view.key = order.key;
+  view.shape = {order.grid(), layerMaskOf(needs_, order.settings.method), order.extraMask};
+  view.camera = order.settings.camera;
+  view.neighbourWeight = frame->neighbourWeight;
+  open_[order.key.frame] = std::make_shared<Open>(
+      Open{*frame, plan_.state(), view_,
+           std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});
+  assembly_.open(view);
+  return order;
+}
+
+// On the network thread.
+bool LiveRun::take(ReceivedTile& tile) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto open = open_.find(tile.result.frame);
+    if (open != open_.end()) {
+      const auto sets = static_cast<size_t>(open->second->frame.order.settings.interleave.sets());
+      open->second->owners.at(tile.result.tile * sets + tile.result.phase) = tile.client;
+    }
+  }
+  return assembly_.take(tile);
+}
+
+// On a worker's thread.
+void LiveRun::finishTile(int worker, const GatheredFrame& frame, int tile) {
+  std::shared_ptr<Open> open;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = open_.find(frame.view.key.frame);
+    if (found == open_.end()) return;  // superseded meanwhile
+    open = found->second;
+  }
+  picture_.finishTile(worker, frame, open->frame, open->view, open->owners, tile);
+}
+
+void LiveRun::gatherFrames() {
+  while (!ending_) {
+    const auto frame = assembly_.next(Clock::now() + kLook);
+    if (!frame) continue;
+    std::optional<LiveFrame> done;
+    {
+      const std::lock_guard lock(mutex_);
+      done = plan_.completed(frame->key.frame, frame->finished);
+    }
+    if (done) {
+      picture_.frameDone();
+      publish(*done, frame->finished);
+    }
+    assembly_.release(*frame);
+    cluster_.wake();
+    if (done) onPicture_(shown());
+  }
+}
+
+void LiveRun::publish(const LiveFrame& frame, Time completed) {
+  auto shown = std::make_shared<Shown>();
+  picture_.image(shown->image);
+  shown->objects = picture_.objects();
+  shown->depth = picture_.depth();
+  shown->frame = frame;
+  shown->completed = completed;
+  shown->frames = picture_.frames();
+  shown->relativeError = picture_.relativeError();
+  shown->rays = cluster_.tally().rays;
+  const std::lock_guard lock(mutex_);
+  const auto open = open_.find(frame.order.key.frame);
+  if (open != open_.end()) shown->state = open->second->state, shown->view = open->second->view;
+  open_.erase(open_.begin(), open_.upper_bound(frame.order.key.frame));
+  shown_ = std::move(shown);
+}
+
+}  // namespace ninefold

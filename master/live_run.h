@@ -1,0 +1,109 @@
+// live_run.h: a session with a cluster whose picture changes while it is looked at: the same clients,
+// scheduler and assembly as a headless run's, fed by a LivePlan.
+//
+//   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
+//   picture thread: sums frames up, publishes what is to be seen
+//
+// Threads: as said. Owner: the session; ends all its threads when destroyed.
+// Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run later.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "master/assembly.h"
+#include "master/cluster.h"
+#include "master/job.h"
+#include "master/live_picture.h"
+#include "master/live_plan.h"
+
+namespace ninefold {
+
+// What is to be seen after a frame; constant once published.
+struct Shown {
+  RgbImage image;
+  std::vector<uint32_t> objects;  // as kObjectPlane, if the frame carried it
+  std::vector<float> depth;       // as kDepthPlane, likewise
+  LiveFrame frame;
+  LiveState state;  // full size and light, whatever the frame had
+  PictureView view = PictureView::beauty;
+  Time completed{};
+  int64_t frames = 0;  // that the image is the mean of
+  double relativeError = 0;
+  RayCounts rays;  // of the run so far
+};
+
+class LiveRun {
+ public:
+  // `onPicture`: called on the picture's thread after each frame.
+  struct Pace {
+    Duration target = milliseconds(100);  // of frames in motion
+    bool motion = true;                   // false: every state is rendered as if it rested
+  };
+  using OnPicture = std::function<void(const std::shared_ptr<const Shown>&)>;
+  LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
+          OnPicture onPicture);
+  ~LiveRun();
+
+  void start();
+
+  // The newest state wins.
+  void setSettings(const Settings& settings);
+  void setCamera(const Camera& camera);
+  void setView(PictureView view);
+  void wantObjects(bool on);        // with every frame from now on
+  void setTarget(Duration target);  // of frames in motion
+  // Needs checkEdit.
+  void edit(const SceneEdit& edit);
+
+  LiveState state() const;    // the newest
+  Settings settings() const;  // as wanted at rest
+  Needs needs() const;        // of the scene as it is now
+  bool isMoving() const;
+  std::shared_ptr<const Shown> shown() const;  // null before the first frame
+  const Cluster& cluster() const { return cluster_; }
+  void stop(const std::string& reason);
+
+ private:
+  std::optional<FrameOrder> nextFrame();
+  bool take(ReceivedTile& tile);
+  void finishTile(int worker, const GatheredFrame& frame, int tile);
+  void gatherFrames();
+  void change(const std::function<void()>& apply);
+  LiveState newest() const;
+  void publish(const LiveFrame& frame, Time completed);
+
+  Job& job_;
+  const int workers_;
+  const OnPicture onPicture_;
+  LivePicture picture_;
+
+  mutable std::mutex mutex_;  // guards all up to shown_
+  LivePlan plan_;
+  Settings wanted_;
+  Needs needs_;
+  SceneEdit all_, unsent_;
+  uint32_t edits_ = 0;
+  PictureView view_ = PictureView::beauty;
+  bool objects_ = false;
+  struct Open {
+    LiveFrame frame;
+    LiveState state;
+    PictureView view;
+    std::vector<uint32_t> owners;  // by task
+  };
+  std::map<uint32_t, std::shared_ptr<Open>> open_;
+  std::shared_ptr<const Shown> shown_;
+
+  std::atomic<bool> ending_ = false;
+  // In this order: the workers end before the cluster that they report to.
+  Cluster cluster_;
+  Assembly assembly_;
+  std::thread thread_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,63 @@
+// motion_quality.h: how good a frame may be while something moves, so that it is done within a
+// target time. Pure: durations in, steps out.
+//
+//   cost of a frame, relative to a full one    c(size, light) = size^2 (e + (1 - e) light)
+//   size    width and height are multiplied by it      one of kSizes
+//   light   VPLs and photons are multiplied by it      one of kLights
+//   e = kEyeShare   what eye paths and filter cost beside the light
+//
+// The time of a full frame is learned from every frame that is timed. When a gesture begins, the
+// first entry of the ladder that is predicted to keep the target is taken: size falls to a half
+// before the light is thinned. The light then stays, so that nothing flickers, until the gesture
+// ends; size may still follow the clock: down at once, up when three frames in a row say so.
+//
+// Threads: plain value. Errors: none. Proved: tests/master/motion_quality_test.cpp.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "common/base/clock.h"
+
+namespace ninefold {
+
+struct Quality {
+  int size = 0;   // index into kSizes
+  int light = 0;  // index into kLights
+  bool operator==(const Quality&) const = default;
+};
+
+class MotionQuality {
+ public:
+  static constexpr std::array kSizes{1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
+  static constexpr std::array kLights{1.0, 0.5, 0.25};
+  static constexpr double kEyeShare = 0.3;
+
+  explicit MotionQuality(Duration target) : target_(target) {}
+
+  void begin();  // of a gesture
+  Quality current() const { return current_; }
+  // A frame was done in this quality; those at rest count too.
+  void took(Quality quality, Duration time);
+
+  Duration target() const { return target_; }
+  void setTarget(Duration target) { target_ = target; }
+
+  static double cost(Quality quality);
+  // "1/2 size, 1/4 light": what people are told; empty for full quality.
+  static std::string describe(Quality quality);
+
+ private:
+  bool fits(Quality quality) const;
+
+  Duration target_;
+  std::optional<double> full_;  // learned time of a full frame [s]
+  Quality current_;
+  int couldBeBetter_ = 0;  // frames in a row
+};
+
+// A number of VPLs or photons, or of pixels along a side, at a step: at least 1 of what there is.
+int scaled(int count, double factor);
+
+}  // namespace ninefold

@@ -1,0 +1,65 @@
+// view.h: what a picture may show instead of beauty: one quantity of a frame as a colour.
+//
+//   albedo, normal, depth   of the first hit      objects   a colour for each thing
+//   direct, indirect        light that came straight, or by at least one diffuse bounce
+//   caustics                the photons' part of E in the diffuse layer
+//   sets                    which light set a pixel met
+//   error                   standard error of the mean so far, over the mean
+//   clients                 who rendered what
+//
+// A view asks for just the planes that it needs, and for the settings that leave only its part of
+// the light. Threads: pure functions. Errors: none.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/image/film.h"
+#include "common/image/patch.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+enum class PictureView : uint8_t {
+  beauty,
+  albedo,
+  normal,
+  depth,
+  direct,
+  indirect,
+  caustics,
+  sets,
+  error,
+  clients,
+  objects
+};
+inline constexpr std::array kViewNames{"beauty", "albedo",   "normal",   "depth",
+                                       "direct", "indirect", "caustics", "sets",
+                                       "error",  "clients",  "objects"};
+
+inline const char* nameOf(PictureView view) { return kViewNames[static_cast<size_t>(view)]; }
+std::optional<PictureView> viewNamed(const std::string& name);
+
+inline constexpr float kDepthShownWhite = 2;  // in radii of the scene
+
+// Extra planes, and settings, that a task needs for it.
+uint8_t planesOf(PictureView view);
+Settings settingsFor(PictureView view, Settings settings);
+
+// Where its colours are codes and not light, so that exposure must leave them alone.
+bool isFalseColor(PictureView view);
+
+// Replaces the tile's beauty by the view's colours. `depthScale` [m]: what is shown white.
+// `owners`: by phase, the number of the client that rendered it; may be null.
+void paint(PictureView view, const Patch& patch, uint32_t rotation, float depthScale,
+           const uint32_t* owners, RgbImage& beauty);
+
+// The film's error over its mean, in place of the mean.
+void paintError(const Film& film, RgbImage& mean);
+
+// A colour for a number, far from its neighbours'.
+Vec3 colorOf(uint32_t number);
+
+}  // namespace ninefold

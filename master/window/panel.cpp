@@ -1,0 +1,171 @@
+#include "master/window/panel.h"
+
+#include <imgui.h>
+
+#include "common/math/units.h"
+
+namespace ninefold {
+namespace {
+
+const char* nameOf(ClientState state) {
+  constexpr std::array kNames{"connecting", "syncing", "building", "ready", "lost"};
+  return kNames[static_cast<size_t>(state)];
+}
+
+void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
+
+template <typename T, typename Value>
+void slide(bool changed, std::optional<T>& to, const Value& value) {
+  if (changed) to = value;
+}
+
+void drawNumbers(const PanelView& view) {
+  if (view.shown == nullptr) return line(view.state);
+  const Shown& shown = *view.shown;
+  const std::string step = MotionQuality::describe(shown.frame.quality);
+  const float last = view.frameTimes.empty() ? 0 : view.frameTimes.back();
+  line(fmt::format("{}x{}  {:.0f} ms  {}", shown.image.width, shown.image.height, double(last),
+                   shown.frame.moving ? (step.empty() ? "moving" : "moving: " + step) : "resting"));
+  ImGui::PlotLines("##times", view.frameTimes.data(), static_cast<int>(view.frameTimes.size()), 0,
+                   nullptr, 0, 4 * view.target, ImVec2(ImGui::GetContentRegionAvail().x, 48));
+  line(fmt::format("{:.2f} Mrays/s   {:.0f} tasks/s", 1e-6 * view.raysPerSecond,
+                   view.tasksPerSecond));
+  if (!shown.frame.moving)
+    line(shown.frames < 2
+             ? fmt::format("{} frame", shown.frames)
+             : fmt::format("{} frames   error {:.2f} %", shown.frames, 100 * shown.relativeError));
+  line(fmt::format("flying {:.2f} m/s", view.speed));
+}
+
+void drawClients(const PanelView& view) {
+  if (!ImGui::CollapsingHeader("Clients")) return;
+  for (const ClientInfo& client : view.clients) {
+    std::string text = fmt::format("{} {}", client.name, nameOf(client.status.state));
+    if (client.status.state == ClientState::syncing)
+      text += fmt::format(" {:.0f} %", 100 * client.status.synced);
+    if (client.work)
+      text += fmt::format("  {} tasks  {:.0f} % busy", client.work->tasks,
+                          100 * client.work->busyFraction());
+    line(text);
+  }
+}
+
+void drawLight(const PanelView& view, PanelChanges& changes) {
+  if (!ImGui::CollapsingHeader("Light")) return;
+  Settings s = view.settings;
+  int method = static_cast<int>(s.method), caustics = static_cast<int>(s.caustics);
+  bool changed = ImGui::Combo("method", &method, "instant radiosity\0path tracing\0");
+  changed |= ImGui::SliderInt("direct VPLs", &s.directVpls, 0, 64);
+  changed |= ImGui::SliderInt("indirect VPLs", &s.indirectVpls, 0, 256);
+  changed |= ImGui::SliderInt("photons", &s.photons, 0, 20000);
+  changed |= ImGui::SliderInt("path length", &s.pathLength, 0, 16, "%d (0 = no limit)");
+  changed |= ImGui::SliderFloat("bound", &s.bound, 1, 1000, "%.0f", ImGuiSliderFlags_Logarithmic);
+  changed |= ImGui::SliderFloat("photon radius", &s.photonRadius, 0.001f, 0.1f, "%.3f R");
+  changed |= ImGui::Combo("caustics", &caustics, "off\0direct\0all\0");
+  int interleave = s.interleave.n;
+  changed |= ImGui::SliderInt("light sets n x n", &interleave, 1, 5);
+  changed |= ImGui::Checkbox("compensate the bound", &s.compensate);
+  if (!changed) return;
+  s.method = static_cast<Method>(method), s.caustics = static_cast<Caustics>(caustics);
+  s.interleave = {interleave, interleave};
+  changes.settings = s;
+}
+
+void drawPicture(const PanelView& view, PanelChanges& changes) {
+  if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  int look = static_cast<int>(view.view);
+  if (ImGui::Combo("view", &look, kViewNames.data(), static_cast<int>(kViewNames.size())))
+    changes.view = static_cast<PictureView>(look);
+  float exposure = view.exposure, target = view.target;
+  slide(ImGui::SliderFloat("exposure", &exposure, -8, 8, "%.1f EV"), changes.exposure, exposure);
+  slide(ImGui::SliderFloat("frame in motion", &target, 20, 500, "%.0f ms"), changes.target, target);
+  float fov = view.settings.camera.verticalFov * 180 / kPi;
+  slide(ImGui::SliderFloat("field of view", &fov, 5, 120, "%.0f deg"), changes.verticalFov,
+        fov * kPi / 180);
+  for (size_t i = 0; i < view.cameras.size() && i < 8; ++i) {
+    if (i > 0) ImGui::SameLine();
+    if (ImGui::SmallButton(view.cameras[i].c_str())) changes.camera = i;
+  }
+  changes.savePng = ImGui::Button("PNG");
+  ImGui::SameLine();
+  changes.saveExr = ImGui::Button("EXR");
+  ImGui::SameLine();
+  changes.record = ImGui::Button(view.recording ? "stop recording" : "record");
+}
+
+void drawMaterial(const PanelView& view, PanelChanges& changes) {
+  MaterialEdit m = view.material;
+  bool changed = ImGui::ColorEdit3("colour", &m.baseColor.x, ImGuiColorEditFlags_Float);
+  changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1);
+  changed |= ImGui::SliderFloat("metalness", &m.metallic, 0, 1);
+  changed |= ImGui::SliderFloat("transmission", &m.transmission, 0, 1);
+  changed |= ImGui::SliderFloat("ior", &m.ior, 1, 2.5f);
+  if (!isBlack(m.emission) || view.material.material != m.material)
+    changed |= ImGui::DragFloat3("emission", &m.emission.x, 0.5f, 0, 10000);
+  m.baseColor = glm::clamp(m.baseColor, Vec3(0), Vec3(1));
+  m.emission = glm::max(m.emission, Vec3(0));
+  slide(changed, changes.material, m);
+}
+
+void drawLamp(const PanelView& view, PanelChanges& changes) {
+  LightEdit l = view.light;
+  bool changed = ImGui::DragFloat3("place", &l.position.x, 0.01f);
+  changed |= ImGui::DragFloat3("intensity", &l.intensity.x, 0.5f, 0, 100000);
+  l.intensity = glm::max(l.intensity, Vec3(0));
+  slide(changed, changes.light, l);
+}
+
+void drawThing(const PanelView& view, PanelChanges& changes) {
+  if (!ImGui::CollapsingHeader("Thing", ImGuiTreeNodeFlags_DefaultOpen)) return;
+  for (uint32_t i = 0; i < view.lights.size() && i < 16; ++i)
+    if (ImGui::SmallButton(view.lights[i].c_str())) changes.selectLight = i;
+  if (!view.selection) {
+    line("click on something");
+  } else {
+    line(view.selection->name);
+    if (view.selection->light)
+      drawLamp(view, changes);
+    else
+      drawMaterial(view, changes);
+    changes.sliderReleased = !ImGui::IsAnyItemActive();
+  }
+  changes.undo = ImGui::Button("undo");
+  ImGui::SameLine();
+  changes.redo = ImGui::Button("redo");
+  ImGui::SameLine();
+  changes.saveScene = ImGui::Button("save scene");
+}
+
+}  // namespace
+
+PanelChanges drawPanel(const PanelView& view) {
+  PanelChanges changes;
+  ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowSize(ImVec2(290, 0), ImGuiCond_FirstUseEver);
+  ImGui::SetNextWindowBgAlpha(0.75f);
+  if (ImGui::Begin("ninefold", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
+    ImGui::PushItemWidth(140);
+    drawNumbers(view);
+    drawClients(view);
+    if (ImGui::CollapsingHeader("Needs"))
+      for (const std::string& need : view.needs) line(need);
+    drawPicture(view, changes);
+    drawLight(view, changes);
+    drawThing(view, changes);
+    ImGui::PopItemWidth();
+  }
+  ImGui::End();
+  return changes;
+}
+
+void drawProgress(const std::string& state, double done) {
+  const ImVec2 middle(ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2);
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+  ImGui::SetNextWindowSize(ImVec2(360, 0));
+  ImGui::Begin("##progress", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs);
+  line(state);
+  ImGui::ProgressBar(static_cast<float>(done), ImVec2(-1, 0));
+  ImGui::End();
+}
+
+}  // namespace ninefold

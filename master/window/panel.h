@@ -1,0 +1,62 @@
+// panel.h: what lies over the picture: numbers, sliders, clients, the selected thing. Drawn anew for
+// each frame of the window from values, and gives values back; it decides nothing.
+// Threads: the main thread, between Window::beginFrame and endFrame.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/scene/edit.h"
+#include "master/live_run.h"
+
+namespace ninefold {
+
+// The thing that a person has clicked.
+struct Selection {
+  int node = -1;
+  std::string name;
+  uint32_t material = 0;
+  std::optional<uint32_t> light;  // a punctual one
+};
+
+struct PanelView {
+  const Shown* shown = nullptr;   // null: nothing yet
+  std::vector<float> frameTimes;  // the latest, oldest first [ms]
+  double raysPerSecond = 0, tasksPerSecond = 0;
+  std::string state;  // "loading the scene ...", "2 ready"
+  std::vector<ClientInfo> clients;
+  std::vector<std::string> needs;
+  Settings settings;
+  PictureView view = PictureView::beauty;
+  float exposure = 0;
+  float target = 100;  // frame time in motion [ms]
+  double speed = 0;    // of flying [m/s]
+  std::optional<Selection> selection;
+  MaterialEdit material;  // of the selection
+  LightEdit light;        // of the selection
+  std::vector<std::string> lights;
+  std::vector<std::string> cameras;
+  bool recording = false;
+};
+
+struct PanelChanges {
+  std::optional<Settings> settings;
+  std::optional<PictureView> view;
+  std::optional<float> exposure, target;
+  std::optional<float> verticalFov;
+  std::optional<MaterialEdit> material;
+  std::optional<LightEdit> light;
+  std::optional<uint32_t> selectLight;
+  std::optional<size_t> camera;
+  bool savePng = false, saveExr = false, saveScene = false, record = false;
+  bool undo = false, redo = false;
+  bool sliderReleased = false;  // the next edit is another action
+};
+
+PanelChanges drawPanel(const PanelView& view);
+
+// A bar in the middle while there is no picture.
+void drawProgress(const std::string& state, double done);
+
+}  // namespace ninefold

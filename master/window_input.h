@@ -1,0 +1,80 @@
+// window_input.h: what a person's keys and pointer mean: events in; camera moved, commands out. Pure.
+//
+//   W A S D, E Q       fly forward, left, back, right, up, down; Shift: in a hurry
+//   wheel              flying speed; with Control: towards the pivot
+//   right button       look around     middle button: orbit about the pivot; with Shift: pan
+//   left button        a click selects, a drag moves what is selected (Control: up and down,
+//                      X Y Z held: along that axis, R held: turns)
+//   1 .. 9, 0          views           [ ]: exposure
+//   F  frame the selection             Home: the first view again    C: the scene's next camera
+//   L  lamp on or off                  Escape: select nothing
+//   Control+Z, Y       undo, redo      Control+S: save the scene     P: picture into a file
+//   Tab  panel on or off               Control+Q: close the window
+//
+// Threads: plain value. Proved: tests/master/window_input_test.cpp.
+#pragma once
+
+#include <vector>
+
+#include "master/camera_control.h"
+#include "master/drag.h"
+#include "master/window_events.h"
+
+namespace ninefold {
+
+struct Command {
+  enum class Kind : uint8_t {
+    select,     // what is at `pointer`
+    dragBegin,  // of the selection, at `pointer`
+    drag,       // to `pointer`
+    dragEnd,
+    view,      // number `amount`, counted as on the keyboard: 1 .. 9, 0
+    exposure,  // by `amount` [EV]
+    frameSelection,
+    reset,
+    nextCamera,
+    toggleLamp,
+    deselect,
+    undo,
+    redo,
+    saveScene,
+    savePicture,
+    togglePanel,
+    close,
+  };
+  Kind kind;
+  Vec2 pointer{0};
+  DragMode mode = DragMode::ground;
+  float amount = 0;
+};
+
+class WindowInput {
+ public:
+  static constexpr float kClick = 4;            // a drag begins when the pointer went that far
+  static constexpr float kExposureStep = 0.5f;  // [EV]
+
+  explicit WindowInput(Time now) : now_(now) {}
+
+  // `height`: of the picture in the window.
+  std::vector<Command> take(const std::vector<WindowEvent>& events, float height,
+                            CameraControl& camera);
+  // Time passes for keys that are held.
+  void passTo(Time now, CameraControl& camera);
+
+ private:
+  void onKey(const WindowEvent& event, CameraControl& camera);
+  void onPress(int key, const Modifiers& modifiers, CameraControl& camera);
+  void onButton(const WindowEvent& event);
+  void onMove(const WindowEvent& event, float height, CameraControl& camera);
+  DragMode dragMode(const Modifiers& modifiers) const;
+  void say(Command::Kind kind, float amount = 0);
+
+  Time now_;
+  Vec2 pointer_{0}, pressedAt_{0};
+  bool left_ = false, right_ = false, middle_ = false, dragging_ = false;
+  Modifiers modifiers_;
+  int heldAxis_ = 0;  // X, Y, Z or R
+  std::vector<Command> commands_;
+};
+
+}  // namespace ninefold

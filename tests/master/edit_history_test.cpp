@@ -1,0 +1,105 @@
+// Undo and redo, against a copy of every state.
+#include "master/edit_history.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace ninefold {
+namespace {
+
+std::shared_ptr<const Scene> someScene() {
+  Scene scene;
+  scene.materials.resize(3);
+  scene.materials[1].roughness = 0.25f;
+  scene.lights.resize(2);
+  scene.lights[0].intensity = Vec3(7);
+  for (int i = 0; i < 4; ++i) scene.instances.push_back({"", 0, i});
+  return std::make_shared<const Scene>(scene);
+}
+
+bool sameScene(const Scene& a, const Scene& b) {
+  bool same = true;
+  for (uint32_t i = 0; i < 3; ++i) same = same && editOfMaterial(a, i) == editOfMaterial(b, i);
+  for (uint32_t i = 0; i < 2; ++i) same = same && editOf(a, i) == editOf(b, i);
+  for (size_t i = 0; i < 4; ++i) same = same && a.instances[i].toWorld == b.instances[i].toWorld;
+  return same;
+}
+
+SceneEdit randomEdit(const Scene& scene, std::mt19937& random) {
+  SceneEdit edit;
+  const auto real = [&] { return std::uniform_real_distribution<float>(0, 1)(random); };
+  switch (random() % 3) {
+    case 0: {
+      ObjectEdit object{static_cast<int>(random() % 4), DMat4(1)};
+      object.motion[3] = DVec4(double(real()), 0, 0, 1);
+      edit.objects.push_back(object);
+      break;
+    }
+    case 1: {
+      LightEdit light = editOf(scene, static_cast<uint32_t>(random() % 2));
+      light.intensity = Vec3(real());
+      edit.lights.push_back(light);
+      break;
+    }
+    default: {
+      MaterialEdit material = editOfMaterial(scene, static_cast<uint32_t>(random() % 3));
+      material.roughness = real();
+      edit.materials.push_back(material);
+    }
+  }
+  return edit;
+}
+
+TEST(EditHistory, UndoAndRedoMeetEveryStateOfARandomSession) {
+  const auto scene = someScene();
+  Scene read = *scene;
+  read.meshes.resize(1);  // without corners: nothing grows
+  const auto seen = [&](const EditHistory& h) { return edited(read, h.all()); };
+  std::mt19937 random(2);
+  EditHistory history(scene);
+  std::vector<Scene> states{seen(history)};
+  for (uint64_t action = 1; action <= 60; ++action) {
+    for (uint32_t i = 0; i <= random() % 4; ++i) history.apply(randomEdit(*scene, random), action);
+    states.push_back(seen(history));
+  }
+  EXPECT_FALSE(history.redo());
+  for (size_t at = 60; at > 0; --at) {
+    ASSERT_TRUE(history.undo());
+    EXPECT_TRUE(sameScene(seen(history), states[at - 1])) << at;
+  }
+  EXPECT_FALSE(history.undo());
+  for (size_t at = 1; at <= 60; ++at) {
+    ASSERT_TRUE(history.redo());
+    EXPECT_TRUE(sameScene(seen(history), states[at])) << at;
+  }
+}
+
+TEST(EditHistory, ANewEditForgetsWhatWasTakenBack) {
+  const auto scene = someScene();
+  std::mt19937 random(4);
+  EditHistory history(scene);
+  history.apply(randomEdit(*scene, random), 1);
+  history.undo();
+  history.apply(randomEdit(*scene, random), 2);
+  EXPECT_FALSE(history.redo());
+  EXPECT_TRUE(history.undo());
+  EXPECT_FALSE(history.undo());
+}
+
+TEST(EditHistory, WhatChangesByAnUndoIsJustWhatTheActionTouched) {
+  const auto scene = someScene();
+  EditHistory history(scene);
+  SceneEdit edit;
+  edit.materials.push_back(editOfMaterial(*scene, 1));
+  edit.materials[0].roughness = 0.9f;
+  history.apply(edit, 1);
+  const auto back = history.undo();
+  ASSERT_TRUE(back);
+  ASSERT_EQ(back->materials.size(), 1u);
+  EXPECT_EQ(back->materials[0].roughness, 0.25f);
+  EXPECT_TRUE(back->objects.empty() && back->lights.empty());
+}
+
+}  // namespace
+}  // namespace ninefold

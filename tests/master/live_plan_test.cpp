@@ -1,0 +1,195 @@
+// Which frames a session opens while its picture changes, under a clock of the test.
+#include "master/live_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+namespace ninefold {
+namespace {
+
+class LivePlanTest : public testing::Test {
+ protected:
+  static LivePlan::Setup setup() {
+    LivePlan::Setup s;
+    s.state.settings.width = 64, s.state.settings.height = 48;
+    s.sceneRadius = 5, s.state.settings.photonRadius = 0.02f;
+    return s;
+  }
+  void pass(Duration time) { now += time; }
+  std::optional<uint32_t> moveTo(float x) {
+    LiveState state = plan.state();
+    state.settings.camera.eye.x = x;
+    return plan.change(state, now);
+  }
+  LiveFrame opened() {
+    const auto frame = plan.next(now);
+    EXPECT_TRUE(frame);
+    return frame.value_or(LiveFrame{});
+  }
+  void finish(const LiveFrame& frame) { EXPECT_TRUE(plan.completed(frame.order.key.frame, now)); }
+  // A frame opened and done in 20 ms.
+  LiveFrame done() {
+    const LiveFrame frame = opened();
+    pass(milliseconds(20));
+    finish(frame);
+    return frame;
+  }
+
+  Time now = Time(std::chrono::hours(1));
+  LivePlan plan{setup(), now};
+};
+
+TEST_F(LivePlanTest, AtRestFramesFollowOneAnotherAsInAHeadlessRun) {
+  FramePlan headless(5 * 0.02f, 9, true);
+  for (uint32_t i = 0; i < 20; ++i) {
+    const LiveFrame frame = done();
+    const FrameKey key = headless.next();
+    EXPECT_FALSE(frame.moving);
+    EXPECT_EQ(frame.rested, i);
+    EXPECT_EQ(frame.order.key.randomization, key.randomization);
+    EXPECT_EQ(frame.order.key.rotation, key.rotation);
+    EXPECT_EQ(frame.order.key.photonRadius, key.photonRadius);
+    EXPECT_EQ(frame.neighbourWeight, headless.neighbourWeight(i));
+    EXPECT_EQ(frame.order.job, 1u);
+  }
+}
+
+TEST_F(LivePlanTest, AChangeAtRestSupersedesWhatIsOpen) {
+  const LiveFrame old = opened();
+  const auto wanted = moveTo(1);
+  ASSERT_TRUE(wanted);
+  EXPECT_GT(*wanted, old.order.key.frame);
+  EXPECT_FALSE(plan.completed(old.order.key.frame, now));
+  const LiveFrame frame = opened();
+  EXPECT_EQ(frame.order.key.frame, *wanted);
+  EXPECT_TRUE(frame.moving);
+  EXPECT_EQ(frame.order.settings.camera.eye.x, 1);
+  EXPECT_GT(frame.order.job, old.order.job);
+}
+
+TEST_F(LivePlanTest, WhatDoesNotChangeAnythingSupersedesNothing) {
+  opened();
+  EXPECT_FALSE(plan.change(plan.state(), now));
+  EXPECT_FALSE(plan.isMoving());
+}
+
+TEST_F(LivePlanTest, InMotionTheNewestStateWinsAndNoQueueGrows) {
+  opened();
+  moveTo(0);
+  std::set<uint32_t> open;
+  float last = -1;
+  for (int i = 1; i <= 200; ++i) {
+    moveTo(static_cast<float>(i));
+    if (const auto frame = plan.next(now)) {
+      EXPECT_EQ(frame->order.settings.camera.eye.x, static_cast<float>(i));
+      EXPECT_GT(frame->order.settings.camera.eye.x, last);
+      last = frame->order.settings.camera.eye.x;
+      open.insert(frame->order.key.frame);
+    }
+    EXPECT_LE(open.size(), LivePlan::kInMotion);
+    if (i % 7 == 0) {  // the cluster is slower than the hand
+      EXPECT_TRUE(plan.completed(*open.begin(), now));
+      open.erase(open.begin());
+    }
+    pass(milliseconds(5));
+  }
+}
+
+TEST_F(LivePlanTest, TheLastStateIsShownInMotionAndThenAtRest) {
+  moveTo(3);
+  const LiveFrame moving = done();
+  EXPECT_FALSE(plan.next(now)) << "the hand may go on";
+  pass(LivePlan::kSettle);
+  const LiveFrame rest = done();
+  EXPECT_FALSE(rest.moving);
+  EXPECT_EQ(rest.rested, 0);
+  EXPECT_EQ(rest.order.settings.camera, moving.order.settings.camera);
+  EXPECT_EQ(rest.order.settings.width, 64);
+  EXPECT_EQ(done().rested, 1);
+}
+
+TEST_F(LivePlanTest, RestWaitsForTheFramesOfTheMotion) {
+  moveTo(3);
+  const LiveFrame moving = opened();
+  pass(2 * LivePlan::kSettle);
+  EXPECT_FALSE(plan.next(now));
+  finish(moving);
+  EXPECT_FALSE(opened().moving);
+}
+
+TEST_F(LivePlanTest, RandomBitsCountsAndRadiusAreFrozenWithinAGesture) {
+  for (int i = 0; i < 5; ++i) {  // the cluster is known to be slow
+    const LiveFrame frame = opened();
+    pass(milliseconds(600));
+    finish(frame);
+  }
+  moveTo(1);
+  const LiveFrame first = opened();
+  pass(milliseconds(90));
+  finish(first);
+  EXPECT_LT(first.order.settings.indirectVpls, 18);
+  EXPECT_LT(first.order.settings.width, 64);
+  std::mt19937 random(5);
+  for (int i = 2; i < 100; ++i) {
+    moveTo(static_cast<float>(i));
+    const LiveFrame frame = opened();
+    pass(milliseconds(20 + random() % 400));  // and changes its speed
+    finish(frame);
+    FrameKey key = frame.order.key;
+    key.frame = first.order.key.frame;
+    EXPECT_EQ(key.randomization, first.order.key.randomization);
+    EXPECT_EQ(key.rotation, first.order.key.rotation);
+    EXPECT_EQ(key.photonRadius, first.order.key.photonRadius);
+    EXPECT_EQ(frame.order.settings.bound, first.order.settings.bound);
+    EXPECT_EQ(frame.order.settings.directVpls, first.order.settings.directVpls);
+    EXPECT_EQ(frame.order.settings.indirectVpls, first.order.settings.indirectVpls);
+    EXPECT_EQ(frame.order.settings.photons, first.order.settings.photons);
+  }
+}
+
+TEST_F(LivePlanTest, LatencyCountsFromTheFirstChangeThatAFrameShows) {
+  moveTo(1);
+  const Time first = now;
+  pass(milliseconds(30));
+  moveTo(2);
+  EXPECT_EQ(opened().changed, first);
+  const Time second = now;
+  moveTo(3);
+  pass(milliseconds(10));
+  moveTo(4);
+  EXPECT_EQ(opened().changed, second);
+}
+
+TEST_F(LivePlanTest, WithoutMotionEveryStateIsAStillOfItsOwn) {
+  LivePlan::Setup stills = setup();
+  stills.motion = false;
+  plan = LivePlan(stills, now);
+  for (int picture = 1; picture <= 5; ++picture) {
+    EXPECT_TRUE(moveTo(static_cast<float>(picture)));
+    for (uint32_t i = 0; i < 4; ++i) {
+      const LiveFrame frame = done();
+      EXPECT_FALSE(frame.moving);
+      EXPECT_EQ(frame.rested, i);
+      EXPECT_EQ(frame.order.key.randomization, i);
+      EXPECT_EQ(frame.order.settings.camera.eye.x, static_cast<float>(picture));
+    }
+  }
+}
+
+TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
+  const uint32_t before = done().order.job;
+  LiveState state = plan.state();
+  state.scene = 1;
+  plan.change(state, now);
+  const LiveFrame edited = done();
+  EXPECT_GT(edited.order.job, before);
+  EXPECT_EQ(edited.order.scene, 1u);
+  pass(LivePlan::kSettle);
+  const uint32_t rest = done().order.job;
+  EXPECT_EQ(done().order.job, rest);
+}
+
+}  // namespace
+}  // namespace ninefold

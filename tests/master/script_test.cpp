@@ -1,0 +1,117 @@
+// Scripts: what they say at a time, and what is wrong with bad ones.
+#include "master/script.h"
+
+#include <gtest/gtest.h>
+
+#include "common/base/error.h"
+#include "common/scene/world.h"
+
+namespace ninefold {
+namespace {
+
+Scene someScene() {
+  Scene scene;
+  Mesh mesh;
+  mesh.positions = {Vec3(-1, 0, -1), Vec3(1, 0, -1), Vec3(1, 2, 1)};
+  mesh.triangles = {Triangle(0, 1, 2)};
+  scene.meshes = {mesh};
+  Material ball;
+  ball.name = "glass";
+  scene.materials = {ball};
+  scene.instances = {{"ball", 0, 2}, {"ball", 0, 5}, {"table", 0, 7}};
+  PunctualLight lamp;
+  lamp.name = "lamp", lamp.intensity = Vec3(4);
+  scene.lights = {lamp};
+  Camera camera;
+  camera.name = "front";
+  scene.cameras = {camera};
+  scene.bounds = boundsOf(scene);
+  return scene;
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    parseScript(text, "s.json", someScene());
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(Script, ThingsMoveEvenlyAndStayWhereTheyWerePut) {
+  const Scene scene = someScene();
+  const Script script = parseScript(R"({"seconds": 4, "events": [
+      {"from": 1, "to": 3, "object": "ball", "by": [2, 0, 0]},
+      {"at": 3.5, "object": "ball", "by": [0, 1, 0]}]})",
+                                    "s.json", scene);
+  const auto placeAt = [&](double time) {
+    const SceneEdit edit = script.at(time, scene, {}).edit;
+    if (edit.objects.empty()) return DVec3(0);
+    EXPECT_EQ(edit.objects.size(), 2u) << "all objects of the name";
+    return DVec3(edit.objects[0].motion[3]);
+  };
+  EXPECT_EQ(placeAt(0.9), DVec3(0));
+  EXPECT_NEAR(glm::length(placeAt(1.5) - DVec3(0.5, 0, 0)), 0, 1e-12);
+  EXPECT_NEAR(glm::length(placeAt(3.2) - DVec3(2, 0, 0)), 0, 1e-12);
+  EXPECT_NEAR(glm::length(placeAt(4) - DVec3(2, 1, 0)), 0, 1e-12);
+}
+
+TEST(Script, ObjectsTurnAboutTheirMiddle) {
+  const Scene scene = someScene();
+  const Script script = parseScript(
+      R"({"seconds": 1, "events": [{"at": 0, "object": "table", "turn": 90}]})", "s.json", scene);
+  const DMat4 motion = script.at(0, scene, {}).edit.objects.at(0).motion;
+  EXPECT_NEAR(glm::length(DVec3(motion * DVec4(0, 1, 0, 1)) - DVec3(0, 1, 0)), 0, 1e-12);
+  EXPECT_NEAR(glm::length(DVec3(motion * DVec4(1, 1, 0, 1)) - DVec3(0, 1, -1)), 0, 1e-12);
+}
+
+TEST(Script, CamerasLightsAndMaterialsGoFromWhatTheyWere) {
+  const Scene scene = someScene();
+  const Script script = parseScript(R"({"seconds": 2, "rate": 10, "frames": 3, "events": [
+      {"from": 0, "to": 2, "camera": ["0,0,0:0,0,-1:40", "2,0,0:2,0,-1:40", "2,0,4:2,0,0:60"]},
+      {"from": 0, "to": 1, "light": "lamp", "intensity": [0, 0, 0]},
+      {"from": 1, "to": 2, "light": "lamp", "intensity": [2, 2, 2]},
+      {"at": 1, "material": "glass", "roughness": 0.25}]})",
+                                    "s.json", scene);
+  EXPECT_EQ(script.pictures(), 21);
+  EXPECT_EQ(script.frames, 3);
+  EXPECT_NEAR(script.at(0.5, scene, {}).camera.eye.x, 1, 1e-6f);
+  EXPECT_NEAR(script.at(1.5, scene, {}).camera.eye.z, 2, 1e-6f);
+  EXPECT_NEAR(script.at(0.5, scene, {}).edit.lights.at(0).intensity.x, 2, 1e-6f);
+  EXPECT_NEAR(script.at(1.5, scene, {}).edit.lights.at(0).intensity.x, 1, 1e-6f);
+  EXPECT_TRUE(script.at(0.9, scene, {}).edit.materials.empty());
+  EXPECT_EQ(script.at(1, scene, {}).edit.materials.at(0).roughness, 0.25f);
+}
+
+TEST(Script, EveryStateIsAnEditThatTheSceneTakes) {
+  const Scene scene = someScene();
+  const Script script = parseScript(R"({"seconds": 3, "events": [
+      {"from": 0, "to": 3, "object": "ball", "by": [9, 1, 2], "turn": 720},
+      {"from": 1, "to": 2, "material": "glass", "transmission": 1, "emission": [5, 5, 5]}]})",
+                                    "s.json", scene);
+  for (double t = 0; t <= 3; t += 0.01) {
+    EXPECT_NO_THROW(checkEdit(scene, script.at(t, scene, {}).edit));
+    EXPECT_EQ(script.at(t, scene, {}), script.at(t, scene, {}));
+  }
+}
+
+TEST(Script, SaysWhatIsWrongAndWhere) {
+  const auto has = [](const std::string& text, const char* part) {
+    EXPECT_NE(errorOf(text).find(part), std::string::npos) << errorOf(text);
+  };
+  has("{", "s.json: not JSON");
+  has(R"([1])", "s.json: must be an object");
+  has(R"({"events": []})", "\"seconds\" is missing");
+  has(R"({"seconds": -1, "events": []})", "\"seconds\" is -1");
+  has(R"({"seconds": 1, "events": [], "rat": 3})", "\"rat\" is unknown");
+  has(R"({"seconds": 1, "events": [{"at": 0}]})", "event 0: needs");
+  has(R"({"seconds": 1, "events": [{"from": 1, "to": 0, "camera": ["front"]}]})", "\"to\" is 0");
+  has(R"({"seconds": 1, "events": [{"at": 0, "camera": ["back"]}]})", "event 0: no camera 'back'");
+  has(R"({"seconds": 1, "events": [{"at": 0, "object": "cup"}]})", "no object 'cup'");
+  has(R"({"seconds": 1, "events": [{"at": 0, "light": "sun"}]})", "no light 'sun'");
+  has(R"({"seconds": 1, "events": [{"at": 0, "material": "glass", "ior": 0}]})", "\"ior\" is 0");
+  has(R"({"seconds": 1, "events": [{"at": 0, "object": "ball", "by": [1, 2]}]})", "[x, y, z]");
+}
+
+}  // namespace
+}  // namespace ninefold

@@ -1,0 +1,179 @@
+"""The real window on an X server in memory: a person walks, selects, moves, switches, undoes.
+
+Screenshots are held against each other: what must have changed, and what must not. Every wait ends when the
+screen shows what is waited for; its deadline only ends a broken test. NINEFOLD_SCREENSHOTS=FOLDER keeps them.
+"""
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cluster"))
+from programs import BIN, SCENES, Program, eventually  # noqa: E402
+from screen import Screen  # noqa: E402
+
+WIDTH, HEIGHT = 720, 480  # of the window; the picture of 320x240 fills its height
+CALM = 2.5  # codes: noise of a picture at rest stays below
+FRAMES = 6   # of a picture at rest
+
+
+def is_outline(r, g, b):
+    return r > 200 and 110 < g < 210 and b < 90
+
+
+class WindowTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.screen = Screen(WIDTH, HEIGHT)
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.shots = os.environ.get("NINEFOLD_SCREENSHOTS")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.screen.close()
+        cls.folder.cleanup()
+
+    def start(self, *options):
+        os.environ["DISPLAY"] = self.screen.display
+        os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
+        self.program = Program([BIN / "ninefold-master", SCENES / "table_room.glb", "--window", "--size", "320x240",
+                                "--camera", "0.15,1.5,2.25:0,1.5,-0.5:60", "--local-clients", "1", *options],
+                               self.folder.name)
+        self.addCleanup(self.end)
+        eventually(self.focus, "a window")
+
+    def focus(self):
+        try:
+            self.screen.do("windowfocus", self.search())
+            return True
+        except subprocess.CalledProcessError:  # it is not there yet, or not mapped
+            return False
+
+    def search(self):
+        return self.screen.do("search", "--onlyvisible", "--name", "^ninefold").split("\n")[0]
+
+    def end(self):
+        if self.program.process.poll() is None:
+            self.program.process.send_signal(signal.SIGKILL)
+        self.program.process.wait()
+        self.program.reader.join()
+
+    def look(self, name=None):
+        picture = self.screen.picture()
+        if name and self.shots:
+            picture.save(pathlib.Path(self.shots) / f"{name}.png")
+        return picture
+
+    def rest(self, name=None):
+        """A picture that has come to rest, as the window's title says, and lost most of its noise."""
+        def frames():
+            said = re.match(r"ninefold: (\d+) frame", self.screen.do("getwindowname", self.search()))
+            return said and int(said.group(1)) >= FRAMES
+        eventually(frames, f"rest: {name}")
+        time.sleep(0.5)  # from the title to the screen
+        return self.look(name)
+
+    def until(self, condition, what, name=None):
+        eventually(lambda: condition(self.look()), what)
+        return self.look(name)
+
+    def test_a_session(self):
+        self.start()
+        self.rest("panel")
+        self.screen.key("Tab")  # without the panel
+        first = self.rest("first")
+
+        with self.subTest("walk, and back"):
+            self.screen.hold("w", 0.5)
+            walked = self.until(lambda p: p.difference(first) > 8, "the view after walking")
+            self.screen.key("Home")
+            self.until(lambda p: p.difference(first) < CALM, "the first view again")
+            self.assertGreater(walked.difference(first), 8)
+
+        with self.subTest("exposure"):
+            self.screen.key("bracketright", "bracketright")
+            bright = self.until(lambda p: p.mean() > first.mean() + 15, "a brighter picture", "exposure")
+            dark_pixels = sum(b < f - 6 for b, f in zip(bright.data, first.data)) / len(first.data)
+            self.assertLess(dark_pixels, 0.02, "exposure makes nothing darker")
+            self.screen.key("bracketleft", "bracketleft")
+            self.until(lambda p: p.difference(first) < CALM, "the first exposure again")
+
+        with self.subTest("views"):
+            for key, name in (("2", "albedo"), ("3", "normal"), ("4", "depth"), ("8", "sets")):
+                self.screen.key(key)
+                self.until(lambda p: p.difference(first) > 8, name, f"view_{name}")
+            self.screen.key("1")
+            self.until(lambda p: p.difference(first) < CALM, "beauty again")
+
+        with self.subTest("select and move the glass sphere"):
+            self.move_sphere(first)
+
+        with self.subTest("switch the lamp"):
+            self.screen.click(*self.lamp_at)
+            self.program.waits_for("selected lamp")
+            self.screen.key("l")
+            self.until(lambda p: p.mean() < 0.35 * first.mean(), "darkness", "lamp_off")
+            self.screen.key("l", "Escape")
+            self.until(lambda p: p.difference(first) < CALM, "light again")
+
+        with self.subTest("another size of the window"):
+            self.screen.do("windowsize", self.search(), 400, 500)
+            small = self.until(lambda p: p.cut(0, 10, 400, 60).mean() < 20 and p.cut(50, 150, 300, 200).mean() > 30,
+                               "a picture between two bars", "resized")
+            self.assertLess(small.cut(0, 430, 400, 60).mean(), 20)
+            self.screen.do("windowsize", self.search(), WIDTH, HEIGHT)
+            self.until(lambda p: p.difference(first) < CALM, "the first size again")
+
+        self.screen.key("ctrl+q")
+        self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+
+    def move_sphere(self, first):
+        sphere = self.sphere_at
+        self.screen.click(*sphere)
+        self.program.waits_for("selected glass sphere")
+        outlined = self.until(lambda p: len(p.places(is_outline)) > 60, "an outline", "selected")
+        before = outlined.places(is_outline)
+        self.screen.drag(*sphere, sphere[0] + 70, sphere[1])
+        middle = lambda places: sum(x for x, _ in places) / len(places)  # noqa: E731
+
+        def went_along(picture):
+            places = picture.places(is_outline)
+            return len(places) > 60 and middle(places) > middle(before) + 30
+        self.until(went_along, "an outline that went along")
+        moved = self.rest("moved")
+        corner = (WIDTH - 120, 10, 110, 100)
+        self.assertLess(moved.cut(*corner).difference(first.cut(*corner)), 2 * CALM, "a far wall stays as it was")
+
+        def change(picture):
+            return picture.cut(340, 270, 220, 120).difference(first.cut(340, 270, 220, 120))
+        far = change(moved)
+        self.assertGreater(far, 2 * CALM, "the sphere and its light are elsewhere")
+        self.screen.key("ctrl+z", "Escape")
+        self.until(lambda p: change(p) < CALM, "the sphere where it was")
+        self.screen.key("ctrl+y")
+        self.until(lambda p: change(p) > 0.8 * far, "moved again")
+        self.screen.key("ctrl+z")
+        self.until(lambda p: change(p) < CALM, "and back")
+
+    sphere_at = (397, 341)  # as the camera sees them
+    lamp_at = (360, 113)
+
+    def test_no_display_is_one_line_and_the_picture_is_made(self):
+        os.environ.pop("DISPLAY", None)
+        out = pathlib.Path(self.folder.name) / "headless.png"
+        program = Program([BIN / "ninefold-master", SCENES / "cornell.glb", "--window", "--size", "48x36", "--frames", "2",
+                           "--local-clients", "1", "--output", out], self.folder.name)
+        program.process.wait(120)
+        program.reader.join()
+        self.assertEqual(program.process.returncode, 0, program.text)
+        self.assertEqual(len([line for line in program.lines if "going on without a window" in line]), 1, program.text)
+        self.assertTrue(out.exists())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
