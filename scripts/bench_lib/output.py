@@ -57,3 +57,17 @@ def plot_lines(name, file, series, xlabel, ylabel, title, logx=True, ideal=None)
     axis.legend(fontsize=7)
     figure.savefig(os.path.join(folder(name), file), dpi=120)
     plot.close(figure)
+
+
+def plot_bars(name, file, labels, parts, ylabel, title):
+    """parts: {label of a part: [a value for each bar]}, stacked in that order."""
+    figure, axis = plot.subplots(figsize=(6, 4), layout="constrained")
+    floor = [0.0] * len(labels)
+    for colour, (part, values) in zip(COLOURS, parts.items()):
+        axis.bar(labels, values, bottom=floor, color=colour, label=part)
+        floor = [below + value for below, value in zip(floor, values)]
+    axis.set(ylabel=ylabel, title=title)
+    axis.tick_params(axis="x", labelrotation=20, labelsize=8)
+    axis.legend(fontsize=7)
+    figure.savefig(os.path.join(folder(name), file), dpi=120)
+    plot.close(figure)

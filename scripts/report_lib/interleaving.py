@@ -51,10 +51,11 @@ def _add(context, scene, reference, stop, pattern, kind, table):
     for entry in made:
         table.data.append({"scene": scene.name, "run": _run_text(stop), "pattern": pattern, "filter": kind, **entry})
     relmse, error = mean(made, "relmse")
+    noise = reference.noise["relmse"]
     squared = sum(entry["rmse_percent"] ** 2 for entry in made) / len(made) - reference.noise["rmse_percent"] ** 2
     table.rows.append([scene.name, _run_text(stop), pattern, kind, figure(mean(made, "seconds")[0]),
                        figure(mean(made, "frames")[0]), figure(mean(made, "rays")[0] / 1e6),
-                       figure(max(0.0, squared) ** 0.5), f"{figure(relmse - reference.noise["relmse"])} ± {figure(error, 2)}",
+                       figure(max(0.0, squared) ** 0.5), f"{figure(relmse - noise)} ± {figure(error, 2)}",
                        figure(mean(made, "ssim")[0])])
 
 

@@ -3,6 +3,7 @@
 
 Run it from anywhere: tests/report/report_test.py
 """
+import importlib
 import os
 import pathlib
 import sys
@@ -14,7 +15,7 @@ import numpy
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from report_lib import blocks, measure, pictures, seconds_to_error, tables  # noqa: E402
+from report_lib import blocks, measure, options, pictures, seconds_to_error, tables  # noqa: E402
 from report_lib.references import Reference  # noqa: E402
 
 
@@ -86,6 +87,12 @@ def entry(seconds, relmse, noise=0.0):
     return {"scene": "s", "method": "m", "seconds": seconds, "relmse": relmse + noise, "noise_relmse": noise,
             "relmse_trimmed": relmse, "noise_relmse_trimmed": 0.0,
             "rmse_percent": 1000.0, "noise_rmse_percent": 0.0}
+
+
+class EverySection(unittest.TestCase):
+    def test_can_be_loaded(self):
+        for name in options.SECTIONS:
+            self.assertTrue(callable(importlib.import_module("report_lib." + name).run), name)
 
 
 class SecondsToError(unittest.TestCase):
