@@ -34,7 +34,7 @@ void tracePhoton(const Transport& t, const Particle& start, const MediumStack& m
         const Vec3 x = p.surface.position;
         const size_t kind = out.radii.choose(flux);
         const float footprint =
-            photonFootprint(t, p, out.radii.radius(kind), sampler.get1D(i, kTurnDimension));
+            photonFootprint(t, p, out.radii.radius(kind), sampler.get1D(i, kTurnDimension), rays);
         out.photons[kind].push_back({x, p.ng, flux / footprint, a.diffuseBefore});
         return false;  // what scatters diffusely here is the VPLs' part
       });

@@ -2,9 +2,9 @@
 // function of (scene, settings, frame's randomization, k).
 //
 // VPL kinds and their part of the irradiance at x, w = unit direction from x to the VPL:
-//   surface      V (Phi/pi) min(cos_x cos_y / d^2, b)      area emitters and D vertices of light
-//   paths point, spot  V I(w) cos_x / d^2                        never bounded directional  V E0
-//   cos_x                                sun, and samples of the environment
+//   surface      V (Phi/pi) min(cos_x cos_y / d^2, b)   area emitters, D vertices of light paths
+//   point, spot  V I(w) cos_x / d^2                     never bounded
+//   directional  V E0 cos_x                             sun, and samples of the environment
 //
 // Direct VPLs: N samples of the emitters in proportion to power; equal punctual ones are merged
 // into one. Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / (n^2 2^m),
@@ -12,9 +12,9 @@
 // such that the mean number of VPLs is nearest (in ratio) to the wanted one; walks are never cut to
 // a count. Caustic photons: see caustic_photons.h.
 //
-// Source:  Keller 1997; Wald et al. 2002, section 4.   Proved: tests/gi (furnace, energy, order
-// independence). Threads: plain data once made; making is reentrant.   Owner: shared by the tasks
-// of a set.
+// Source:  Keller 1997; Wald et al. 2002, section 4.
+// Proved:  tests/gi (furnace, energy, order independence).
+// Threads: plain data once made; making is reentrant.   Owner: shared by the tasks of a set.
 #pragma once
 
 #include <vector>

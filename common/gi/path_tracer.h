@@ -2,8 +2,8 @@
 // each vertex with multiple importance sampling, roulette, no bound on any term, no depth limit
 // unless asked.
 //
-//   L = sum over vertices of  T (L_e weighted + lights sampled directly weighted),   T *= lobe
-//   weight / probability
+//   L = sum over vertices of  T (L_e weighted + lights sampled directly weighted)
+//   T *= lobe weight / probability
 //
 // At each vertex one lobe, D or S, is chosen first, and both techniques work for that lobe alone:
 // so D vertices are counted exactly as by the virtual point lights, and path-length cuts both
@@ -11,9 +11,11 @@
 // of the lobes' albedo. It cannot find a caustic of a punctual light (L is a point, S is smooth):
 // those paths are missing, and the log says so (leftOut in scene/needs.h).
 //
-// Dimensions of vertex j: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light. j starts
-// at 1. Source:  Kajiya 1986; Veach 1997.   Proved: tests/gi (furnace, polygon light, agreement
-// with photons and VPLs). Threads: pure functions.   Errors: none.
+// Dimensions of vertex j, from 1 on: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light.
+//
+// Source:  Kajiya 1986; Veach 1997.
+// Proved:  tests/gi (furnace, polygon light, agreement with photons and VPLs).
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include "common/base/counters.h"

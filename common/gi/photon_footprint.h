@@ -10,18 +10,23 @@
 // within 60 degrees, and not of clear glass or bare metal, which have no D lobe.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; the division conserves energy for
-// each photon alone.   Proved: tests/gi (caustic energy balance; a narrow board).
-// Fails:   f is known to 1/16; other meshes' sheets that are wound the wrong way do not count. Both go with r.
+//          each photon alone.
+// Proved:  tests/gi (caustic energy balance; a narrow board, layers, glass).
+// Fails:   f is known to 1/16; other meshes' sheets that are wound the wrong way do not count. Both
+//          go with r.
 // Threads: reentrant.   Errors: none.
 #pragma once
 
+#include "common/base/counters.h"
 #include "common/gi/transport.h"
 
 namespace ninefold {
 
 inline constexpr float kPhotonNormalCosine = 0.5f;
 
-// f >= 1/16, for a photon that landed at `at`. `turn` in [0, 1) turns the pattern.
-float photonFootprint(const Transport& transport, const ShadingPoint& at, Metres r, float turn);
+// f >= 1/16, for a photon that landed at `at`. `turn` in [0, 1) turns the pattern. Its rays count as
+// photon rays.
+float photonFootprint(const Transport& transport, const ShadingPoint& at, Metres r, float turn,
+                      RayCounts& counts);
 
 }  // namespace ninefold

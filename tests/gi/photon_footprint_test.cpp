@@ -18,10 +18,11 @@ double footprint(SceneBuilder& b, Vec3 x, Vec3 n, Metres r) {
   const Transport transport(tracer, Settings{});
   constexpr int kTurns = 64;
   double sum = 0;
+  RayCounts counts;
   ShadingPoint at;
   at.surface.position = x, at.surface.instance = ~0u, at.ng = n, at.front = true;
   for (int i = 0; i < kTurns; ++i)
-    sum += double(photonFootprint(transport, at, r, static_cast<float>(i) / kTurns));
+    sum += double(photonFootprint(transport, at, r, static_cast<float>(i) / kTurns, counts));
   return sum / kTurns;
 }
 
