@@ -60,16 +60,11 @@ void LivePicture::keepTile(const Desk& desk) {
 void LivePicture::keepPickPlanes(const Patch& patch) {
   if (objects_.empty()) return;
   for (int phase = 0; phase < patch.phases(); ++phase) {
-    const TaskRect& rect = patch.inner(phase);
     const ExtraPlanes& extras = patch.phase(phase).extras;
-    for (int j = 0; j < rect.height; ++j)
-      for (int i = 0; i < rect.width; ++i) {
-        const auto from = static_cast<size_t>((j + 1) * Patch::kSide + i + 1);
-        const size_t to = frame_.at(patch.grid().pixelX(phase, rect.i0 + i),
-                                    patch.grid().pixelY(phase, rect.j0 + j));
-        objects_[to] = extras.object[from];
-        depth_[to] = extras.depth[from];
-      }
+    patch.forEachPixel(phase, [&](size_t from, int x, int y) {
+      objects_[frame_.at(x, y)] = extras.object[from];
+      depth_[frame_.at(x, y)] = extras.depth[from];
+    });
   }
 }
 

@@ -6,19 +6,6 @@
 namespace ninefold {
 namespace {
 
-// Calls f(index in the patch's plane, index in the tile's picture) for the tile's pixels of a phase.
-template <typename F>
-void forEachPixel(const Patch& patch, int phase, const F& f) {
-  const TaskRect& rect = patch.inner(phase);
-  for (int j = 0; j < rect.height; ++j)
-    for (int i = 0; i < rect.width; ++i) {
-      const int x = patch.grid().pixelX(phase, rect.i0 + i) - patch.x0();
-      const int y = patch.grid().pixelY(phase, rect.j0 + j) - patch.y0();
-      f(static_cast<size_t>((j + 1) * Patch::kSide + i + 1),
-        static_cast<size_t>(y * patch.width() + x));
-    }
-}
-
 Vec3 at(const RgbPlane& plane, size_t i) { return Vec3(plane.r[i], plane.g[i], plane.b[i]); }
 
 void put(RgbPlane& plane, size_t i, Vec3 v) {
@@ -100,8 +87,8 @@ void paint(PictureView view, const Patch& patch, uint32_t rotation, float depthS
             ? static_cast<uint32_t>(lightSetOfPhase(phase, rotation, patch.phases()))
             : (owners != nullptr ? owners[phase] : 0);
     const bool byNumber = view == PictureView::sets || view == PictureView::clients;
-    forEachPixel(patch, phase, [&](size_t from, size_t to) {
-      put(beauty.pixels, to,
+    patch.forEachPixel(phase, [&](size_t from, int x, int y) {
+      put(beauty.pixels, beauty.at(x - patch.x0(), y - patch.y0()),
           byNumber ? colorOf(number) : colorAt(view, patch.phase(phase), from, depthScale));
     });
   }

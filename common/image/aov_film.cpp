@@ -7,16 +7,12 @@ namespace {
 
 using Rgb = std::array<std::vector<double>, 3>;
 
-// Where a patch's own pixels of a phase lie: calls f(index in its planes, index in the image).
+// Calls f(index in the patch's planes, index in the image) for its own pixels of a phase.
 template <typename F>
 void forEachPixel(const Patch& patch, int phase, const F& f) {
-  const TileGrid& grid = patch.grid();
-  const TaskRect& inner = patch.inner(phase);
-  for (int j = 0; j < inner.height; ++j)
-    for (int i = 0; i < inner.width; ++i)
-      f(static_cast<size_t>((j + 1) * Patch::kSide + i + 1),
-        pixelCount(grid.width(), grid.pixelY(phase, inner.j0 + j)) +
-            static_cast<size_t>(grid.pixelX(phase, inner.i0 + i)));
+  patch.forEachPixel(phase, [&](size_t from, int x, int y) {
+    f(from, pixelCount(patch.grid().width(), y) + static_cast<size_t>(x));
+  });
 }
 
 void addRgb(const Patch& patch, int phase, const RgbPlane& plane, Rgb& sums) {

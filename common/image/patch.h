@@ -59,6 +59,17 @@ class Patch {
   int width() const { return width_; }
   int height() const { return height_; }
 
+  // Calls visit(index in the phase's planes, x, y in the image) for each of the tile's own pixels of
+  // a phase.
+  template <typename Visit>
+  void forEachPixel(int p, const Visit& visit) const {
+    const TaskRect& rect = inner(p);
+    for (int j = 0; j < rect.height; ++j)
+      for (int i = 0; i < rect.width; ++i)
+        visit(static_cast<size_t>((j + 1) * kSide + i + 1), grid().pixelX(p, rect.i0 + i),
+              grid().pixelY(p, rect.j0 + j));
+  }
+
   const TileGrid& grid() const { return frame_.grid; }
   int phases() const { return grid().interleave().sets(); }
   uint8_t layerMask() const { return frame_.layerMask; }
