@@ -3,9 +3,9 @@
 #include "common/base/log.h"
 #include "common/image/image_file.h"
 #include "common/scene/gltf_writer.h"
-#include "common/scene/world.h"
 #include "master/cluster_setup.h"
 #include "master/headless.h"
+#include "master/window/picking.h"
 
 namespace ninefold {
 namespace {
@@ -135,16 +135,10 @@ void WindowSession::carryOut(const Command& command) {
       return window_.close();
     case Kind::saveScene:
       return saveScene();
-    case Kind::frameSelection: {
-      Bounds things;
-      const Scene now = edited(*job_->scene, history_->all());
-      for (const Instance& instance : now.instances)
-        if (selection_ && instance.node == selection_->node)
-          for (const Vec3& p :
-               std::as_const(now).meshes[static_cast<size_t>(instance.mesh)].positions)
-            things.add(worldPoint(instance.toWorld, p));
-      return camera_->frame(things);
-    }
+    case Kind::frameSelection:
+      return camera_->frame(
+          selection_ ? boundsOfNode(edited(*job_->scene, history_->all()), selection_->node)
+                     : Bounds{});
   }
 }
 
@@ -178,27 +172,8 @@ void WindowSession::showCodes() {
   const float exposure = isFalseColor(shown_->view) ? 0 : exposure_;
   if (!toneMap_ || toneMapFor_ != exposure) toneMap_.emplace(exposure), toneMapFor_ = exposure;
   toneMap_->apply(shown_->image, rgb);
-  drawOutline(rgb);
+  if (selection_) drawOutline(*shown_, *job_->scene, *selection_, rgb);
   window_.setPicture(rgb, shown_->image.width, shown_->image.height);
-}
-
-// Where the selected thing's pixels end.
-void WindowSession::drawOutline(std::vector<uint8_t>& rgb) const {
-  if (!selection_ || shown_->objects.empty()) return;
-  const int width = shown_->image.width, height = shown_->image.height;
-  const auto isSelected = [&](int x, int y) {
-    const uint32_t object = shown_->objects[shown_->image.at(x, y)];
-    return object != 0 && job_->scene->instances[object - 1].node == selection_->node;
-  };
-  for (int y = 1; y + 1 < height; ++y)
-    for (int x = 1; x + 1 < width; ++x) {
-      if (isSelected(x, y)) continue;
-      if (!isSelected(x - 1, y) && !isSelected(x + 1, y) && !isSelected(x, y - 1) &&
-          !isSelected(x, y + 1))
-        continue;
-      const size_t at = 3 * shown_->image.at(x, y);
-      rgb[at] = 255, rgb[at + 1] = 160, rgb[at + 2] = 0;
-    }
 }
 
 void WindowSession::savePicture(const std::string& extension) {
@@ -249,16 +224,14 @@ void WindowSession::resolvePick() {
   const Vec2 size(static_cast<float>(shown_->image.width),
                   static_cast<float>(shown_->image.height));
   const Vec2 film = *pick_ * size;
-  const auto x = std::clamp(static_cast<int>(film.x), 0, shown_->image.width - 1);
-  const auto y = std::clamp(static_cast<int>(film.y), 0, shown_->image.height - 1);
   pick_.reset();
-  const uint32_t object = shown_->objects[shown_->image.at(x, y)];
-  if (object == 0) {
+  const std::optional<uint32_t> instance = instanceAt(*shown_, film);
+  if (!instance) {
     selection_.reset();
     return live_->wantObjects(false);
   }
-  select(object - 1);
-  if (const auto point = pointAt(film)) camera_->setPivot(*point);
+  select(*instance);
+  if (const auto point = pointAt(*shown_, film)) camera_->setPivot(*point);
   showCodes();
 }
 
@@ -270,33 +243,16 @@ void WindowSession::select(uint32_t instance) {
   log("selected {}", thing.name);
 }
 
-std::optional<Vec3> WindowSession::pointAt(Vec2 film) const {
-  const RgbImage& image = shown_->image;
-  if (shown_->depth.empty()) return std::nullopt;
-  const auto x = std::clamp(static_cast<int>(film.x), 0, image.width - 1);
-  const auto y = std::clamp(static_cast<int>(film.y), 0, image.height - 1);
-  const float depth = shown_->depth[image.at(x, y)];
-  if (!(depth > 0)) return std::nullopt;
-  const Camera& camera = shown_->frame.order.settings.camera;
-  const Vec3 direction = CameraRays(camera, image.width, image.height).direction(film.x, film.y);
-  return camera.eye + depth / glm::dot(direction, camera.forward) * direction;
-}
-
 void WindowSession::beginDrag(const Command& command) {
   if (!selection_ || selection_->light || !shown_ || shown_->objects.empty()) return;
   const auto point =
-      pointAt(filmPosition(command.pointer, shown_->image.width, shown_->image.height));
+      pointAt(*shown_, filmPosition(command.pointer, shown_->image.width, shown_->image.height));
   if (!point) return;
   SceneEdit thing;
   thing.objects.push_back({selection_->node, DMat4(1)});
   const DMat4 before = history_->valuesNow(thing).objects[0].motion;
-  Bounds bounds;
-  for (const Instance& instance : job_->scene->instances)
-    if (instance.node == selection_->node)
-      for (const Vec3& p : job_->scene->meshes[static_cast<size_t>(instance.mesh)].positions)
-        bounds.add(worldPoint(before * instance.toWorld, p));
   const Settings full = live_->settings();
-  drag_.emplace(command.mode, *point, bounds.centre(),
+  drag_.emplace(command.mode, *point, boundsOfNode(*job_->scene, selection_->node, before).centre(),
                 filmPosition(command.pointer, full.width, full.height), before);
   ++action_;
 }

@@ -35,7 +35,6 @@ class WindowSession {
 
   void takePicture();
   void showCodes();
-  void drawOutline(std::vector<uint8_t>& rgb) const;
   void savePicture(const std::string& extension);
   void saveScene();
   void saveLast() const;
@@ -51,7 +50,6 @@ class WindowSession {
 
   PanelView panelView() const;
   Vec2 filmPosition(Vec2 pointer, int width, int height) const;
-  std::optional<Vec3> pointAt(Vec2 film) const;
 
   const Options& options_;
   Window& window_;
