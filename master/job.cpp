@@ -43,7 +43,7 @@ Job makeJob(const Options& options) {
   Job job;
   auto read = std::make_shared<const Scene>(readScene(options.scene));
   const Scene& scene = *read;
-  job.settings = settingsFor(options.window || options.script ? PictureView::beauty : options.view,
+  job.settings = settingsFor(isLive(options) ? PictureView::beauty : options.view,
                              makeSettings(options, scene));
   job.needs = needsOf(scene, job.settings.environment);
   for (const std::string& line : describe(job.needs)) log("{}", line);
@@ -59,7 +59,7 @@ Job makeJob(const Options& options) {
   std::vector<Blob> blobs = packScene(scene);
   job.sceneHash = hashOf(blobs);
   job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, deliveryOf(options));
-  if (options.window || options.script) job.scene = std::move(read);
+  if (isLive(options)) job.scene = std::move(read);
   return job;
 }
 

@@ -22,7 +22,7 @@ struct Job {
   Metres sceneRadius = 0;        // R [m]
   std::string sceneHash;         // SHA-256 over the names of its blobs
   std::unique_ptr<JobOffer> offer;
-  std::shared_ptr<const Scene> scene;  // kept where it may be edited: in a window or a script
+  std::shared_ptr<const Scene> scene;  // kept if isLive(options)
 };
 
 // Reads the scene; the first log lines say what it needs and what will be done.

@@ -20,7 +20,7 @@ int run(const Options& options) {
     return 0;
   }
   if (options.window) return runWindow(options);
-  if (options.script) return runScript(options);
+  if (isLive(options)) return runScript(options);
   return runHeadless(options);
 }
 

@@ -19,11 +19,6 @@ constexpr uint64_t kMaxClients = 4096;
 constexpr uint64_t kMaxFrames = 1'000'000'000;
 constexpr double kMaxSeconds = 1e9;
 
-// What the interface names and this release does not have. Take a line out when its work is done.
-void refuseWhatIsMissing(const RawOptions& raw) {
-  if (raw.has("animate")) failUsage("--animate is not available in this release");
-}
-
 // One of the names, as its place in the list.
 template <size_t n>
 std::optional<size_t> choice(const RawOptions& raw, const char* flag,
@@ -149,16 +144,30 @@ void readRun(const RawOptions& raw, Options& o) {
   if (!o.stop.frames && !o.stop.seconds && !o.stop.untilError) o.stop.frames = kDefaultFrames;
 }
 
+void readAnimation(const RawOptions& raw, Options& o) {
+  const auto text = raw.text("animate");
+  if (!text) return;
+  const std::vector<double> n = parseNumbers("animate", *text, ':');
+  const bool good = n.size() == 3 && n[0] >= 0 && n[1] >= n[0] && n[1] <= kLongestScript &&
+                    n[2] >= kSlowestRate && n[2] <= kFastestRate;
+  if (!good)
+    failUsage("--animate {}: write T0:T1:FPS, times 0 <= T0 <= T1 <= {} [s], FPS {} to {}", *text,
+              kLongestScript, kSlowestRate, kFastestRate);
+  o.animate = {n[0], n[1], n[2]};
+  if (o.script) failUsage("--animate and --script exclude each other: a script may say animation");
+  if (o.stop.seconds || o.stop.untilError)
+    failUsage("--animate goes with --frames N, the frames of each picture, and no other stop");
+}
+
 // In a window, or live without one.
 void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
+  readAnimation(raw, o);
   assign(o.frameTime, raw.real("frame-time", 1, 10000));
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
-  if (o.filterAtClients &&
-      (o.window || o.script || raw.text("view").value_or("beauty") != "beauty"))
-    failUsage("--filter-at clients goes with neither --window, --script nor --view");
-  if (o.window && o.script) failUsage("--window with --script is not available in this release");
+  if (o.filterAtClients && (isLive(o) || raw.text("view").value_or("beauty") != "beauty"))
+    failUsage("--filter-at clients goes with none of --window, --script, --animate and --view");
   if (const auto view = raw.text("view")) {
     const auto known = viewNamed(*view);
     if (!known) failUsage("--view {}: must be {}", *view, fmt::join(kViewNames, ", "));
@@ -173,6 +182,8 @@ void readFiles(const RawOptions& raw, Options& o) {
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !o.window)
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
+  if (o.animate && !o.window && (!o.output || o.output->find('#') == std::string::npos))
+    failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;
   const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
   if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
@@ -194,7 +205,6 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   o.newKey = raw.text("new-key");
   if (o.help || o.newKey) return o;
 
-  refuseWhatIsMissing(raw);
   o.scene = raw.text("scene").value_or("");
   if (o.scene.empty()) failUsage("no scene is given; see ninefold-master --help");
   assign(o.preset, choice(raw, "preset", std::array{"interactive", "final", "paper"}));

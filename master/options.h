@@ -17,6 +17,7 @@
 #include "common/image/surface_test.h"
 #include "common/scene/scene.h"
 #include "common/scene/settings.h"
+#include "master/script.h"
 #include "master/stop_rule.h"
 #include "master/view.h"
 #include "proto/messages.h"
@@ -47,7 +48,8 @@ struct Options {
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
 
   bool window = false;
-  std::optional<std::string> script;  // file
+  std::optional<std::string> script;      // file
+  std::optional<AnimationRange> animate;  // then stop.frames is for each picture
   PictureView view = PictureView::beauty;
   double frameTime = 100;  // target while something moves [ms]
 
@@ -60,6 +62,9 @@ struct Options {
 };
 
 inline constexpr int64_t kDefaultFrames = 64;
+
+// Settings and scene may change from frame to frame.
+inline bool isLive(const Options& o) { return o.window || o.script || o.animate; }
 
 // `cores`: of this machine; one local client for each is the default.
 Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores);

@@ -67,12 +67,12 @@ constexpr Flag kRun[] = {
     {"until-error", "E",
      "stop when the relative standard error is below E; looked at after 16, 32, 64... frames"},
     {"animate", "T0:T1:FPS",
-     "play the scene's animation into --output out.####.exr (not in this release)"},
+     "play the scene's animation from T0 to T1 [s] into --output out.####.exr, --frames N for each "
+     "picture; with --window over and over"},
     {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},
     {"script", "FILE",
      "replay the camera paths and edits of a JSON file (docs/script.md), in real time or, if it "
-     "says "
-     "so, into --output out.####.png"},
+     "says so and there is no --window, into --output out.####.png"},
     {"frame-time", "MS",
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"headless", nullptr, "no window (default)"},

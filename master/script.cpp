@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/base/error.h"
+#include "common/scene/animation.h"
 #include "master/drag.h"
 
 namespace ninefold {
@@ -84,10 +86,30 @@ ScriptState Script::at(double time, const Scene& scene, const Camera& start) con
                                          event.material, static_cast<float>(s)));
         break;
       }
+      case Event::Kind::animation: {
+        const double played = event.playedFrom + s * (event.playedTo - event.playedFrom);
+        state.camera = animatedCamera(scene, state.camera, played);
+        step = animationAt(scene, played);
+        break;
+      }
     }
     merge(state.edit, step);
   }
   return state;
+}
+
+Script playedAnimation(const AnimationRange& range, int frames, const Scene& scene) {
+  if (scene.animated.empty()) fail("--animate: nothing is animated in this scene");
+  Script script;
+  script.seconds = range.to - range.from;
+  script.rate = range.rate;
+  script.frames = frames;
+  Script::Event event;
+  event.kind = Script::Event::Kind::animation;
+  event.to = script.seconds;
+  event.playedFrom = range.from, event.playedTo = range.to;
+  script.events.push_back(event);
+  return script;
 }
 
 }  // namespace ninefold

@@ -13,6 +13,9 @@
 
 namespace ninefold {
 
+inline constexpr double kLongestScript = 86400;                    // [s]
+inline constexpr double kSlowestRate = 1e-3, kFastestRate = 1000;  // pictures a second
+
 struct ScriptState {
   Camera camera;
   SceneEdit edit;
@@ -24,13 +27,14 @@ class Script {
   // Something that goes on from one time to another, or happens at one.
   struct Event {
     double from = 0, to = 0;  // [s]
-    enum class Kind : uint8_t { camera, object, light, material } kind = Kind::camera;
+    enum class Kind : uint8_t { camera, object, light, material, animation } kind = Kind::camera;
     std::vector<Camera> path;  // camera: passed through at equal times; the first at `from`
     std::vector<int> nodes;    // object
     DVec3 centre{0}, by{0};    // object: turned about the vertical through centre, then shifted [m]
     double turn = 0;           // object [rad]
     LightEdit light;           // at the end
     MaterialEdit material;     // at the end
+    double playedFrom = 0, playedTo = 0;  // animation: times of the file [s]
   };
 
   double seconds = 0;          // length
@@ -47,5 +51,12 @@ class Script {
 // `text`: JSON; `name`: of the file, for errors.
 Script parseScript(const std::string& text, const std::string& name, const Scene& scene);
 Script readScript(const std::string& path, const Scene& scene);
+
+// The file's animation from one time to another, as a script. Error if the scene has none.
+struct AnimationRange {
+  double from = 0, to = 0;  // [s]
+  double rate = 25;         // pictures a second
+};
+Script playedAnimation(const AnimationRange& range, int frames, const Scene& scene);
 
 }  // namespace ninefold

@@ -16,7 +16,6 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr size_t kMostEvents = 10000;
-constexpr double kLongest = 86400;  // [s]
 
 // One object of the file, whose fields are taken one by one; what is left is not known.
 class Fields {
@@ -84,8 +83,8 @@ class Reader {
   Script read(const Json& json) {
     Fields file(json, name_);
     Script script;
-    script.seconds = file.number("seconds", 0, kLongest);
-    if (file.has("rate")) script.rate = file.number("rate", 1e-3, 1000);
+    script.seconds = file.number("seconds", 0, kLongestScript);
+    if (file.has("rate")) script.rate = file.number("rate", kSlowestRate, kFastestRate);
     script.frames = static_cast<int>(file.numberOr("frames", 1, 1, 1e6));
     const Json& events = file.list("events");
     if (events.size() > kMostEvents) fail("{}: more than {} events", name_, kMostEvents);
@@ -99,10 +98,10 @@ class Reader {
   Script::Event event(Fields fields) {
     Script::Event e;
     if (fields.has("at")) {
-      e.from = e.to = fields.number("at", 0, kLongest);
+      e.from = e.to = fields.number("at", 0, kLongestScript);
     } else {
-      e.from = fields.number("from", 0, kLongest);
-      e.to = fields.number("to", e.from, kLongest);
+      e.from = fields.number("from", 0, kLongestScript);
+      e.to = fields.number("to", e.from, kLongestScript);
     }
     if (fields.has("camera"))
       camera(fields, e);
@@ -112,8 +111,11 @@ class Reader {
       light(fields, e);
     else if (fields.has("material"))
       material(fields, e);
+    else if (fields.has("animation"))
+      animation(fields, e);
     else
-      fail("{}: needs \"camera\", \"object\", \"light\" or \"material\"", fields.where());
+      fail("{}: needs \"camera\", \"object\", \"light\", \"material\" or \"animation\"",
+           fields.where());
     fields.expectNothingElse();
     return e;
   }
@@ -168,6 +170,19 @@ class Reader {
     set("metallic", m.metallic, 0, 1), set("roughness", m.roughness, 0, 1);
     set("transmission", m.transmission, 0, 1), set("ior", m.ior, 1, 10);
     e.material = m;
+  }
+
+  void animation(Fields& fields, Script::Event& e) {
+    e.kind = Script::Event::Kind::animation;
+    const Json& times = fields.list("animation");
+    const auto isTime = [](const Json& t) {
+      return t.is_number() && t >= 0 && t <= kLongestScript;
+    };
+    if (times.size() != 2 || !std::ranges::all_of(times, isTime))
+      fail("{}: \"animation\" must be [from, to], two times from 0 to {}", fields.where(),
+           kLongestScript);
+    if (scene_.animated.empty()) fail("{}: nothing is animated in the scene", fields.where());
+    e.playedFrom = times[0].get<double>(), e.playedTo = times[1].get<double>();
   }
 
   template <typename T>

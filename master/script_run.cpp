@@ -11,7 +11,7 @@
 #include "master/cluster_setup.h"
 #include "master/latency_log.h"
 #include "master/live_run.h"
-#include "master/script.h"
+#include "master/script_player.h"
 
 namespace ninefold {
 namespace {
@@ -31,18 +31,19 @@ class ScriptRun {
   explicit ScriptRun(const Options& options)
       : options_(options),
         job_(makeJob(options)),
-        script_(readScript(*options.script, *job_.scene)),
+        player_(*scriptOf(options, *job_.scene), job_.scene, job_.settings.camera),
         log_(Clock::now()),
         live_(options, job_, loadKeys(options),
-              {fromSeconds(1e-3 * options.frameTime), !script_.rate},
+              {fromSeconds(1e-3 * options.frameTime), !script().rate},
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
-    if (script_.rate && (!options_.output || options_.output->find('#') == std::string::npos))
-      fail("{} has a rate: give --output out.####.png for its pictures", *options_.script);
-    apply(script_.at(0, *job_.scene, job_.settings.camera));
+    if (script().rate && (!options_.output || options_.output->find('#') == std::string::npos))
+      fail("a script with a rate needs --output out.####.png for its pictures");
+    live_.setView(options_.view);
+    moveTo(0);
     live_.start();
-    script_.rate ? renderPictures() : playInRealTime();
+    script().rate ? renderPictures() : playInRealTime();
     live_.stop("the script is done");
     if (const auto failure = live_.cluster().failure()) fail("{}", *failure);
     return live_.cluster().signal() == 0 ? 0 : 128 + live_.cluster().signal();
@@ -54,29 +55,17 @@ class ScriptRun {
     const std::lock_guard lock(mutex_);
     log_.add(*shown);
     latest_ = shown;
-    if (!shown->frame.moving && shown->frames == script_.frames) still_ = shown;
+    if (!shown->frame.moving && shown->frames == script().frames) still_ = shown;
     arrived_.notify_all();
   }
 
+  const Script& script() const { return player_.script(); }
   bool isOver() const { return live_.cluster().signal() != 0 || live_.cluster().failure(); }
 
-  void apply(const ScriptState& state) {
-    live_.setCamera(state.camera);
-    if (!(state.edit == applied_)) live_.edit(changesSince(applied_, state.edit));
-    applied_ = state.edit;
-  }
-
-  // Only what differs travels.
-  static SceneEdit changesSince(const SceneEdit& before, const SceneEdit& now) {
-    SceneEdit changes;
-    const auto keep = [](const auto& then, const auto& all, auto& to) {
-      for (const auto& edit : all)
-        if (std::ranges::find(then, edit) == then.end()) to.push_back(edit);
-    };
-    keep(before.objects, now.objects, changes.objects);
-    keep(before.lights, now.lights, changes.lights);
-    keep(before.materials, now.materials, changes.materials);
-    return changes;
+  void moveTo(double time) {
+    const ScriptPlayer::Step step = player_.moveTo(time);
+    if (step.camera) live_.setCamera(*step.camera);
+    if (!step.edit.empty()) live_.edit(step.edit);
   }
 
   // Waits until `is` holds of a picture, or the run is over. Null if it is over.
@@ -91,14 +80,14 @@ class ScriptRun {
   }
 
   void renderPictures() {
-    for (int i = 0; i < script_.pictures() && !isOver(); ++i) {
-      apply(script_.at(i / *script_.rate, *job_.scene, job_.settings.camera));
+    for (int i = 0; i < script().pictures() && !isOver(); ++i) {
+      moveTo(i / *script().rate);
       const LiveState wanted = live_.state();
       const auto shown = waitFor(still_, [&](const Shown& s) { return s.state == wanted; });
       if (shown == nullptr) return;
       const std::string path = numbered(*options_.output, i);
-      writeImage(path, {shown->image, {}, {}}, ToneMap(options_.exposure));
-      log("picture {} of {} in {}", i + 1, script_.pictures(), path);
+      write(path, *shown);
+      log("picture {} of {} in {}", i + 1, script().pictures(), path);
     }
   }
 
@@ -109,19 +98,24 @@ class ScriptRun {
       const std::lock_guard lock(mutex_);
       log_ = LatencyLog(start);
     }
-    for (double now = 0; now <= script_.seconds && !isOver(); now = seconds(Clock::now() - start)) {
-      apply(script_.at(now, *job_.scene, job_.settings.camera));
+    for (double now = 0; now <= script().seconds && !isOver();
+         now = seconds(Clock::now() - start)) {
+      moveTo(now);
       std::this_thread::sleep_for(kStep);
     }
-    apply(script_.at(script_.seconds, *job_.scene, job_.settings.camera));
+    moveTo(script().seconds);
     const LiveState last = live_.state();
     const auto rest = waitFor(latest_, [&](const Shown& s) {
-      return s.state == last && !s.frame.moving && s.frames >= script_.frames;
+      return s.state == last && !s.frame.moving && s.frames >= script().frames;
     });
     if (rest == nullptr) return;
-    if (options_.output)
-      writeImage(*options_.output, {rest->image, {}, {}}, ToneMap(options_.exposure));
+    if (options_.output) write(*options_.output, *rest);
     if (options_.stats) writeLatencies();
+  }
+
+  void write(const std::string& path, const Shown& shown) const {
+    const float exposure = isFalseColor(options_.view) ? 0 : options_.exposure;
+    writeImage(path, {shown.image, {}, {}}, ToneMap(exposure));
   }
 
   void writeLatencies() {
@@ -133,8 +127,7 @@ class ScriptRun {
 
   const Options& options_;
   Job job_;
-  const Script script_;
-  SceneEdit applied_;
+  ScriptPlayer player_;
   std::mutex mutex_;
   std::condition_variable arrived_;
   LatencyLog log_;                               // guarded by mutex_

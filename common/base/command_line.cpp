@@ -42,13 +42,14 @@ std::pair<int, int> parsePair(std::string_view flag, std::string_view text, int 
   return {*first, *second};
 }
 
-std::vector<double> parseNumbers(std::string_view flag, std::string_view text) {
+std::vector<double> parseNumbers(std::string_view flag, std::string_view text, char between) {
   std::vector<double> numbers;
   for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
+    const size_t end = std::min(text.find(between, begin), text.size());
     const auto value = number<double>(text.substr(begin, end - begin));
     if (!value || !std::isfinite(*value))
-      failUsage("--{} {}: write numbers with commas between them", flag, text);
+      failUsage("--{} {}: write numbers with {} between them", flag, text,
+                between == ',' ? "commas" : "colons");
     numbers.push_back(*value);
     begin = end + 1;
   }

@@ -37,7 +37,7 @@ std::string variableOfFlag(std::string_view flag);
 std::pair<int, int> parsePair(std::string_view flag, std::string_view text, int low, int high);
 
 // "1.5,2,0.25" -> those numbers; at least one, all finite.
-std::vector<double> parseNumbers(std::string_view flag, std::string_view text);
+std::vector<double> parseNumbers(std::string_view flag, std::string_view text, char between = ',');
 
 // A whole number in [low, high].
 uint64_t parseWhole(std::string_view flag, std::string_view text, uint64_t low, uint64_t high);

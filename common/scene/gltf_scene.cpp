@@ -1,7 +1,9 @@
 #include "common/scene/gltf_scene.h"
 
 #include "common/base/log.h"
+#include "common/scene/animation.h"
 #include "common/scene/gltf_accessor.h"
+#include "common/scene/gltf_animation.h"
 #include "common/scene/gltf_file.h"
 #include "common/scene/gltf_mesh.h"
 #include "common/scene/gltf_transform.h"
@@ -12,15 +14,13 @@
 namespace ninefold {
 namespace {
 
-Vec3 unitOr(DVec3 v, Vec3 otherwise) {
-  const double length = glm::length(v);
-  return length > 0 && std::isfinite(length) ? Vec3(v / length) : otherwise;
-}
-
 class SceneBuilder {
  public:
   explicit SceneBuilder(const tinygltf::Model& model)
-      : model_(&model), meshes_(model, draft_.scene), seen_(model.nodes.size(), 0) {}
+      : model_(&model),
+        meshes_(model, draft_.scene),
+        animations_(model),
+        seen_(model.nodes.size(), 0) {}
 
   SceneDraft build();
 
@@ -28,6 +28,7 @@ class SceneBuilder {
   struct Visit {
     int node;
     DMat4 parent;
+    int mover = -1;  // the nearest node above in animations_
   };
   std::vector<int> roots() const;
   void enter(int node);
@@ -39,6 +40,7 @@ class SceneBuilder {
   const tinygltf::Model* model_;
   SceneDraft draft_;
   GltfMeshes meshes_;
+  GltfAnimations animations_;
   std::vector<char> seen_;
 };
 
@@ -84,18 +86,31 @@ SceneDraft SceneBuilder::build() {
     }
   }
   meshes_.warnOfLosses();
+  draft_.scene.animated = animations_.take();
+  if (!draft_.scene.animated.empty())
+    log("{} node(s) move for {:.4g} s: --animate plays it", draft_.scene.animated.size(),
+        animationEnd(draft_.scene));
   return std::move(draft_);
 }
 
 void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
   const tinygltf::Node& node = model_->nodes[static_cast<size_t>(visit.node)];
   const DMat4 toWorld = visit.parent * localMatrix(node);
+  const size_t instances = draft_.scene.instances.size(), lights = draft_.scene.lights.size(),
+               cameras = draft_.scene.cameras.size();
   if (node.mesh >= 0) addMesh(node, visit.node, toWorld);
   if (node.camera >= 0) addCamera(node, toWorld);
   if (const auto* e = extensionOf(node, "KHR_lights_punctual"))
     addLight(node, integerOr(*e, "light", -1), toWorld);
+  const int mover = animations_.enter(visit.node, visit.mover, visit.parent, toWorld);
+  if (mover >= 0) {
+    AnimatedNode& moved = animations_[mover];
+    moved.hasInstances = draft_.scene.instances.size() > instances;
+    if (draft_.scene.lights.size() > lights) moved.light = static_cast<int>(lights);
+    if (draft_.scene.cameras.size() > cameras) moved.camera = static_cast<int>(cameras);
+  }
   for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-    open.push_back({*child, toWorld});
+    open.push_back({*child, toWorld, mover});
 }
 
 void SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld) {

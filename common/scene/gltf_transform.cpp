@@ -17,13 +17,6 @@ DMat4 rotationMatrix(DVec4 q) {
                DVec4(0, 0, 0, 1));
 }
 
-DMat4 compose(DVec3 translation, DVec4 rotation, DVec3 scale) {
-  DMat4 m = rotationMatrix(rotation);
-  for (int column = 0; column < 3; ++column) m[column] *= scale[column];
-  m[3] = DVec4(translation, 1);
-  return m;
-}
-
 template <typename Vector>
 Vector vectorFrom(const std::vector<double>& from, Vector otherwise) {
   if (from.empty()) return otherwise;
@@ -36,10 +29,23 @@ Vector vectorFrom(const std::vector<double>& from, Vector otherwise) {
 
 }  // namespace
 
+DMat4 placement(DVec3 translation, DVec4 rotation, DVec3 scale) {
+  DMat4 m = rotationMatrix(rotation);
+  for (int column = 0; column < 3; ++column) m[column] *= scale[column];
+  m[3] = DVec4(translation, 1);
+  return m;
+}
+
+Vec3 unitOr(DVec3 v, Vec3 otherwise) {
+  const double length = glm::length(v);
+  return length > 0 && std::isfinite(length) ? Vec3(v / length) : otherwise;
+}
+
 DMat4 localMatrix(const tinygltf::Node& node) {
   if (node.matrix.empty())
-    return compose(vectorFrom(node.translation, DVec3(0)),
-                   vectorFrom(node.rotation, DVec4(0, 0, 0, 1)), vectorFrom(node.scale, DVec3(1)));
+    return placement(vectorFrom(node.translation, DVec3(0)),
+                     vectorFrom(node.rotation, DVec4(0, 0, 0, 1)),
+                     vectorFrom(node.scale, DVec3(1)));
   if (node.matrix.size() != 16) fail("its matrix does not have 16 numbers");
   DMat4 m;
   for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = node.matrix[static_cast<size_t>(i)];
@@ -69,9 +75,9 @@ CopyMatrices::CopyMatrices(const tinygltf::Model& model, const tinygltf::Value& 
 }
 
 DMat4 CopyMatrices::matrix(size_t i) const {
-  return compose(translation_ ? DVec3(translation_->element(i)) : DVec3(0),
-                 rotation_ ? DVec4(rotation_->element(i)) : DVec4(0, 0, 0, 1),
-                 scale_ ? DVec3(scale_->element(i)) : DVec3(1));
+  return placement(translation_ ? DVec3(translation_->element(i)) : DVec3(0),
+                   rotation_ ? DVec4(rotation_->element(i)) : DVec4(0, 0, 0, 1),
+                   scale_ ? DVec3(scale_->element(i)) : DVec3(1));
 }
 
 }  // namespace ninefold

@@ -17,6 +17,12 @@ namespace ninefold {
 
 DMat4 localMatrix(const tinygltf::Node& node);
 
+// Scale, then rotation by a quaternion (x, y, z, w) of any length but 0, then translation.
+DMat4 placement(DVec3 translation, DVec4 rotation, DVec3 scale);
+
+// Where cameras and lights look, a column of their matrix: of length 1, or `otherwise` if it has none.
+Vec3 unitOr(DVec3 v, Vec3 otherwise);
+
 // Refers to the model.
 class CopyMatrices {
  public:

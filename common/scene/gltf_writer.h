@@ -2,7 +2,7 @@
 // back has the same values, coordinates to an ulp.
 //
 // Instances of one node become one node with a mesh of several primitives; copies of EXT_mesh_gpu_instancing
-// become nodes. A constant environment has no place in glTF and is left out.
+// become nodes. A constant environment has no place in glTF and is left out; animations are, too.
 // Errors: throws Error that names the file. Threads: pure, but for the file.
 // Proved: tests/scene/gltf_writer_test.cpp.
 #pragma once

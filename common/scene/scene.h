@@ -18,6 +18,7 @@
 #include "common/math/bounds.h"
 #include "common/math/camera.h"
 #include "common/math/units.h"
+#include "common/scene/animated_node.h"
 
 namespace ninefold {
 
@@ -108,10 +109,11 @@ struct Scene {
   SharedList<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
-  std::vector<Camera> cameras;  // at least one after reading
-  Radiance environment{0};      // constant radiance from outside
-  DVec3 origin{0};              // file coordinates = scene coordinates + origin
-  Bounds bounds;                // of all instances, in scene coordinates
+  std::vector<Camera> cameras;        // at least one after reading
+  SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
+  Radiance environment{0};            // constant radiance from outside
+  DVec3 origin{0};                    // file coordinates = scene coordinates + origin
+  Bounds bounds;                      // of all instances, in scene coordinates
 };
 
 }  // namespace ninefold

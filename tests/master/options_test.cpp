@@ -223,11 +223,24 @@ TEST(Options, ListeningBeyondThisMachineNeedsAKey) {
   EXPECT_EQ(complaint("a.glb --listen localhost:0"), "");
 }
 
-TEST(Options, WhatThisReleaseDoesNotHaveSaysSo) {
-  for (const char* flags : {"--animate 0:1:25", "--animate 0", "--window --script a.json"})
-    EXPECT_NE(complaint(std::string("a.glb ") + flags).find("not available in this release"),
+TEST(Options, AnAnimationNeedsARangeAndNumberedPictures) {
+  const Options o = parse("a.glb --animate 0.5:2:25 --frames 8 --output p.##.exr", {}, false);
+  ASSERT_TRUE(o.animate);
+  EXPECT_EQ(std::tuple(o.animate->from, o.animate->to, o.animate->rate), std::tuple(0.5, 2, 25));
+  EXPECT_EQ(o.stop.frames, 8);
+  EXPECT_TRUE(parse("a.glb --window --animate 0:2:25", {}, false).animate);
+  for (const char* bad : {"0", "0:1", "0,1,25", "0:1:25:3", "1:0:25", "-1:1:25", "0:1:0",
+                          "0:1:2000", "0:inf:25", "0:x:25", "0:1:nan"})
+    EXPECT_NE(complaint(std::string("a.glb --output p.##.exr --animate ") + bad, {}, false)
+                  .find("--animate " + std::string(bad)),
               std::string::npos)
-        << flags;
+        << bad;
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --output p.exr", {}, false).find("####"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --seconds 3").find("--frames"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --script s.json").find("--script"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --filter-at clients"), "");
 }
 
 TEST(Options, AWindowNeedsNoOutput) {

@@ -1,5 +1,5 @@
 // Scripts: what they say at a time, and what is wrong with bad ones.
-#include "master/script.h"
+#include "master/script_player.h"
 
 #include <gtest/gtest.h>
 
@@ -83,6 +83,60 @@ TEST(Script, CamerasLightsAndMaterialsGoFromWhatTheyWere) {
   EXPECT_EQ(script.at(1, scene, {}).edit.materials.at(0).roughness, 0.25f);
 }
 
+// Node 7 goes up by 1 m a second for two seconds.
+Scene movingScene() {
+  Scene scene = someScene();
+  AnimatedNode table;
+  table.node = 7, table.hasInstances = true;
+  table.translation = {AnimationTrack::Kind::linear, {0, 2}, {DVec4(0), DVec4(0, 2, 0, 0)}};
+  table.rotation = {AnimationTrack::Kind::step, {0}, {DVec4(0, 0, 0, 1)}};
+  table.scale = {AnimationTrack::Kind::step, {0}, {DVec4(1)}};
+  scene.animated.push_back(table);
+  return scene;
+}
+
+TEST(Script, PlaysTheFilesAnimation) {
+  const Scene scene = movingScene();
+  const Script script = parseScript(
+      R"({"seconds": 4, "events": [{"from": 1, "to": 2, "animation": [0.5, 2]},
+                                   {"at": 3, "object": "table", "by": [0, 0, 5]}]})",
+      "s.json", scene);
+  EXPECT_TRUE(script.at(0.9, scene, {}).edit.empty());
+  const auto place = [&](double t) {
+    return DVec3(script.at(t, scene, {}).edit.objects.at(0).motion[3]);
+  };
+  EXPECT_EQ(place(1), DVec3(0, 0.5, 0));
+  EXPECT_EQ(place(1.5), DVec3(0, 1.25, 0));
+  EXPECT_EQ(place(3), DVec3(0, 2, 5));
+}
+
+TEST(Script, AnimateIsAScriptOfOneEvent) {
+  const Scene scene = movingScene();
+  const Script script = playedAnimation({0.5, 1.5, 4}, 6, scene);
+  EXPECT_EQ(script.pictures(), 5);
+  EXPECT_EQ(script.frames, 6);
+  EXPECT_EQ(DVec3(script.at(0.25, scene, {}).edit.objects.at(0).motion[3]), DVec3(0, 0.75, 0));
+  EXPECT_THROW(playedAnimation({0, 1, 25}, 6, someScene()), Error);
+}
+
+TEST(ScriptPlayer, TellsOnlyWhatIsDifferent) {
+  const auto scene = std::make_shared<const Scene>(movingScene());
+  ScriptPlayer player(parseScript(R"({"seconds": 9, "events": [
+      {"at": 1, "object": "ball", "by": [1, 0, 0]}, {"from": 2, "to": 4, "animation": [0, 2]},
+      {"at": 3, "camera": ["0,0,0:0,0,-1:40"]}]})",
+                                  "s.json", *scene),
+                      scene, scene->cameras[0]);
+  EXPECT_TRUE(player.moveTo(0).edit.empty());
+  EXPECT_EQ(player.moveTo(1).edit.objects.size(), 2u);
+  EXPECT_TRUE(player.moveTo(1.5).edit.empty());
+  EXPECT_FALSE(player.moveTo(2.5).camera);
+  const ScriptPlayer::Step step = player.moveTo(3);
+  ASSERT_EQ(step.edit.objects.size(), 1u);
+  EXPECT_EQ(step.edit.objects[0].node, 7);
+  EXPECT_TRUE(step.camera);
+  EXPECT_FALSE(player.moveTo(3.5).camera);
+}
+
 TEST(Script, EveryStateIsAnEditThatTheSceneTakes) {
   const Scene scene = someScene();
   const Script script = parseScript(R"({"seconds": 3, "events": [
@@ -111,6 +165,8 @@ TEST(Script, SaysWhatIsWrongAndWhere) {
   has(R"({"seconds": 1, "events": [{"at": 0, "light": "sun"}]})", "no light 'sun'");
   has(R"({"seconds": 1, "events": [{"at": 0, "material": "glass", "ior": 0}]})", "\"ior\" is 0");
   has(R"({"seconds": 1, "events": [{"at": 0, "object": "ball", "by": [1, 2]}]})", "[x, y, z]");
+  has(R"({"seconds": 1, "events": [{"at": 0, "animation": [0, -1]}]})", "[from, to]");
+  has(R"({"seconds": 1, "events": [{"at": 0, "animation": [0, 1]}]})", "nothing is animated");
 }
 
 }  // namespace

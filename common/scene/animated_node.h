@@ -1,0 +1,30 @@
+// animated_node.h: a node of the file that moves, by itself or because one above it does. Plain data.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/math/vec.h"
+
+namespace ninefold {
+
+// Values of one property at times [s], strictly ascending; at least one.
+struct AnimationTrack {
+  enum class Kind : uint8_t { step, linear, cubic } kind = Kind::step;
+  std::vector<float> times;
+  std::vector<DVec4> values;  // one per time; cubic: in-tangent, value, out-tangent
+};
+
+// A rotation is a quaternion (x, y, z, w), of any length but 0.
+struct AnimatedNode {
+  int node = 0;                // as Instance::node
+  int parent = -1;             // before it in the list; -1: what is above it stands still
+  DMat4 above{1};              // world matrix of what is above it, if that stands still
+  DMat4 asRead{1};             // its world matrix in the file, in file coordinates
+  std::optional<DMat4> fixed;  // its local matrix, if only what is above it moves
+  AnimationTrack translation, rotation, scale;  // if not fixed
+  bool hasInstances = false;
+  int light = -1, camera = -1;  // indices into the scene's lists; -1 = none
+};
+
+}  // namespace ninefold

@@ -1,0 +1,137 @@
+#include "common/scene/animation.h"
+
+#include <algorithm>
+
+#include "common/scene/gltf_transform.h"
+
+namespace ninefold {
+namespace {
+
+constexpr double kSmallestScale = 1e-5;
+
+// Where a time lies in a track: between key i and the next, or on key i.
+struct Place {
+  size_t i;
+  double length, s;  // [s]; share of the way to the next key, 0 on key i
+};
+
+Place find(const AnimationTrack& track, double time) {
+  const auto next =
+      std::ranges::upper_bound(track.times, time, {}, [](float t) { return double(t); });
+  if (next == track.times.begin()) return {0, 0, 0};
+  const auto i = static_cast<size_t>(next - track.times.begin()) - 1;
+  if (next == track.times.end()) return {i, 0, 0};
+  const double from = double(track.times[i]), length = double(*next) - from;
+  return {i, length, (time - from) / length};
+}
+
+DVec4 cubic(const AnimationTrack& track, const Place& at) {
+  const auto part = [&](size_t key, size_t which) { return track.values[3 * key + which]; };
+  if (at.s == 0) return part(at.i, 1);
+  const double s = at.s, s2 = s * s, s3 = s2 * s, d = at.length;
+  return (2 * s3 - 3 * s2 + 1) * part(at.i, 1) + d * (s3 - 2 * s2 + s) * part(at.i, 2) +
+         (3 * s2 - 2 * s3) * part(at.i + 1, 1) + d * (s3 - s2) * part(at.i + 1, 0);
+}
+
+DVec4 valueAt(const AnimationTrack& track, double time) {
+  const Place at = find(track, time);
+  if (track.kind == AnimationTrack::Kind::cubic) return cubic(track, at);
+  const DVec4 a = track.values[at.i];
+  if (track.kind == AnimationTrack::Kind::step || at.s == 0) return a;
+  return a + at.s * (track.values[at.i + 1] - a);
+}
+
+// Along the great arc from a to b or -b, whichever is nearer: both are the same rotation.
+DVec4 alongArc(DVec4 a, DVec4 b, double s) {
+  a = glm::normalize(a), b = glm::normalize(b);
+  double cosine = glm::dot(a, b);
+  if (cosine < 0) b = -b, cosine = -cosine;
+  const double angle = std::acos(std::min(cosine, 1.0));
+  if (angle < 1e-6) return a + s * (b - a);
+  return (std::sin((1 - s) * angle) * a + std::sin(s * angle) * b) / std::sin(angle);
+}
+
+DVec4 rotationAt(const AnimationTrack& track, double time) {
+  const Place at = find(track, time);
+  if (track.kind == AnimationTrack::Kind::linear && at.s > 0)
+    return alongArc(track.values[at.i], track.values[at.i + 1], at.s);
+  const DVec4 q = valueAt(track, time);
+  // Tangents may lead a cubic one through 0, which is no rotation.
+  return glm::length(q) > 1e-9 ? q : track.values[3 * at.i + 1];
+}
+
+DMat4 localAt(const AnimatedNode& node, double time) {
+  if (node.fixed) return *node.fixed;
+  DVec3 scale(valueAt(node.scale, time));
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(scale[axis]) < kSmallestScale)
+      scale[axis] = std::copysign(kSmallestScale, scale[axis]);
+  return placement(DVec3(valueAt(node.translation, time)), rotationAt(node.rotation, time), scale);
+}
+
+// World matrices of all nodes that move, in file coordinates.
+std::vector<DMat4> worldsAt(const Scene& scene, double time) {
+  std::vector<DMat4> worlds;
+  for (const AnimatedNode& node : scene.animated) {
+    const DMat4& above = node.parent < 0 ? node.above : worlds[static_cast<size_t>(node.parent)];
+    worlds.push_back(above * localAt(node, time));
+  }
+  return worlds;
+}
+
+// motion(t), in scene coordinates.
+DMat4 motionOf(const AnimatedNode& node, const DMat4& world, DVec3 origin) {
+  if (world == node.asRead) return DMat4(1);
+  DMat4 toFile(1), toScene(1);
+  toFile[3] = DVec4(origin, 1), toScene[3] = DVec4(-origin, 1);
+  DMat4 motion = toScene * (world * glm::inverse(node.asRead)) * toFile;
+  for (int column = 0; column < 4; ++column) motion[column][3] = column == 3 ? 1 : 0;
+  return motion;
+}
+
+}  // namespace
+
+SceneEdit animationAt(const Scene& scene, double time) {
+  const std::vector<DMat4> worlds = worldsAt(scene, time);
+  SceneEdit edit;
+  for (size_t i = 0; i < worlds.size(); ++i) {
+    const AnimatedNode& node = scene.animated[i];
+    SceneEdit step;
+    if (node.hasInstances)
+      step.objects.push_back({node.node, motionOf(node, worlds[i], scene.origin)});
+    if (node.light >= 0) {
+      LightEdit light = editOf(scene, static_cast<uint32_t>(node.light));
+      light.position = Vec3(DVec3(worlds[i][3]) - scene.origin);
+      light.direction = unitOr(-DVec3(worlds[i][2]), light.direction);
+      step.lights.push_back(light);
+    }
+    merge(edit, step);
+  }
+  return edit;
+}
+
+Camera animatedCamera(const Scene& scene, const Camera& camera, double time) {
+  const auto own = std::ranges::find(scene.cameras, camera);
+  if (own == scene.cameras.end()) return camera;
+  const auto moves = [&](const AnimatedNode& node) {
+    return node.camera == own - scene.cameras.begin();
+  };
+  const auto node = std::ranges::find_if(scene.animated, moves);
+  if (node == scene.animated.end()) return camera;
+  const DMat4 world = worldsAt(scene, time)[static_cast<size_t>(node - scene.animated.begin())];
+  Camera moved = camera;
+  moved.eye = Vec3(DVec3(world[3]) - scene.origin);
+  moved.forward = unitOr(-DVec3(world[2]), camera.forward);
+  moved.up = unitOr(DVec3(world[1]), camera.up);
+  return moved;
+}
+
+double animationEnd(const Scene& scene) {
+  float end = 0;
+  for (const AnimatedNode& node : scene.animated)
+    for (const AnimationTrack* track : {&node.translation, &node.rotation, &node.scale})
+      if (!track->times.empty()) end = std::max(end, track->times.back());
+  return double(end);
+}
+
+}  // namespace ninefold

@@ -1,0 +1,33 @@
+// animation.h: how nodes of a scene file move over time, as plain data, and where they are at a time:
+// as edits of the scene, so that an animation plays by the same small deltas as a person's hand.
+//
+//   local(t)  = translation(t) rotation(t) scale(t)         world(t) = world(parent, t) local(t)
+//   motion(t) = world(t) world(as read)^-1                  of an ObjectEdit
+//
+// Between the keys i and j = i + 1, with d = t_j - t_i and s = (t - t_i) / d:
+//   step     v_i
+//   linear   v_i + s (v_j - v_i), rotations along the shorter great arc
+//   cubic    (2s^3 - 3s^2 + 1) v_i + d (s^3 - 2s^2 + s) out_i + (3s^2 - 2s^3) v_j + d (s^3 - s^2) in_j
+// Before the first and after the last key the value stays. What is scaled to nothing is scaled to
+// almost nothing, since a motion must be invertible.
+//
+// Source:  glTF 2.0 specification, 3.11 and appendix C.
+// Proved:  tests/scene/animation_test.cpp.   Threads: pure functions of plain data.   Errors: none.
+#pragma once
+
+#include <optional>
+
+#include "common/scene/edit.h"
+
+namespace ninefold {
+
+// Where all nodes are that move: objects and punctual lights. Intensities are as read.
+SceneEdit animationAt(const Scene& scene, double time);
+
+// If it is one of the scene's own that moves: where it is then; else as it is.
+Camera animatedCamera(const Scene& scene, const Camera& camera, double time);
+
+// When the last key is [s].
+double animationEnd(const Scene& scene);
+
+}  // namespace ninefold

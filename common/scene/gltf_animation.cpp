@@ -1,0 +1,113 @@
+#include "common/scene/gltf_animation.h"
+
+#include <tiny_gltf.h>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
+#include "common/scene/gltf_accessor.h"
+#include "common/scene/gltf_transform.h"
+
+namespace ninefold {
+namespace {
+
+using Kind = AnimationTrack::Kind;
+
+constexpr size_t kMaxKeys = 4'000'000;  // of a file
+
+Kind kindNamed(const std::string& name) {
+  if (name == "STEP") return Kind::step;
+  if (name == "LINEAR") return Kind::linear;
+  if (name == "CUBICSPLINE") return Kind::cubic;
+  fail("the interpolation '{}' is unknown", name);
+}
+
+// At most `most` keys; what a file claims costs no more than what it holds, as times must ascend.
+AnimationTrack readTrack(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                         int components, size_t most) {
+  AnimationTrack track;
+  track.kind = kindNamed(sampler.interpolation);
+  const GltfAccessor times(model, sampler.input, 1, "input");
+  const GltfAccessor values(model, sampler.output, components, "output");
+  const size_t each = track.kind == Kind::cubic ? 3 : 1;
+  if (times.count() == 0 || values.count() != each * times.count())
+    fail("{} times and {} values do not go together", times.count(), values.count());
+  if (times.count() > most) fail("more than {} keys in the file: export fewer", kMaxKeys);
+  for (size_t i = 0; i < times.count(); ++i) {
+    const float time = times.element(i).x;
+    const float least = track.times.empty() ? 0.0f : track.times.back();
+    const bool ascends = track.times.empty() ? time >= least : time > least;
+    if (!ascends || !std::isfinite(time)) fail("time {} is {} after {}", i, time, least);
+    track.times.push_back(time);
+    for (size_t part = 0; part < each; ++part) {
+      const Vec4 value = values.element(each * i + part);
+      if (!isFinite(Vec3(value)) || !std::isfinite(value.w)) fail("value {} is not finite", i);
+      track.values.emplace_back(value);
+    }
+    if (components == 4 && !(glm::length(track.values[each * i + each / 2]) > 1e-6))
+      fail("value {} is no quaternion", i);
+  }
+  return track;
+}
+
+// What never changes, as a track with one key.
+AnimationTrack constant(DVec4 value) { return {Kind::step, {0}, {value}}; }
+
+AnimationTrack orConstant(AnimationTrack track, const std::vector<double>& rest, DVec4 otherwise) {
+  if (!track.times.empty()) return track;
+  for (size_t i = 0; i < rest.size() && i < 4; ++i) otherwise[static_cast<int>(i)] = rest[i];
+  return constant(otherwise);
+}
+
+}  // namespace
+
+GltfAnimations::GltfAnimations(const tinygltf::Model& model) : model_(&model) {
+  for (size_t a = 0; a < model.animations.size(); ++a)
+    for (size_t c = 0; c < model.animations[a].channels.size(); ++c) try {
+        read(model.animations[a], model.animations[a].channels[c]);
+      } catch (const Error& error) {
+        fail("animation {} '{}', channel {}: {}", a, model.animations[a].name, c, error.what());
+      }
+  if (morphs_) warn("animated morph weights are not supported: left out");
+}
+
+void GltfAnimations::read(const tinygltf::Animation& animation,
+                          const tinygltf::AnimationChannel& channel) {
+  if (channel.target_path == "weights") morphs_ = true;
+  const bool rotates = channel.target_path == "rotation", scales = channel.target_path == "scale";
+  const bool known = rotates || scales || channel.target_path == "translation";
+  const int node = channel.target_node;
+  if (node < 0 || !known) return;  // to be left out, as glTF says
+  if (static_cast<size_t>(node) >= model_->nodes.size()) fail("node {} does not exist", node);
+  if (!model_->nodes[static_cast<size_t>(node)].matrix.empty())
+    fail(
+        "node {} has a matrix and cannot be animated: export it with translation, rotation and "
+        "scale",
+        node);
+  if (channel.sampler < 0 || static_cast<size_t>(channel.sampler) >= animation.samplers.size())
+    fail("sampler {} does not exist", channel.sampler);
+  Tracks& tracks = tracks_[node];
+  AnimationTrack& track = rotates ? tracks.rotation : scales ? tracks.scale : tracks.translation;
+  if (!track.times.empty()) return;
+  track = readTrack(*model_, animation.samplers[static_cast<size_t>(channel.sampler)],
+                    rotates ? 4 : 3, kMaxKeys - keys_);
+  keys_ += track.times.size();
+}
+
+int GltfAnimations::enter(int index, int parent, const DMat4& above, const DMat4& toWorld) {
+  const auto moved = tracks_.find(index);
+  if (parent < 0 && moved == tracks_.end()) return -1;
+  const tinygltf::Node& node = model_->nodes[static_cast<size_t>(index)];
+  AnimatedNode& entry = nodes_.emplace_back();
+  entry.node = index, entry.parent = parent, entry.above = above, entry.asRead = toWorld;
+  if (moved == tracks_.end()) {
+    entry.fixed = localMatrix(node);
+  } else {
+    Tracks& tracks = moved->second;
+    entry.translation = orConstant(std::move(tracks.translation), node.translation, DVec4(0));
+    entry.rotation = orConstant(std::move(tracks.rotation), node.rotation, DVec4(0, 0, 0, 1));
+    entry.scale = orConstant(std::move(tracks.scale), node.scale, DVec4(1));
+  }
+  return static_cast<int>(nodes_.size()) - 1;
+}
+
+}  // namespace ninefold

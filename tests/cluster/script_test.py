@@ -1,0 +1,137 @@
+"""Pictures of scripts and animations: each is the still of its moment, whatever happens to the clients."""
+import base64
+import json
+import struct
+import unittest
+
+from programs import BIN, SCENES, ClusterTest, signal
+
+
+def square(x, y, z, side):
+    """Facing up, with its middle at (x, y, z)."""
+    h = side / 2
+    return [(x - h, y, z + h), (x + h, y, z + h), (x + h, y, z - h), (x - h, y, z - h)]
+
+
+def moving_square(at=None):
+    """A floor, and over it a square that goes from x = -1 to 1 in two seconds, or stands `at` that place."""
+    data = b"".join(struct.pack("<3f", *p) for p in square(0, 0, 0, 4) + square(0, 0, 0, 1))
+    data += struct.pack("<6H", 0, 1, 2, 0, 2, 3) + struct.pack("<2f", 0, 2) + struct.pack("<6f", -1, 0.5, 0, 1, 0.5, 0)
+    views, begin = [], 0
+    for length in (48, 48, 12, 8, 24):
+        views.append({"buffer": 0, "byteOffset": begin, "byteLength": length})
+        begin += length
+    part = {"indices": 2, "material": 0}
+    scene = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1, 2]}],
+        "nodes": [{"name": "floor", "mesh": 0}, {"name": "square", "mesh": 1, "translation": [at or 0, 0.5, 0]},
+                  {"camera": 0, "translation": [0, 3, 4], "rotation": [-0.3, 0, 0, 0.954]}],
+        "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}],
+        "meshes": [{"primitives": [dict(part, attributes={"POSITION": 0})]},
+                   {"primitives": [dict(part, attributes={"POSITION": 1}, material=1)]}],
+        "materials": [{"doubleSided": True}, {"pbrMetallicRoughness": {"baseColorFactor": [0.75, 0.25, 0.25, 1]}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+                      {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC3"},
+                      {"bufferView": 2, "componentType": 5123, "count": 6, "type": "SCALAR"},
+                      {"bufferView": 3, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                      {"bufferView": 4, "componentType": 5126, "count": 2, "type": "VEC3"}],
+        "bufferViews": views,
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
+    if at is None:
+        scene["animations"] = [{"channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+                                "samplers": [{"input": 3, "output": 4, "interpolation": "LINEAR"}]}]
+    return json.dumps(scene)
+
+
+def pixels(png):
+    """The compressed pixels of a PNG file, without what it tells about itself."""
+    data, at = b"", 8
+    while at < len(png):
+        length, kind = struct.unpack(">I4s", png[at:at + 8])
+        data += png[at + 8:at + 8 + length] if kind == b"IDAT" else b""
+        at += 12 + length
+    return data
+
+
+class Pictures(ClusterTest):
+    def pictures(self, pattern):
+        return [pixels(p.read_bytes()) for p in sorted(self.folder.glob(pattern))]
+
+    def run_master(self, scene, *options):
+        program = self.start(BIN / "ninefold-master", scene, "--size", self.SIZE, "--local-clients", 2, *options)
+        self.assertEqual(program.ends(), 0, program.text)
+        return program
+
+    def write(self, name, text):
+        (self.folder / name).write_text(text)
+        return name
+
+
+class Animation(Pictures):
+    def test_every_picture_is_the_still_of_its_moment(self):
+        scene = self.write("moves.gltf", moving_square())
+        self.run_master(scene, "--animate", "0:2:2", "--frames", 3, "--output", "a.##.png")
+        played = self.pictures("a.*.png")
+        self.assertEqual(len(played), 5)
+        self.assertEqual(len(set(played)), 5)
+        for i, place in ((0, -1), (3, 0.5)):
+            self.run_master(self.write("still.gltf", moving_square(place)), "--frames", 3, "--output", "still.png")
+            self.assertTrue(self.pictures("still.png") == [played[i]], f"picture {i}, x = {place}")
+
+    def test_it_is_a_script(self):
+        scene = self.write("moves.gltf", moving_square())
+        self.write("s.json", json.dumps({"seconds": 1, "rate": 3, "frames": 2, "events": [
+            {"from": 0, "to": 1, "animation": [0.5, 1.5]}]}))
+        self.run_master(scene, "--script", "s.json", "--output", "s.#.png")
+        self.run_master(scene, "--animate", "0.5:1.5:3", "--frames", 2, "--output", "a.#.png")
+        self.assertEqual(len(self.pictures("a.*.png")), 4)
+        self.assertTrue(self.pictures("a.*.png") == self.pictures("s.*.png"))
+
+    def test_a_scene_without_animation_says_so_in_one_line(self):
+        program = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--animate", "0:1:5", "--output", "a.#.png")
+        self.assertEqual(program.ends(), 1)
+        self.assertRegex(program.lines[-1], r"^ninefold-master: --animate: nothing is animated")
+
+
+class Disturbed(Pictures):
+    """Edits while clients join, die and rejoin leave no stale pixel."""
+    SCRIPT = {"seconds": 4, "rate": 10, "frames": 2, "events": [
+        {"from": 0, "to": 4, "object": "glass sphere", "by": [0.3, 0, 0.1]},
+        {"from": 1, "to": 2, "material": "lamp", "emission": [4, 1, 1]},
+        {"from": 2, "to": 3, "object": "table", "by": [0, 0.1, 0], "turn": 20},
+        {"from": 3, "to": 4, "material": "lamp", "emission": [9, 9, 9]},
+        {"from": 0, "to": 4, "camera": ["0.15,1.5,2.25:0,1.5,-0.5:60", "0.4,1.5,2.25:0,1.5,-0.5:60"]}]}
+
+    def test_joining_dying_and_rejoining_clients_do_not_show(self):
+        self.write("s.json", json.dumps(self.SCRIPT))
+        scene, size = SCENES / "table_room.glb", ["--size", self.SIZE]
+        self.run_master(scene, "--script", "s.json", "--output", "calm.##.png")
+        self.new_key()
+        master = self.start(BIN / "ninefold-master", scene, *size, "--script", "s.json", "--output", "wild.##.png",
+                            "--local-clients", 0, "--key-file", "cluster.key")
+        address = self.address_of(master)
+        # Whoever is killed was alone: from then on all pictures are the next one's, who joins in mid-session.
+        alone = self.client(address, cache="cache")
+        for picture in (3, 9, 15):
+            master.waits_for(f"picture {picture} of 41")
+            self.send(alone.process.pid, signal.SIGKILL)
+            alone = self.client(address, cache="cache")
+        master.waits_for("picture 21 of 41")
+        other = self.client(address)
+        master.waits_for(r"(client \d+ is ready(.|\n)*){5}")
+        self.send(alone.process.pid, signal.SIGKILL)
+        master.waits_for("picture 30 of 41")
+        self.client(address, cache="cache")
+        self.send(other.process.pid, signal.SIGKILL)
+        self.assertEqual(master.ends(), 0, master.text)
+        calm, wild = self.pictures("calm.*.png"), self.pictures("wild.*.png")
+        self.assertEqual(len(calm), 41)
+        self.assertEqual(len(set(calm)), 41)
+        self.assertEqual([i for i in range(41) if calm[i] != wild[i]], [])
+        ready = master.text.count("is ready")
+        self.assertEqual(ready, 6, master.text)
+
+
+if __name__ == "__main__":
+    unittest.main()
