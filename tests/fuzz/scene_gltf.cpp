@@ -3,6 +3,7 @@
 #include <string>
 
 #include "common/base/error.h"
+#include "common/scene/animation.h"
 #include "common/scene/emitters.h"
 #include "common/scene/gltf_scene.h"
 #include "common/scene/needs.h"
@@ -13,12 +14,14 @@ namespace {
 using Input = std::vector<uint8_t>;
 
 // A triangle with everything that the reader looks at: texture, camera, light, extensions, sparse
-// data.
+// data, animation.
 const std::string kRich = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
 "extensionsUsed":["KHR_lights_punctual","EXT_mesh_gpu_instancing"],
 "extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"color":[1,1,1],"spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}}]}},
 "nodes":[{"mesh":0,"rotation":[0,0,0,1],"scale":[1,2,3],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}},
 {"camera":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{"extensions":{"KHR_lights_punctual":{"light":0}},"children":[3]},{"mesh":0}],
+"animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},{"sampler":0,"target":{"node":3,"path":"scale"}}],
+"samplers":[{"input":1,"output":0,"interpolation":"LINEAR"}]}],
 "cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":0.1}}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0,"NORMAL":0,"TEXCOORD_0":2},"indices":1,"material":0,"mode":4},{"attributes":{"POSITION":0},"mode":5}]}],
 "materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,1,1,1],"baseColorTexture":{"index":0,"extensions":{"KHR_texture_transform":{"offset":[0,1],"rotation":0.3}}},"roughnessFactor":0.2},
@@ -73,6 +76,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
         ninefold::finishScene(ninefold::readGltf({data, size}, ninefold::SceneFolder({})));
     const ninefold::Emitters emitters(scene, scene.environment);
     ninefold::needsOf(scene, scene.environment);
+    ninefold::animationAt(scene, ninefold::animationEnd(scene) / 3);
   } catch (const ninefold::Error&) {
   }
   return 0;
