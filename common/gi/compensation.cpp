@@ -10,7 +10,7 @@ namespace {
 
 // The short rays of sixteen receivers: where they go and how far they matter, sqrt(cos_x / b) [m].
 struct ShortRays {
-  RayPacket packet{};
+  RayPacket packet;
   float cosX[kPacket];
   uint32_t active = 0;
 
@@ -19,12 +19,22 @@ struct ShortRays {
   }
 };
 
-void aim(const Transport& t, const Receivers& r, size_t i, Vec2 u, size_t lane, ShortRays& rays) {
-  const Vec3 w = glm::normalize(Basis(r.ns(i)).toWorld(squareToCosineHemisphere(u)));
-  rays.cosX[lane] = glm::dot(w, r.ng(i));
-  if (rays.cosX[lane] <= 0) return;
-  rays.packet.set(static_cast<int>(lane), r.origin(i), w, 0, std::sqrt(rays.cosX[lane] / t.bound));
-  rays.active |= 1u << lane;
+// Of the receivers first ... first + 15, of which `count` are there and the rest is padding.
+void aim(const Transport& t, const ReceiverSamples& samples, int level, const Receivers& r,
+         size_t first, size_t count, ShortRays& rays) {
+  Vec2 u[kPacket];
+  for (size_t lane = 0; lane < kPacket; ++lane)
+    u[lane] = samples.compensationDirection(r.pixel[first + lane], level);
+#pragma GCC ivdep
+  for (size_t lane = 0; lane < kPacket; ++lane) {
+    const size_t i = first + lane;
+    const Vec3 w = glm::normalize(Basis(r.ns(i)).toWorld(squareToCosineHemisphere(u[lane])));
+    const float cosX = glm::dot(w, r.ng(i));
+    rays.cosX[lane] = cosX;
+    rays.packet.set(lane, r.origin(i), w, 0, std::sqrt(std::max(cosX, 0.0f) / t.bound));
+  }
+  for (size_t lane = 0; lane < count; ++lane)
+    rays.active |= (rays.cosX[lane] > 0 ? 1u : 0u) << lane;
 }
 
 // W of the hit; 0 where the geometry term g is within its bound.
@@ -76,11 +86,7 @@ struct Level {
   void trace(size_t first, RayCounts& rays) {
     ShortRays shorts;
     const size_t lanes = std::min<size_t>(kPacket, receivers.size() - first);
-    for (size_t lane = 0; lane < lanes; ++lane) {
-      const size_t i = first + lane;
-      aim(t, receivers, i, samples.compensationDirection(receivers.pixel[i], pathVertices), lane,
-          shorts);
-    }
+    aim(t, samples, pathVertices, receivers, first, lanes, shorts);
     rays.compensation += static_cast<uint64_t>(std::popcount(shorts.active));
     Hit hits[kPacket];
     t.tracer.closest16(shorts.packet, shorts.active, hits, false);

@@ -20,6 +20,12 @@ PhotonGrid::PhotonGrid(std::vector<Photon> photons, Metres radius)
     : radius_(std::max(radius, kMinRadius)),
       inverseCell_(0.5 / (kHalfCell * static_cast<double>(radius_))) {
   if (photons.empty()) return;
+  low_ = high_ = photons.front().position;
+  for (const Photon& photon : photons) {
+    low_ = glm::min(low_, photon.position), high_ = glm::max(high_, photon.position);
+  }
+  const float reach = static_cast<float>(kHalfCell) * radius_;
+  low_ = low_ - reach, high_ = high_ + reach;
   mask_ = std::bit_ceil(2 * static_cast<uint32_t>(photons.size())) - 1;
   std::vector<uint32_t> slots(photons.size());
   starts_.assign(static_cast<size_t>(mask_) + 2, 0);

@@ -47,7 +47,9 @@ class PhotonGrid {
   // covers too many cells: halve it. A point is never too large.
   template <typename Visit>
   bool near(Vec3 low, Vec3 high, Visit&& visit) const {
-    if (photons_.empty()) return true;
+    if (photons_.empty() || glm::any(glm::lessThan(high, low_)) ||
+        glm::any(glm::greaterThan(low, high_)))
+      return true;
     Slots slots;
     const int count = slotsAround(low, high, slots);
     if (count < 0) return false;
@@ -72,6 +74,7 @@ class PhotonGrid {
 
   std::vector<Photon> photons_;   // by slot
   std::vector<uint32_t> starts_;  // first photon of each slot, and the end
+  Vec3 low_{0}, high_{0};         // box around all spheres
   Metres radius_ = 0;
   double inverseCell_ = 0;
   uint32_t mask_ = 0;

@@ -1,7 +1,8 @@
-// receiver_samples.h: the sample points of a task's receivers, addressed by pixel and layer.
+// receiver_samples.h: the random numbers of a task's receivers, addressed by pixel, layer and level.
 //
-// Dimensions at level j, the number of D vertices between the eye and the receiver: 4j, 4j+1 direction
-// of the compensation's ray; 4j+2 whether it is followed; 4j+3 choice of VPLs.
+// A receiver is one sample of its pixel and frame: there is nothing to stratify it against, so the
+// numbers are plain hashes and no points of a Sobol' sequence.
+// Level: the number of D vertices between the eye and the receiver, pathVertices of irradiance.h.
 // Threads: pure functions.
 #pragma once
 
@@ -9,30 +10,33 @@
 
 namespace ninefold {
 
-struct ReceiverSamples {
-  uint64_t seed = 0;
-  uint32_t randomization = 0;
-  Randomization kind = Randomization::owen;
-  uint32_t layer = 0;
+class ReceiverSamples {
+ public:
+  ReceiverSamples(uint64_t seed, uint32_t randomization, uint32_t layer)
+      : key_(hashWords(seed, static_cast<uint64_t>(SampleUse::gather),
+                       uint64_t{randomization} << 32 | layer)) {}
 
-  // pixel: any number that names the pixel in the whole image. pathVertices as in irradiance.h.
-  Vec2 compensationDirection(uint32_t pixel, int pathVertices) const {
-    return of(pixel).get2D(dimension(pathVertices));
+  // pixel: any number that names the pixel in the whole image.
+  Vec2 compensationDirection(uint32_t pixel, int level) const {
+    const uint64_t w = word(pixel, level, 0);
+    return Vec2(unitFloat(static_cast<uint32_t>(w >> 32)), unitFloat(static_cast<uint32_t>(w)));
   }
-  float compensationRoulette(uint32_t pixel, int pathVertices) const {
-    return of(pixel).get1D(dimension(pathVertices) + 2);
+  float compensationRoulette(uint32_t pixel, int level) const {
+    return unitFloat(static_cast<uint32_t>(word(pixel, level, 1)));
   }
-  float vplChoice(uint32_t pixel, int pathVertices) const {
-    return of(pixel).get1D(dimension(pathVertices) + 3);
+  float vplChoice(uint32_t pixel, int level) const {
+    return unitFloat(static_cast<uint32_t>(word(pixel, level, 2)));
   }
 
  private:
-  static uint32_t dimension(int pathVertices) {
-    return 4 * static_cast<uint32_t>(pathVertices - 1);
+  static constexpr uint64_t kUses = 3;
+
+  uint64_t word(uint32_t pixel, int level, uint64_t use) const {
+    const uint64_t dimension = kUses * static_cast<uint64_t>(level) + use;
+    return mixWord(key_ + 0x9e3779b97f4a7c15ull * (dimension << 32 | pixel));
   }
-  PixelSampler of(uint32_t pixel) const {
-    return PixelSampler(seed, SampleUse::gather, pixel, layer, randomization, 0, kind);
-  }
+
+  uint64_t key_;
 };
 
 }  // namespace ninefold

@@ -46,6 +46,10 @@ Reflectance MeanReflection::operator()(Vec3 f0, Vec3 f90, float alpha) const {
 Shader::Shader(const Scene& scene) : scene_(&scene) {
   for (const Material& m : scene.materials) {
     Prepared p;
+    p.fixedEnds = !m.specularMap && !m.specularColorMap;
+    if (p.fixedEnds) p.ends = dielectricEnds(m, {});
+    p.fixedMean = p.fixedEnds && !m.metallicRoughnessMap;
+    if (p.fixedMean) p.mean = coatReflection(p.ends, m.roughness * m.roughness);
     p.transmits = m.transmission > 0 && m.metallic < 1;
     p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
     p.specular = p.transmits || !p.folds || m.alphaMode == AlphaMode::blend;
@@ -84,11 +88,14 @@ Shader::FresnelEnds Shader::dielectricEnds(const Material& m, const SurfacePoint
   return {strength * glm::min(f0, Vec3(1)), Vec3(strength)};
 }
 
+Reflectance Shader::coatReflection(const FresnelEnds& ends, float alpha) const {
+  return isBlack(ends.f90) ? Vec3(0) : meanReflection_(ends.f0, ends.f90, alpha);
+}
+
 void Shader::fillOpaque(Bsdf& bsdf, const Material& m, const Prepared& prepared, Vec3 base,
                         float metallic, float alpha, const SurfacePoint& s) const {
-  const FresnelEnds dielectric = dielectricEnds(m, s);
-  const bool coated = !isBlack(dielectric.f90);
-  const Vec3 mean = coated ? meanReflection_(dielectric.f0, dielectric.f90, alpha) : Vec3(0);
+  const FresnelEnds dielectric = prepared.fixedEnds ? prepared.ends : dielectricEnds(m, s);
+  const Vec3 mean = prepared.fixedMean ? prepared.mean : coatReflection(dielectric, alpha);
   bsdf.f0 = mix(dielectric.f0, base, metallic);
   bsdf.f90 = mix(dielectric.f90, Vec3(1), metallic);
   bsdf.diffuse = (1 - metallic) * (Vec3(1) - mean) * base;

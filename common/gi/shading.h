@@ -105,6 +105,10 @@ class Shader {
   }
 
  private:
+  struct FresnelEnds {
+    Vec3 f0{0}, f90{0};  // at normal and grazing incidence
+  };
+  // Of a material, worked out once: every hit asks.
   struct Prepared {
     bool folds = false;      // opaque reflection lobe goes into D
     bool transmits = false;  // dielectric interface
@@ -112,6 +116,10 @@ class Shader {
     bool diffuse = false;    // may have a D lobe
     Vec3 sigma{0};           // attenuation inside [1/m]
     float meanFresnel = 0;   // of a transmitting material's interface
+    bool fixedEnds = false;  // no texture changes `ends`
+    FresnelEnds ends;        // of the dielectric part
+    bool fixedMean = false;  // no texture changes `mean`
+    Reflectance mean{0};     // reflection of the dielectric part
   };
   float indexOf(int material) const;
   bool isSolid(int material) const;
@@ -120,10 +128,9 @@ class Shader {
                   float metallic, float alpha, const SurfacePoint& s) const;
   void fillTransmitting(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                         float metallic, const SurfacePoint& s) const;
-  struct FresnelEnds {
-    Vec3 f0, f90;  // at normal and grazing incidence
-  };
   FresnelEnds dielectricEnds(const Material& material, const SurfacePoint& s) const;
+  // Mean reflection of the dielectric part.
+  Reflectance coatReflection(const FresnelEnds& ends, float alpha) const;
 
   const Scene* scene_;
   std::vector<Prepared> materials_;

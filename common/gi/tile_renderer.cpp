@@ -25,11 +25,10 @@ struct TaskContext {
   CameraRays camera;
   Scratch& scratch;
   TileResult& out;
+  PixelStream eyePaths;
 
-  PixelSampler sampler(int x, int y) const {
-    return PixelSampler(t.settings.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
-                        static_cast<uint32_t>(y), task.frame.randomization, 0,
-                        t.settings.randomization);
+  PixelSampler sampler(int x, int y, uint32_t path) const {
+    return PixelSampler(eyePaths, static_cast<uint32_t>(x), static_cast<uint32_t>(y), path);
   }
   int pixelX(int i) const { return grid.pixelX(task.phase, rect.i0 + i); }
   int pixelY(int j) const { return grid.pixelY(task.phase, rect.j0 + j); }
@@ -95,7 +94,7 @@ void shadeFirstHit(TaskContext& c, const Hit& hit, Vec3 direction, int i, int j)
     addReceiver(c, kDiffuse, p, pixel, c.t.shader.absorber(p, c.view.eyeMedia), through, 1, hit.t,
                 0);
   if (!p.bsdf.reflects && !p.bsdf.transmits()) return;
-  const PixelSampler sampler = c.sampler(c.pixelX(i), c.pixelY(j));
+  const PixelSampler sampler = c.sampler(c.pixelX(i), c.pixelY(j), 0);
   if (p.bsdf.reflects) followLayer(c, p, Lobe::reflection, hit.t, through, pixel, sampler);
   if (p.bsdf.transmits()) followLayer(c, p, Lobe::transmission, hit.t, through, pixel, sampler);
 }
@@ -108,7 +107,7 @@ void traceBlock(TaskContext& c, int bi, int bj) {
     const int i = std::min(bi + lane % kBlock, c.rect.width - 1);
     const int j = std::min(bj + lane / kBlock, c.rect.height - 1);
     const int x = c.pixelX(i), y = c.pixelY(j);
-    const Vec2 offset = c.t.settings.jitter ? c.sampler(x, y).get2D(0) : Vec2(0.5f);
+    const Vec2 offset = c.t.settings.jitter ? c.sampler(x, y, 0).get2D(0) : Vec2(0.5f);
     const Vec3 direction =
         c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
     rays.set(lane, c.view.camera.eye, direction, 0, std::numeric_limits<float>::infinity());
@@ -130,8 +129,7 @@ void gatherLayer(TaskContext& c, int layer) {
   const std::vector<uint32_t>& places = c.scratch.places[static_cast<size_t>(layer)];
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];
   const Settings& s = c.t.settings;
-  const ReceiverSamples samples{s.seed, c.task.frame.randomization, s.randomization,
-                                static_cast<uint32_t>(layer)};
+  const ReceiverSamples samples(s.seed, c.task.frame.randomization, static_cast<uint32_t>(layer));
   const bool wantsCaustic = layer == kDiffuse && (c.task.extraMask & kCausticPlane) != 0;
   std::vector<Irradiance> caustic(wantsCaustic ? receivers.size() : 0, Irradiance(0));
   gatherIrradiance(c.t, c.lights, samples, 1, c.scratch, receivers,
@@ -148,9 +146,7 @@ void pathTracePixel(TaskContext& c, int i, int j) {
   const int x = c.pixelX(i), y = c.pixelY(j);
   Radiance sum(0);
   for (uint32_t path = 0; path < kPathsPerPixel; ++path) {
-    const PixelSampler sampler(s.seed, SampleUse::eyePath, static_cast<uint32_t>(x),
-                               static_cast<uint32_t>(y), c.task.frame.randomization, path,
-                               s.randomization);
+    const PixelSampler sampler = c.sampler(x, y, path);
     const Vec2 offset = s.jitter ? sampler.get2D(0) : Vec2(0.5f);
     const Vec3 direction =
         c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
@@ -178,9 +174,16 @@ void renderTask(const Transport& t, const View& view, const Task& task, const Li
   const TileGrid grid(view.width, view.height, s.interleave);
   const TaskRect rect = task.rect.value_or(grid.rect(task.tile, task.phase));
   out.reset(rect.width, rect.height, layerMaskOf(t.needs, s.method), task.extraMask);
-  TaskContext c{
-      t,       view, task, lights, rect, grid, CameraRays(view.camera, view.width, view.height),
-      scratch, out};
+  TaskContext c{t,
+                view,
+                task,
+                lights,
+                rect,
+                grid,
+                CameraRays(view.camera, view.width, view.height),
+                scratch,
+                out,
+                PixelStream(s.seed, SampleUse::eyePath, task.frame.randomization, s.randomization)};
   if (s.method == Method::instantRadiosity) return radiosityTask(c);
   for (int j = 0; j < rect.height; ++j)
     for (int i = 0; i < rect.width; ++i) pathTracePixel(c, i, j);

@@ -1,5 +1,7 @@
 #include "common/gi/vpl_roulette.h"
 
+#include <bit>
+
 namespace ninefold {
 namespace {
 
@@ -8,10 +10,13 @@ constexpr int kLeast = 8;
 // Nobody's chance is less: what would add next to nothing may be all that is not hidden.
 constexpr float kLeastChance = 1.0f / 16;
 
+// Weights are not negative: their bits are ordered as they are, and whole numbers are compared by
+// whole vectors.
 float largest(const float* weight) {
-  float most = 0;
-  for (int lane = 0; lane < kPacket; ++lane) most = std::max(most, weight[lane]);
-  return most;
+  uint32_t most = 0;
+  for (int lane = 0; lane < kPacket; ++lane)
+    most = std::max(most, std::bit_cast<uint32_t>(weight[lane]));
+  return std::bit_cast<float>(most);
 }
 
 void scale(float* weight, float by) {

@@ -101,22 +101,32 @@ class LightSampler {
   uint32_t mask_;
 };
 
+// What all pixels of a frame share.
+class PixelStream {
+ public:
+  PixelStream(uint64_t seed, SampleUse use, uint32_t randomization, Randomization kind)
+      : key_(hashWords(seed, uint64_t{randomization} << 32 | static_cast<uint64_t>(use),
+                       kPixelDomain)),
+        kind_(kind) {}
+
+ private:
+  friend class PixelSampler;
+  static constexpr uint64_t kPixelDomain = 1;  // keeps pixel keys apart from the keys of light sets
+  uint64_t key_;
+  Randomization kind_;
+};
+
 class PixelSampler {
  public:
-  // `randomization` is the frame's randomization index; `index` counts the pixel's paths in it.
-  PixelSampler(uint64_t seed, SampleUse use, uint32_t x, uint32_t y, uint32_t randomization,
-               uint32_t index, Randomization kind)
-      : sobol_{hashWords(seed, (uint64_t{randomization} << 32) | static_cast<uint64_t>(use),
-                         (uint64_t{y} << 32) | x, kPixelDomain),
-               kind},
-        index_(index) {}
+  // `index` counts the pixel's paths in the frame.
+  PixelSampler(const PixelStream& stream, uint32_t x, uint32_t y, uint32_t index)
+      : sobol_{mixWord(stream.key_ ^ (uint64_t{y} << 32 | x)), stream.kind_}, index_(index) {}
 
   float get1D(uint32_t dimension) const { return sobol_.get1D(index_, dimension, ~0u); }
   // Dimensions `dimension` (even) and `dimension + 1`.
   Vec2 get2D(uint32_t dimension) const { return sobol_.get2D(index_, dimension, ~0u); }
 
  private:
-  static constexpr uint64_t kPixelDomain = 1;  // keeps pixel keys apart from the keys of light sets
   PaddedSobol sobol_;
   uint32_t index_;
 };

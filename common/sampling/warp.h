@@ -8,11 +8,44 @@
 
 namespace ninefold {
 
+// [0,1) to (-1,1). Samples are multiples of 2^-24; taking the middle of each such cell keeps the
+// map symmetric and its values away from -1, 0 and 1, so that no direction has density 0.
+inline float signedUnit(float u) { return 2.0f * u - (1.0f - 0x1p-24f); }
+
+struct Polar {
+  Vec2 unit;  // direction in the plane
+  float r;    // signed distance from the centre, in (-1, 1)
+};
+
+// Sine and cosine of pi/4 x for |x| <= 1, to 1e-7: Taylor's series, whose bits depend on no
+// library's version.
+inline float sineOfEighth(float x) {
+  const float a = 0.25f * kPi * x, a2 = a * a;
+  return a * (1 + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 / 362880))));
+}
+inline float cosineOfEighth(float x) {
+  const float a = 0.25f * kPi * x, a2 = a * a;
+  return 1 + a2 * (-1.0f / 2 + a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 / 40320)));
+}
+
+// The square's concentric squares become circles: r is the larger coordinate, the angle the ratio.
+inline Polar squareToPolar(Vec2 u) {
+  const float a = signedUnit(u.x), b = signedUnit(u.y);
+  const bool wide = std::abs(a) > std::abs(b);
+  const float r = wide ? a : b, x = r == 0 ? 0.0f : (wide ? b : a) / r;
+  const float c = cosineOfEighth(x), s = sineOfEighth(x);
+  return {wide ? Vec2(c, s) : Vec2(s, c), r};
+}
+
 // Concentric map to the unit disk; density 1/pi per unit area. Shirley and Chiu 1997.
 Vec2 squareToDisk(Vec2 u);
 
 // Direction with density cos(theta)/pi per solid angle; z > 0.
-Vec3 squareToCosineHemisphere(Vec2 u);
+inline Vec3 squareToCosineHemisphere(Vec2 u) {
+  const Polar p = squareToPolar(u);
+  const Vec2 d = p.r * p.unit;
+  return Vec3(d.x, d.y, std::sqrt((1.0f - p.r) * (1.0f + p.r)));
+}
 inline float cosineHemispherePdf(float cosTheta) { return std::max(cosTheta, 0.0f) * kInvPi; }
 
 // Uniform directions, the centre of the square at +z: density 1/(4 pi).

@@ -27,22 +27,7 @@ float fold(float u, Wrap wrap) {
   return folded >= 0 && folded <= 2 ? folded : 0.0f;
 }
 
-Vec4 bilinear(const TextureImage& image, const TextureUse& use, float x, float y) {
-  const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
-  const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
-  const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
-  const int left = wrapTexel(ix, image.width, use.wrapS);
-  const int right = wrapTexel(ix + 1, image.width, use.wrapS);
-  const int top = wrapTexel(iy, image.height, use.wrapT);
-  const int bottom = wrapTexel(iy + 1, image.height, use.wrapT);
-  const Vec4 upper = (1 - fx) * texelOf(image, left, top) + fx * texelOf(image, right, top);
-  const Vec4 lower = (1 - fx) * texelOf(image, left, bottom) + fx * texelOf(image, right, bottom);
-  return (1 - fy) * upper + fy * lower;
-}
-
-}  // namespace
-
-Vec4 texelOf(const TextureImage& image, int x, int y) {
+inline Vec4 texel(const TextureImage& image, int x, int y) {
   const auto channels = static_cast<size_t>(image.channels);
   const uint8_t* t = &image.texels[(static_cast<size_t>(y) * static_cast<size_t>(image.width) +
                                     static_cast<size_t>(x)) *
@@ -59,6 +44,23 @@ Vec4 texelOf(const TextureImage& image, int x, int y) {
       return Vec4(colour(0), colour(1), colour(2), linear(t[3]));
   }
 }
+
+Vec4 bilinear(const TextureImage& image, const TextureUse& use, float x, float y) {
+  const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
+  const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
+  const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
+  const int left = wrapTexel(ix, image.width, use.wrapS);
+  const int right = wrapTexel(ix + 1, image.width, use.wrapS);
+  const int top = wrapTexel(iy, image.height, use.wrapT);
+  const int bottom = wrapTexel(iy + 1, image.height, use.wrapT);
+  const Vec4 upper = (1 - fx) * texel(image, left, top) + fx * texel(image, right, top);
+  const Vec4 lower = (1 - fx) * texel(image, left, bottom) + fx * texel(image, right, bottom);
+  return (1 - fy) * upper + fy * lower;
+}
+
+}  // namespace
+
+Vec4 texelOf(const TextureImage& image, int x, int y) { return texel(image, x, y); }
 
 int wrapTexel(int i, int size, Wrap wrap) {
   if (i >= 0 && i < size) return i;  // nearly always, and divisions are slow

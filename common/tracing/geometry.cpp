@@ -41,6 +41,9 @@ Vec3 unitOr(const Vec3& v, const Vec3& fallback) {
   return length > 0 && std::isfinite(length) ? v / length : fallback;
 }
 
+// A triangle without area has some normal, too.
+Vec3 facing(const Vec3& normal) { return isBlack(normal) ? Vec3(0, 0, 1) : normal; }
+
 // d(position)/d(s, t) of a triangle's texture coordinates, up to a positive factor; 0 if they are
 // degenerate.
 struct UvGradient {
@@ -73,7 +76,15 @@ InstanceGeometry::Plane InstanceGeometry::planeOf(uint32_t triangle) const {
   const DVec3 normal = exactNormal(at.a, at.b, at.c);
   const double length = glm::length(normal);
   const Vec3 unit = length > 0 ? Vec3(double(handedness_) / length * normal) : Vec3(0);
-  return {unit, planeError(at.a, at.b, at.c, unit)};
+  const Triangle& t = mesh_->triangles[triangle];
+  Plane plane{unit, planeError(at.a, at.b, at.c, unit), Vec3(0), isFlat(t)};
+  if (plane.flat) plane.shadingNormal = shadingNormal(t, Vec3(1, 0, 0), facing(unit));
+  return plane;
+}
+
+bool InstanceGeometry::isFlat(const Triangle& t) const {
+  const auto& n = mesh_->normals;
+  return n.empty() || (n[t.x] == n[t.y] && n[t.x] == n[t.z]);
 }
 
 void InstanceGeometry::flatten(const Instance& instance) {
@@ -103,10 +114,10 @@ void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint
   p.material = mesh_->material;
   p.position = pointOnTriangle(at.a, at.b, at.c, weights.y, weights.z);
   const Plane& plane = planes_[triangle];
-  p.geometricNormal = isBlack(plane.normal) ? Vec3(0, 0, 1) : plane.normal;
+  p.geometricNormal = facing(plane.normal);
   p.error = storageError(p.position, p.geometricNormal) + plane.error;
   setTexture(t, weights, p);
-  setShadingNormal(t, weights, p);
+  p.shadingNormal = plane.flat ? plane.shadingNormal : shadingNormal(t, weights, p.geometricNormal);
   if (tangents_) setTangent(t, at, weights, p);
 }
 
@@ -115,15 +126,12 @@ void InstanceGeometry::setTexture(const Triangle& t, const Vec3& weights, Surfac
   p.uv1 = mesh_->uv1.empty() ? Vec2(0) : interpolate(mesh_->uv1, t, weights);
 }
 
-void InstanceGeometry::setShadingNormal(const Triangle& t, const Vec3& weights,
-                                        SurfacePoint& p) const {
-  p.shadingNormal = p.geometricNormal;
-  if (mesh_->normals.empty()) return;
-  const Vec3 turned = normalToWorld_ * interpolate(mesh_->normals, t, weights);
-  p.shadingNormal = unitOr(turned, p.geometricNormal);
-  const float side = glm::dot(p.shadingNormal, p.geometricNormal);
-  if (side < 0) p.shadingNormal = -p.shadingNormal;
-  if (side == 0) p.shadingNormal = p.geometricNormal;
+Vec3 InstanceGeometry::shadingNormal(const Triangle& t, const Vec3& weights,
+                                     const Vec3& plane) const {
+  if (mesh_->normals.empty()) return plane;
+  const Vec3 n = unitOr(normalToWorld_ * interpolate(mesh_->normals, t, weights), plane);
+  const float side = glm::dot(n, plane);
+  return side > 0 ? n : side < 0 ? -n : plane;
 }
 
 // Texture coordinates grow downwards in the image and normal maps count upwards: the bitangent

@@ -35,16 +35,20 @@ class InstanceGeometry {
   void surface(uint32_t triangle, float u, float v, SurfacePoint& p) const;
 
  private:
-  // What every hit asks of a triangle's plane, so that it is worked out once, in doubles.
+  // What every hit asks of a triangle, so that it is worked out once.
   struct Plane {
-    Vec3 normal;  // of the front, unit; 0 for a triangle without area
-    float error;  // planeError, see math/rounding.h [m]
+    Vec3 normal;         // of the front, unit; 0 for a triangle without area
+    float error;         // planeError, see math/rounding.h [m]
+    Vec3 shadingNormal;  // if it is the same all over the triangle
+    bool flat;           // it is
   };
 
   void flatten(const Instance& instance);
   Plane planeOf(uint32_t triangle) const;
   void setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
-  void setShadingNormal(const Triangle& t, const Vec3& weights, SurfacePoint& p) const;
+  bool isFlat(const Triangle& t) const;
+  // Unit, on the side of `plane`, the geometric normal.
+  Vec3 shadingNormal(const Triangle& t, const Vec3& weights, const Vec3& plane) const;
   void setTangent(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
                   SurfacePoint& p) const;
 

@@ -36,7 +36,7 @@ struct alignas(64) RayPacket {
   float farT[kPacket];  // closest: the hit's t on return; occluded: negative infinity if blocked
   uint32_t mask[kPacket], id[kPacket], flags[kPacket];
 
-  void set(int lane, Vec3 origin, Vec3 direction, float tNear, float tFar) {
+  void set(size_t lane, Vec3 origin, Vec3 direction, float tNear, float tFar) {
     originX[lane] = origin.x, originY[lane] = origin.y, originZ[lane] = origin.z;
     directionX[lane] = direction.x, directionY[lane] = direction.y, directionZ[lane] = direction.z;
     nearT[lane] = tNear, farT[lane] = tFar;

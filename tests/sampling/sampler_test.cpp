@@ -184,7 +184,8 @@ TEST(PixelSampler, EveryAlignedRunOfPathsOfAFrameIsANetInEveryReplication) {
       for (const uint32_t first : {0u, 64u, 4032u, 0xffffffc0u}) {
         PointSet points(4);
         for (uint32_t i = 0; i < 64; ++i) {
-          const PixelSampler sampler(3, SampleUse::eyePath, 11, 470, 5, first + i, kind);
+          const PixelSampler sampler(PixelStream(3, SampleUse::eyePath, 5, kind), 11, 470,
+                                     first + i);
           for (uint32_t d = 0; d < 4; d += 2) {
             const Vec2 p = sampler.get2D(kSobolDimensions * group + d);
             points[d].push_back(p.x);
@@ -205,7 +206,8 @@ TEST(PixelSampler, FramesAreIndependentAndUniform) {
   for (const Randomization kind : kAll) {
     for (const uint32_t dimension : {0u, 2u, 8u}) {
       const auto sample = [&](uint32_t frame) {
-        return PixelSampler(3, SampleUse::eyePath, 17, 4, frame, 0, kind).get2D(dimension);
+        return PixelSampler(PixelStream(3, SampleUse::eyePath, frame, kind), 17, 4, 0)
+            .get2D(dimension);
       };
       const std::vector<double> expected(64, kFrames / 64.0);
       std::vector<double> within(64), across(64);
@@ -224,7 +226,7 @@ TEST(PixelSampler, FramesAreIndependentAndUniform) {
 TEST(PixelSampler, NeighbouringPixelsAreUncorrelated) {
   for (const Randomization kind : kAll) {
     const auto sample = [&](uint32_t x, uint32_t y, uint32_t d) {
-      return PixelSampler(3, SampleUse::eyePath, x, y, 0, 0, kind).get1D(d);
+      return PixelSampler(PixelStream(3, SampleUse::eyePath, 0, kind), x, y, 0).get1D(d);
     };
     constexpr uint32_t kPixels = 20000;
     const auto apart = [&](uint32_t dx, uint32_t dy, uint32_t d) {
