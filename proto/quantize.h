@@ -11,10 +11,10 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "common/math/vec.h"
 
@@ -28,41 +28,45 @@ inline uint64_t mixBits(uint64_t x) {
   return x ^ (x >> 31);
 }
 
-// Three uniform numbers in (0, 1) of one pixel of one field; 21 bits each.
+// Three uniform numbers in (0, 1) of one pixel of one field; 23 bits each. Words of 32 bits
+// throughout, so that loops over pixels vectorise. Constants: Wellons, "Prospecting for Hash
+// Functions", 2018.
 class Dither {
  public:
-  Dither(uint64_t key, uint32_t field, uint32_t pixel)
-      : bits_(mixBits(key + (uint64_t{field} << 32 | pixel) * 0x9e3779b97f4a7c15u)) {}
-  float operator[](int i) const {
-    const auto k = static_cast<int32_t>(bits_ >> (21 * i) & 0x1fffff);
-    return (static_cast<float>(k) + 0.5f) * 0x1p-21f;
+  // Different for all fields; the high half of a mixed word.
+  static uint32_t fieldKey(uint64_t key, uint32_t field) {
+    return static_cast<uint32_t>(mixBits(key + (field + 1) * 0x9e3779b97f4a7c15u) >> 32);
+  }
+  Dither(uint32_t fieldKey, uint32_t pixel) : first_(fieldKey + 3 * pixel) {}
+  float operator[](uint32_t i) const {
+    uint32_t x = first_ + i;
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    x ^= x >> 16;
+    return (static_cast<float>(static_cast<int32_t>(x >> 9)) + 0.5f) * 0x1p-23f;
   }
 
  private:
-  uint64_t bits_;
+  uint32_t first_;
 };
 
 // Levels top (q/255)^2: about equal steps to the eye.
 class SquareCode {
  public:
-  explicit SquareCode(float top) {
-    for (int q = 0; q < 256; ++q) level_[static_cast<size_t>(q)] = level(q, top);
-    scale_ = 65025.0f / top;
-  }
+  explicit SquareCode(float top) : top_(top), scale_(65025.0f / top) {}
   static float level(int q, float top) { return top * static_cast<float>(q * q) / 65025.0f; }
   // 0 <= v; above the top level it is the top level.
   uint8_t encode(float v, float u) const {
-    if (v >= level_[255]) return 255;
-    auto q = static_cast<size_t>(std::min(254.0f, std::sqrt(v * scale_)));
-    if (level_[q] > v) --q;
-    const float part = (v - level_[q]) / (level_[q + 1] - level_[q]);
+    int q = static_cast<int>(std::min(254.0f, std::sqrt(std::min(v, top_) * scale_)));
+    q -= level(q, top_) > v ? 1 : 0;
+    const float low = level(q, top_);
+    const float part = (v - low) / (level(q + 1, top_) - low);
     return static_cast<uint8_t>(q + (u < part ? 1 : 0));
   }
-  float decode(uint8_t code) const { return level_[code]; }
+  float decode(uint8_t code) const { return level(code, top_); }
 
  private:
-  std::array<float, 256> level_{};
-  float scale_ = 0;
+  float top_, scale_;
 };
 
 // Three mantissas m of 8 bits with one exponent: v = m 2^(e - 135); e = 0 means all are 0. Covers
@@ -75,15 +79,16 @@ struct SharedExponent {
   static SharedExponent encode(float r, float g, float b, const Dither& u) {
     r = std::min(r, kLargest), g = std::min(g, kLargest), b = std::min(b, kLargest);
     const auto bits = std::bit_cast<uint32_t>(std::max(r, std::max(g, b)));
-    if (bits == 0) return {};
     // The smallest scale 2^s, s >= -134, at which the largest component is at most 255.
     const uint32_t exponent = bits >> 23;
     const uint32_t beyond255 = (bits & 0x7fffff) > (exponent == 0 ? 0x7f8000u : 0x7f0000u) ? 1 : 0;
     const uint32_t e = exponent + beyond255 + 1;
-    // In double: 2^134 is no float.
-    const double scale = std::bit_cast<double>(uint64_t{1023 + 135 - e} << 52);
-    return {mantissa(r * scale, u[0]), mantissa(g * scale, u[1]), mantissa(b * scale, u[2]),
-            static_cast<uint8_t>(e)};
+    // 2^(135 - e) in two factors: 2^134 is no float.
+    const uint32_t half = e / 2, rest = e - half;
+    const float first = std::bit_cast<float>((194 - half) << 23);
+    const float second = std::bit_cast<float>((195 - rest) << 23);
+    return {mantissa(r * first * second, u[0]), mantissa(g * first * second, u[1]),
+            mantissa(b * first * second, u[2]), static_cast<uint8_t>(bits == 0 ? 0 : e)};
   }
   // 2^(e - 135), or 0, in two factors that are normal floats; vectorises.
   static float scaleOf(uint8_t e) {
@@ -94,9 +99,9 @@ struct SharedExponent {
   }
 
  private:
-  static uint8_t mantissa(double x, float u) {
+  static uint8_t mantissa(float x, float u) {
     const auto whole = static_cast<int>(x);
-    return static_cast<uint8_t>(whole + (u < static_cast<float>(x - whole) ? 1 : 0));
+    return static_cast<uint8_t>(whole + (u < x - static_cast<float>(whole) ? 1 : 0));
   }
 };
 
@@ -109,12 +114,12 @@ class FloatSteps {
       : least_(least), most_(most), step_(std::max(1u, (most - least + 65533) / 65534)) {}
 
   uint16_t encode(float v, float u) const {
-    if (v == 0) return 0;
-    const uint32_t offset = std::bit_cast<uint32_t>(v) - least_;
-    const uint32_t lower = offset / step_;
+    // A quotient of such small integers is exact enough in double to be cut off right.
+    const auto offset = static_cast<int32_t>(std::bit_cast<uint32_t>(v) - least_);
+    const auto lower = static_cast<uint32_t>(static_cast<int32_t>(offset / double(step_)));
     const float low = level(lower), high = level(lower + 1);
-    const bool up = v > low && u < (v - low) / (high - low);
-    return static_cast<uint16_t>(1 + lower + (up ? 1 : 0));
+    const uint32_t up = (v > low) & (u < (v - low) / (high - low)) ? 1 : 0;
+    return static_cast<uint16_t>(v == 0 ? 0 : 1 + lower + up);
   }
   float decode(uint16_t code) const {
     const float value = level(code - 1u);  // whatever it is for code 0
@@ -136,14 +141,16 @@ struct Octahedral {
   static constexpr uint16_t kNone = 65535;
   static constexpr float kHalf = 32767;
 
+  // Both without branches: they stand in vectorised loops. No vector: 0, or not finite.
   static Octahedral encode(Vec3 n) {
     const float sum = std::abs(n.x) + std::abs(n.y) + std::abs(n.z);
-    if (!(sum > 0)) return {};
-    Vec2 p(n.x / sum, n.y / sum);
-    if (n.z < 0) p = fold(p);
-    return {nearest(p.x), nearest(p.y)};
+    const bool some = (sum > 0) & (sum <= std::numeric_limits<float>::max());
+    const Vec2 p(n.x / sum, n.y / sum);
+    const Vec2 back = fold(p);
+    const bool below = n.z < 0;
+    return {some ? nearest(below ? back.x : p.x) : kNone,
+            some ? nearest(below ? back.y : p.y) : kNone};
   }
-  // Without branches: it stands in vectorised loops.
   Vec3 decode() const {
     const Vec2 p((static_cast<float>(x) - kHalf) / kHalf, (static_cast<float>(y) - kHalf) / kHalf);
     const Vec2 back = fold(p);
@@ -158,7 +165,9 @@ struct Octahedral {
   static Vec2 fold(Vec2 p) {
     return Vec2(std::copysign(1 - std::abs(p.y), p.x), std::copysign(1 - std::abs(p.x), p.y));
   }
-  static uint16_t nearest(float p) { return static_cast<uint16_t>(p * kHalf + kHalf + 0.5f); }
+  static uint16_t nearest(float p) {
+    return static_cast<uint16_t>(static_cast<int32_t>(p * kHalf + kHalf + 0.5f));
+  }
 };
 
 }  // namespace ninefold

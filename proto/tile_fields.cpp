@@ -1,5 +1,6 @@
 #include "proto/tile_fields.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace ninefold {
@@ -28,6 +29,17 @@ bool isZero(const RgbPlane& values) {
   return isZero(values.r) && isZero(values.g) && isZero(values.b);
 }
 
+// Of a field that must not be negative, NaN or infinite.
+bool isUsable(float value) {
+  return bool(int(value >= 0) & int(value <= std::numeric_limits<float>::max()));
+}
+float usable(float value) { return isUsable(value) ? value + 0.0f : 0.0f; }  // -0 to 0
+uint64_t unusable(const std::vector<float>& values) {
+  uint32_t count = 0;
+  for (const float value : values) count += isUsable(value) ? 0 : 1;
+  return count;
+}
+
 }  // namespace
 
 size_t mostFieldBytes(size_t pixels, uint8_t layerMask, uint8_t extraMask) {
@@ -40,12 +52,6 @@ size_t mostFieldBytes(size_t pixels, uint8_t layerMask, uint8_t extraMask) {
 }
 
 // --- writing ---
-
-float FieldWriter::usable(float value) {
-  if (value >= 0 && value <= std::numeric_limits<float>::max()) return value + 0.0f;  // -0 to 0
-  ++replaced_;
-  return 0;
-}
 
 void FieldWriter::flush(int planes) {
   for (int i = 0; i < planes; ++i)
@@ -61,24 +67,31 @@ void FieldWriter::flushZero(int planes) {
 void FieldWriter::fraction(const RgbPlane& values, float top) {
   if (isZero(values)) return flushZero(3);
   const SquareCode code(top);
-  auto& [r, g, b, unused] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) {
-    const Dither u = dither(i);
-    r[i] = code.encode(usable(values.r[i]), u[0]);
-    g[i] = code.encode(usable(values.g[i]), u[1]);
-    b[i] = code.encode(usable(values.b[i]), u[2]);
+  const uint32_t key = fieldKey(), pixels = pixels_;
+  const std::array planes = {values.r.data(), values.g.data(), values.b.data()};
+  for (uint32_t c = 0; c < 3; ++c) {
+    uint8_t* out = scratch_.plane[c].data();
+    const float* in = planes[c];
+#pragma GCC ivdep
+    for (uint32_t i = 0; i < pixels; ++i) out[i] = code.encode(usable(in[i]), Dither(key, i)[c]);
   }
+  replaced_ += unusable(values.r) + unusable(values.g) + unusable(values.b);
   flush(3);
 }
 
 void FieldWriter::light(const RgbPlane& values) {
   if (isZero(values)) return flushZero(4);
-  auto& [r, g, b, e] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) {
-    const SharedExponent code = SharedExponent::encode(usable(values.r[i]), usable(values.g[i]),
-                                                       usable(values.b[i]), dither(i));
+  const uint32_t key = fieldKey(), pixels = pixels_;
+  uint8_t *r = scratch_.plane[0].data(), *g = scratch_.plane[1].data(),
+          *b = scratch_.plane[2].data(), *e = scratch_.plane[3].data();
+  const float *red = values.r.data(), *green = values.g.data(), *blue = values.b.data();
+#pragma GCC ivdep
+  for (uint32_t i = 0; i < pixels; ++i) {
+    const SharedExponent code =
+        SharedExponent::encode(usable(red[i]), usable(green[i]), usable(blue[i]), Dither(key, i));
     r[i] = code.r, g[i] = code.g, b[i] = code.b, e[i] = code.e;
   }
+  replaced_ += unusable(values.r) + unusable(values.g) + unusable(values.b);
   flush(4);
 }
 
@@ -87,44 +100,55 @@ void FieldWriter::length(const std::vector<float>& values) {
   uint32_t least = kInfinityBits, most = 0;
   for (const float value : values) {
     const auto bits = std::bit_cast<uint32_t>(value);
-    if (bits == 0 || bits >= kInfinityBits) continue;  // negative floats have the top bit
-    least = std::min(least, bits), most = std::max(most, bits);
+    const bool counts = bits - 1 < kInfinityBits - 1;  // negative floats have the top bit
+    least = std::min(least, counts ? bits : kInfinityBits),
+    most = std::max(most, counts ? bits : 0);
   }
   if (most == 0) least = 0;
   ByteWriter(out_).number(least);
   ByteWriter(out_).number(most);
   const FloatSteps code(least, most);
-  auto& [low, high, unused1, unused2] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) {
-    const uint16_t word = code.encode(usable(values[i]), dither(i)[0]);
+  const uint32_t key = fieldKey(), pixels = pixels_;
+  uint8_t *low = scratch_.plane[0].data(), *high = scratch_.plane[1].data();
+  const float* in = values.data();
+#pragma GCC ivdep
+  for (uint32_t i = 0; i < pixels; ++i) {
+    const uint16_t word = code.encode(usable(in[i]), Dither(key, i)[0]);
     low[i] = static_cast<uint8_t>(word), high[i] = static_cast<uint8_t>(word >> 8);
   }
+  replaced_ += unusable(values);
   flush(2);
 }
 
 void FieldWriter::normal(const RgbPlane& values) {
-  auto& [xLow, xHigh, yLow, yHigh] = scratch_.plane;
-  for (size_t i = 0; i < pixels_; ++i) {
-    Vec3 n(values.r[i], values.g[i], values.b[i]);
-    if (!isFinite(n)) ++replaced_, n = Vec3(0);
-    const Octahedral code = Octahedral::encode(n);
+  uint8_t *xLow = scratch_.plane[0].data(), *xHigh = scratch_.plane[1].data(),
+          *yLow = scratch_.plane[2].data(), *yHigh = scratch_.plane[3].data();
+  const float *x = values.r.data(), *y = values.g.data(), *z = values.b.data();
+  uint32_t replaced = 0;
+  const uint32_t pixels = pixels_;
+#pragma GCC ivdep
+  for (uint32_t i = 0; i < pixels; ++i) {
+    const float sum = std::abs(x[i]) + std::abs(y[i]) + std::abs(z[i]);
+    replaced += sum <= std::numeric_limits<float>::max() ? 0 : 1;
+    const Octahedral code = Octahedral::encode(Vec3(x[i], y[i], z[i]));
     xLow[i] = static_cast<uint8_t>(code.x), xHigh[i] = static_cast<uint8_t>(code.x >> 8);
     yLow[i] = static_cast<uint8_t>(code.y), yHigh[i] = static_cast<uint8_t>(code.y >> 8);
   }
+  replaced_ += replaced;
   flush(4);
 }
 
 void FieldWriter::words(const std::vector<uint16_t>& values) {
-  for (size_t i = 0; i < pixels_; ++i)
-    for (size_t k = 0; k < 2; ++k)
-      scratch_.plane[k][i] = static_cast<uint8_t>(values[i] >> (8 * k));
+  for (size_t k = 0; k < 2; ++k)
+    std::transform(values.begin(), values.end(), scratch_.plane[k].begin(),
+                   [k](uint16_t word) { return static_cast<uint8_t>(word >> (8 * k)); });
   flush(2);
 }
 
 void FieldWriter::words(const std::vector<uint32_t>& values) {
-  for (size_t i = 0; i < pixels_; ++i)
-    for (size_t k = 0; k < 4; ++k)
-      scratch_.plane[k][i] = static_cast<uint8_t>(values[i] >> (8 * k));
+  for (size_t k = 0; k < 4; ++k)
+    std::transform(values.begin(), values.end(), scratch_.plane[k].begin(),
+                   [k](uint32_t word) { return static_cast<uint8_t>(word >> (8 * k)); });
   flush(4);
 }
 

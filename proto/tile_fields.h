@@ -61,7 +61,7 @@ class FieldWriter {
   FieldWriter(int width, size_t pixels, uint64_t dither, bool differences, BytePlanes& scratch,
               Bytes& out)
       : width_(static_cast<size_t>(width)),
-        pixels_(pixels),
+        pixels_(static_cast<uint32_t>(pixels)),
         dither_(dither),
         differences_(differences),
         scratch_(scratch),
@@ -78,14 +78,12 @@ class FieldWriter {
   uint64_t replaced() const { return replaced_; }
 
  private:
-  Dither dither(size_t pixel) const {
-    return Dither(dither_, field_, static_cast<uint32_t>(pixel));
-  }
-  float usable(float value);
+  uint32_t fieldKey() const { return Dither::fieldKey(dither_, field_); }
   void flush(int planes);
   void flushZero(int planes);
 
-  const size_t width_, pixels_;
+  const size_t width_;
+  const uint32_t pixels_;
   const uint64_t dither_;
   const bool differences_;
   BytePlanes& scratch_;

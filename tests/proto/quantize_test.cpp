@@ -20,7 +20,7 @@ template <typename Decoded>
 void expectUnbiased(double value, double floor, Decoded decoded) {
   double sum = 0, squares = 0;
   for (uint32_t i = 0; i < kDithers; ++i) {
-    const double error = decoded(Dither(99, 3, i)) - value;
+    const double error = decoded(Dither(Dither::fieldKey(99, 3), i)) - value;
     sum += error, squares += error * error;
   }
   const double mean = sum / kDithers;
@@ -34,7 +34,7 @@ TEST(Quantize, DitherIsUniformAndItsNumbersAreIndependent) {
     std::array<int, 256> cells{};
     constexpr int kCount = 256 * 400;
     for (uint32_t i = 0; i < kCount; ++i) {
-      const Dither u(42, 7, i);
+      const Dither u(Dither::fieldKey(42, 7), i);
       ++cells[static_cast<size_t>(u[a] * 16) * 16 + static_cast<size_t>(u[b] * 16)];
     }
     double chi2 = 0;
@@ -85,14 +85,15 @@ TEST(Quantize, SharedExponentStaysWithinItsBoundOverAllFloats) {
     // Any finite bit pattern is as likely as any other: all decades, denormals included.
     const auto v = std::bit_cast<float>(static_cast<uint32_t>(random() % 0x7f7f0000u));
     const Vec3 rgb(v, v * uniform(random), v * uniform(random));
-    const Vec3 error =
-        glm::abs(decoded(SharedExponent::encode(rgb.x, rgb.y, rgb.z, Dither(1, 0, i))) - rgb);
+    const Vec3 error = glm::abs(
+        decoded(SharedExponent::encode(rgb.x, rgb.y, rgb.z, Dither(Dither::fieldKey(1, 0), i))) -
+        rgb);
     ASSERT_LE(double{maxComponent(error)}, std::max(double{v} / 127.5, 0x1p-134)) << v;
   }
 }
 
 TEST(Quantize, SharedExponentReachesTheEndsOfItsRange) {
-  const Dither u(1, 2, 3);
+  const Dither u(Dither::fieldKey(1, 2), 3);
   const float largest = SharedExponent::kLargest;
   EXPECT_EQ(decoded(SharedExponent::encode(largest, 0, largest, u)), Vec3(largest, 0, largest));
   const float beyond = std::numeric_limits<float>::max();
