@@ -21,6 +21,8 @@ class EditHistory {
 
   // Needs checkEdit(scene, edit).
   void apply(const SceneEdit& edit, uint64_t action);
+  // By a script: no action of a person, undo passes over it.
+  void follow(const SceneEdit& edit) { merge(all_, edit); }
   // What changes by it; nothing if there is nothing to take back, or to do again.
   std::optional<SceneEdit> undo();
   std::optional<SceneEdit> redo();

@@ -1,7 +1,10 @@
 #include "master/latency_log.h"
 
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "common/base/error.h"
 
 namespace ninefold {
 namespace {
@@ -32,7 +35,7 @@ void LatencyLog::add(const Shown& shown) {
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
 }
 
-std::string LatencyLog::json(const std::string& scene) const {
+void LatencyLog::write(const std::string& path, const std::string& scene) const {
   std::vector<double> latency, moving;
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
   for (const Entry& e : entries_) {
@@ -47,7 +50,9 @@ std::string LatencyLog::json(const std::string& scene) const {
                              {"latency_ms", summary(latency)},
                              {"moving_frame_ms", summary(moving)},
                              {"frames", std::move(frames)}};
-  return all.dump(1);
+  std::ofstream file(path);
+  file << all.dump(1) << "\n";
+  if (!file.flush()) fail("cannot write {}", path);
 }
 
 }  // namespace ninefold

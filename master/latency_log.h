@@ -13,7 +13,8 @@ class LatencyLog {
  public:
   explicit LatencyLog(Time start) : start_(start) {}
   void add(const Shown& shown);
-  std::string json(const std::string& scene) const;
+  // JSON. Throws Error if the file cannot be written.
+  void write(const std::string& path, const std::string& scene) const;
 
  private:
   struct Entry {

@@ -36,8 +36,8 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
   const size_t sets = static_cast<size_t>(desk.patch.phases());
-  paint(view_, desk.patch, frame.view.key.rotation, depthScale_,
-        owners.data() + static_cast<size_t>(tile) * sets, desk.beauty);
+  paint(view_, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
+        depthScale_, owners.data() + static_cast<size_t>(tile) * sets, desk.beauty);
   keepPickPlanes(desk.patch);
   if (rested_)
     film_->addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);

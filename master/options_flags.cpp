@@ -29,8 +29,7 @@ constexpr Flag kPicture[] = {
     {"exposure", "EV", "brightness of .png files, -50 to 50 (default 0)"},
     {"view", "NAME",
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
-     "error, "
-     "clients or objects"},
+     "error, clients, objects or weights"},
 };
 constexpr Flag kMethod[] = {
     {"preset", "NAME",

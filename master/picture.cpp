@@ -40,7 +40,8 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
   if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
-  paint(setup_.view, desk.patch, frame.view.key.rotation, setup_.depthScale, nullptr, desk.beauty);
+  paint(setup_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
+        setup_.depthScale, nullptr, desk.beauty);
   film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
   if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "master/edit_history.h"
+
 namespace ninefold {
 namespace {
 
@@ -18,9 +20,11 @@ ScriptPlayer::Step ScriptPlayer::moveTo(double time) {
   const ScriptState before = std::exchange(shown_, script_.at(time, *scene_, start_));
   Step step;
   if (!(shown_.camera == before.camera)) step.camera = shown_.camera;
-  keepNew(before.edit.objects, shown_.edit.objects, step.edit.objects);
-  keepNew(before.edit.lights, shown_.edit.lights, step.edit.lights);
-  keepNew(before.edit.materials, shown_.edit.materials, step.edit.materials);
+  SceneEdit now = EditHistory(scene_).valuesNow(before.edit);  // as they were read
+  merge(now, shown_.edit);
+  keepNew(before.edit.objects, now.objects, step.edit.objects);
+  keepNew(before.edit.lights, now.lights, step.edit.lights);
+  keepNew(before.edit.materials, now.materials, step.edit.materials);
   checkEdit(*scene_, step.edit);
   return step;
 }

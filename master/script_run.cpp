@@ -2,7 +2,6 @@
 
 #include <condition_variable>
 #include <deque>
-#include <fstream>
 #include <thread>
 
 #include "common/base/log.h"
@@ -110,19 +109,13 @@ class ScriptRun {
     });
     if (rest == nullptr) return;
     if (options_.output) write(*options_.output, *rest);
-    if (options_.stats) writeLatencies();
+    const std::lock_guard lock(mutex_);
+    if (options_.stats) log_.write(*options_.stats, options_.scene);
   }
 
   void write(const std::string& path, const Shown& shown) const {
     const float exposure = isFalseColor(options_.view) ? 0 : options_.exposure;
     writeImage(path, {shown.image, {}, {}}, ToneMap(exposure));
-  }
-
-  void writeLatencies() {
-    const std::lock_guard lock(mutex_);
-    std::ofstream file(*options_.stats);
-    file << log_.json(options_.scene) << "\n";
-    if (!file.flush()) fail("cannot write {}", *options_.stats);
   }
 
   const Options& options_;

@@ -78,8 +78,9 @@ Vec3 colorOf(uint32_t number) {
   return {channel(0), channel(4), channel(2)};
 }
 
-void paint(PictureView view, const Patch& patch, uint32_t rotation, float depthScale,
-           const uint32_t* owners, RgbImage& beauty) {
+void paint(PictureView view, const Patch& patch, const PatchFilter& filter, float neighbourWeight,
+           uint32_t rotation, float depthScale, const uint32_t* owners, RgbImage& beauty) {
+  if (view == PictureView::weights) return filter.paintShares(patch, neighbourWeight, beauty);
   if (planesOf(view) == 0 && view != PictureView::sets && view != PictureView::clients) return;
   for (int phase = 0; phase < patch.phases(); ++phase) {
     const uint32_t number =

@@ -6,6 +6,7 @@
 //   sets                    which light set a pixel met
 //   error                   standard error of the mean so far, over the mean
 //   clients                 who rendered what
+//   weights                 what share of its window the discontinuity buffer averaged, diffuse layer
 //
 // A view asks for just the planes that it needs, and for the settings that leave only its part of
 // the light. Threads: pure functions. Errors: none.
@@ -17,7 +18,7 @@
 #include <string>
 
 #include "common/image/film.h"
-#include "common/image/patch.h"
+#include "common/image/patch_filter.h"
 #include "common/scene/settings.h"
 
 namespace ninefold {
@@ -33,11 +34,12 @@ enum class PictureView : uint8_t {
   sets,
   error,
   clients,
-  objects
+  objects,
+  weights
 };
 inline constexpr std::array kViewNames{"beauty", "albedo",   "normal",   "depth",
                                        "direct", "indirect", "caustics", "sets",
-                                       "error",  "clients",  "objects"};
+                                       "error",  "clients",  "objects",  "weights"};
 
 inline const char* nameOf(PictureView view) { return kViewNames[static_cast<size_t>(view)]; }
 std::optional<PictureView> viewNamed(const std::string& name);
@@ -51,10 +53,10 @@ Settings settingsFor(PictureView view, Settings settings);
 // Where its colours are codes and not light, so that exposure must leave them alone.
 bool isFalseColor(PictureView view);
 
-// Replaces the tile's beauty by the view's colours. `depthScale` [m]: what is shown white.
+// Replaces the tile's beauty, just composed by `filter`, by the view's colours. `depthScale` [m]: what is shown white.
 // `owners`: by phase, the number of the client that rendered it; may be null.
-void paint(PictureView view, const Patch& patch, uint32_t rotation, float depthScale,
-           const uint32_t* owners, RgbImage& beauty);
+void paint(PictureView view, const Patch& patch, const PatchFilter& filter, float neighbourWeight,
+           uint32_t rotation, float depthScale, const uint32_t* owners, RgbImage& beauty);
 
 // The film's error over its mean, in place of the mean.
 void paintError(const Film& film, RgbImage& mean);

@@ -100,6 +100,10 @@ void WindowInput::onPress(int key, const Modifiers& modifiers, CameraControl&) {
       return say(Kind::nextCamera);
     case 'L':
       return say(Kind::toggleLamp);
+    case 'V':
+      return say(Kind::saveView);
+    case ' ':
+      return say(Kind::togglePlay);
     case 'P':
       return say(Kind::savePicture);
     case key::kHome:

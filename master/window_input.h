@@ -9,6 +9,7 @@
 //   F  frame the selection             Home: the first view again    C: the scene's next camera
 //   L  lamp on or off                  Escape: select nothing
 //   Control+Z, Y       undo, redo      Control+S: save the scene     P: picture into a file
+//   V  keep this view as a camera      Space: script or animation pauses, goes on
 //   Tab  panel on or off               Control+Q: close the window
 //
 // Threads: plain value. Proved: tests/master/window_input_test.cpp.
@@ -33,6 +34,8 @@ struct Command {
     frameSelection,
     reset,
     nextCamera,
+    saveView,
+    togglePlay,
     toggleLamp,
     deselect,
     undo,

@@ -193,39 +193,52 @@ void DiscontinuityBuffer::guide(const Patch& patch, const Camera& camera) {
   }
 }
 
-void DiscontinuityBuffer::filter(const Patch& patch, int layer, int phase, float neighbourWeight,
-                                 RgbPlane& out) const {
+template <typename Take>
+void DiscontinuityBuffer::sum(const Patch& patch, int layer, int phase, float weight,
+                              const Take& take) const {
   const TaskRect& inner = patch.inner(phase);
   if (inner.count() == 0) return;
-  const int end = inner.height * Patch::kSide + inner.width + 1;
-  for (int first = Patch::kSide + 1; first < end; first += kChunk)
-    filterChunk(patch, layer, phase, first, std::min(kChunk, end - first), neighbourWeight, out);
-}
-
-void DiscontinuityBuffer::filterChunk(const Patch& patch, int layer, int phase, int first,
-                                      int count, float weight, RgbPlane& out) const {
   const bool planes = layer == kDiffuse && test_ == SurfaceTest::surface;
   const auto rowAt = [&](int p, int from) {
     return rowOf(patch.phase(p).layers[static_cast<size_t>(layer)],
                  planes ? &guides_[static_cast<size_t>(p)] : nullptr, from);
   };
-  const Row centre = rowAt(phase, first);
   const Interleave pattern = patch.grid().interleave();
   const Interleave window = test_ == SurfaceTest::none ? Interleave{.n = 1, .m = 1} : pattern;
-  Sums sums;
-  start(count, sums);
-  for (int dy = -(window.m - 1) / 2; dy <= window.m / 2; ++dy)
-    for (int dx = -(window.n - 1) / 2; dx <= window.n / 2; ++dx) {
-      if (dx == 0 && dy == 0) continue;
-      const Neighbour at = neighbourAt(pattern, phase, dx, dy);
-      const Row other = rowAt(at.phase, first + at.shift);
-      if (planes)
-        addByTangentPlanes(centre, other, at, weight, sums);
-      else
-        addByLimits(centre, other, limitsOf(test_), weight, sums);
-    }
-  finish(centre, sums, &out.r[static_cast<size_t>(first)], &out.g[static_cast<size_t>(first)],
-         &out.b[static_cast<size_t>(first)]);
+  const int end = inner.height * Patch::kSide + inner.width + 1;
+  for (int first = Patch::kSide + 1; first < end; first += kChunk) {
+    const Row centre = rowAt(phase, first);
+    Sums sums;
+    start(std::min(kChunk, end - first), sums);
+    for (int dy = -(window.m - 1) / 2; dy <= window.m / 2; ++dy)
+      for (int dx = -(window.n - 1) / 2; dx <= window.n / 2; ++dx) {
+        if (dx == 0 && dy == 0) continue;
+        const Neighbour at = neighbourAt(pattern, phase, dx, dy);
+        const Row other = rowAt(at.phase, first + at.shift);
+        if (planes)
+          addByTangentPlanes(centre, other, at, weight, sums);
+        else
+          addByLimits(centre, other, limitsOf(test_), weight, sums);
+      }
+    take(static_cast<size_t>(first), centre, sums);
+  }
+}
+
+void DiscontinuityBuffer::filter(const Patch& patch, int layer, int phase, float neighbourWeight,
+                                 RgbPlane& out) const {
+  sum(patch, layer, phase, neighbourWeight, [&](size_t first, const Row& centre, const Sums& sums) {
+    finish(centre, sums, &out.r[first], &out.g[first], &out.b[first]);
+  });
+}
+
+void DiscontinuityBuffer::shares(const Patch& patch, int layer, int phase, float neighbourWeight,
+                                 std::vector<float>& out) const {
+  const auto sets = static_cast<float>(patch.phases());
+  out.assign(Patch::kPixels, 0);
+  sum(patch, layer, phase, neighbourWeight, [&](size_t first, const Row&, const Sums& sums) {
+    for (int i = 0; i < sums.count; ++i)
+      out[first + static_cast<size_t>(i)] = sums.weight[i] / sets;
+  });
 }
 
 }  // namespace ninefold

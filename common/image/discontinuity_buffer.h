@@ -43,9 +43,14 @@ class DiscontinuityBuffer {
   // neighbourWeight in [0, 1]: 1 filters fully, 0 copies.
   void filter(const Patch& patch, int layer, int phase, float neighbourWeight, RgbPlane& out) const;
 
+  // sum_i w_i / (n m), what filter averages over: 1 if all the window counts fully.
+  void shares(const Patch& patch, int layer, int phase, float neighbourWeight,
+              std::vector<float>& out) const;
+
  private:
-  void filterChunk(const Patch& patch, int layer, int phase, int first, int count, float weight,
-                   RgbPlane& out) const;
+  // Calls take(index of the first pixel, E_0, sums over the window) for each run of pixels.
+  template <typename Take>
+  void sum(const Patch& patch, int layer, int phase, float weight, const Take& take) const;
 
   const SurfaceTest test_;
   std::vector<GuidePlanes> guides_;  // per phase; none for the paper's test

@@ -25,6 +25,22 @@ void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighb
   }
 }
 
+void PatchFilter::paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const {
+  grey.reset(patch.width(), patch.height());
+  if (patch.isDark(kDiffuse)) return;
+  std::vector<float> shares;
+  for (int phase = 0; phase < patch.phases(); ++phase) {
+    buffer_.shares(patch, kDiffuse, phase, neighbourWeight, shares);
+    const RgbPlane& reflectance = patch.phase(phase).layers[kDiffuse].reflectance;
+    patch.forEachPixel(phase, [&](size_t from, int x, int y) {
+      const size_t to = grey.at(x - patch.x0(), y - patch.y0());
+      const bool scatters = reflectance.r[from] + reflectance.g[from] + reflectance.b[from] > 0;
+      const float share = scatters ? shares[from] : 0;
+      grey.pixels.r[to] = grey.pixels.g[to] = grey.pixels.b[to] = share;
+    });
+  }
+}
+
 void PatchFilter::composeLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
                                RgbImage& beauty) {
   RgbPlane& filtered = layer == kDiffuse ? irradiance_[static_cast<size_t>(phase)] : filtered_;

@@ -21,6 +21,10 @@ class PatchFilter {
   // E' of the diffuse layer after compose, in the patch's planes.
   const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }
 
+  // After compose: into each of the tile's pixels, as grey, what share of the window the diffuse
+  // layer's E' there is the mean of; 0 where nothing scatters diffusely.
+  void paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const;
+
  private:
   void composeLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
                     RgbImage& beauty);

@@ -72,4 +72,10 @@ Camera chooseCamera(const Scene& scene, std::string_view spec) {
        listOf(scene.cameras));
 }
 
+std::string specOf(const Scene& scene, const Camera& camera) {
+  const DVec3 eye = DVec3(camera.eye) + scene.origin, target = eye + DVec3(camera.forward);
+  return fmt::format("{:.9g},{:.9g},{:.9g}:{:.9g},{:.9g},{:.9g}:{:.6g}", eye.x, eye.y, eye.z,
+                     target.x, target.y, target.z, camera.verticalFov * 180 / kPi);
+}
+
 }  // namespace ninefold

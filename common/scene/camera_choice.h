@@ -10,6 +10,7 @@
 // Threads: pure.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "common/scene/scene.h"
@@ -17,5 +18,8 @@
 namespace ninefold {
 
 Camera chooseCamera(const Scene& scene, std::string_view spec);
+
+// A camera of the scene as eye:target:fov. What is lost: how it is turned about its line of sight.
+std::string specOf(const Scene& scene, const Camera& camera);
 
 }  // namespace ninefold

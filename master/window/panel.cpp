@@ -7,6 +7,8 @@
 namespace ninefold {
 namespace {
 
+constexpr size_t kCamerasShown = 24;
+
 const char* nameOf(ClientState state) {
   constexpr std::array kNames{"connecting", "syncing", "building", "ready", "lost"};
   return kNames[static_cast<size_t>(state)];
@@ -82,10 +84,14 @@ void drawPicture(const PanelView& view, PanelChanges& changes) {
   float fov = view.settings.camera.verticalFov * 180 / kPi;
   slide(ImGui::SliderFloat("field of view", &fov, 5, 120, "%.0f deg"), changes.verticalFov,
         fov * kPi / 180);
-  for (size_t i = 0; i < view.cameras.size() && i < 8; ++i) {
-    if (i > 0) ImGui::SameLine();
+  for (size_t i = 0; i < view.cameras.size() && i < kCamerasShown; ++i) {
+    if (i % 3 > 0) ImGui::SameLine();
+    ImGui::PushID(static_cast<int>(i));  // names may be alike
     if (ImGui::SmallButton(view.cameras[i].c_str())) changes.camera = i;
+    ImGui::PopID();
   }
+  changes.saveView = ImGui::SmallButton("keep this view");
+  if (view.playing) changes.togglePlay = ImGui::Button(*view.playing ? "pause" : "play");
   changes.savePng = ImGui::Button("PNG");
   ImGui::SameLine();
   changes.saveExr = ImGui::Button("EXR");

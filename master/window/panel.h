@@ -18,6 +18,7 @@ struct Selection {
   std::string name;
   uint32_t material = 0;
   std::optional<uint32_t> light;  // a punctual one
+  bool operator==(const Selection&) const = default;
 };
 
 struct PanelView {
@@ -38,6 +39,7 @@ struct PanelView {
   std::vector<std::string> lights;
   std::vector<std::string> cameras;
   bool recording = false;
+  std::optional<bool> playing;  // if there is a script or an animation
 };
 
 struct PanelChanges {
@@ -51,6 +53,7 @@ struct PanelChanges {
   std::optional<size_t> camera;
   bool savePng = false, saveExr = false, saveScene = false, record = false;
   bool undo = false, redo = false;
+  bool saveView = false, togglePlay = false;
   bool sliderReleased = false;  // the next edit is another action
 };
 

@@ -2,17 +2,17 @@
 
 #include "common/base/log.h"
 #include "common/image/image_file.h"
+#include "common/scene/camera_choice.h"
 #include "common/scene/gltf_writer.h"
 #include "master/cluster_setup.h"
 #include "master/headless.h"
-#include "master/window/picking.h"
+#include "master/script_run.h"
 
 namespace ninefold {
 namespace {
 
 constexpr Duration kIdle = milliseconds(100);  // between two looks when nothing happens
-constexpr Duration kFlying = milliseconds(8);  // while keys are held
-constexpr size_t kTimesShown = 120;
+constexpr Duration kMoving = milliseconds(8);  // while keys are held or a script plays
 
 // Numbers 1 .. 9, 0 as they stand on the keyboard.
 PictureView viewOfDigit(int digit) { return static_cast<PictureView>(digit == 0 ? 9 : digit - 1); }
@@ -32,8 +32,9 @@ WindowSession::WindowSession(const Options& options, Window& window)
       window_(window),
       loading_(std::async(std::launch::async, [&options] { return makeJob(options); })),
       input_(Clock::now()),
+      board_(options.exposure),
+      latency_(Clock::now()),
       view_(options.view),
-      exposure_(options.exposure),
       target_(static_cast<float>(options.frameTime)) {}
 
 WindowSession::~WindowSession() = default;
@@ -45,7 +46,7 @@ int WindowSession::run() {
   }
   if (!live_) return 0;
   live_->stop("the window was closed");
-  saveLast();
+  writeLast();
   if (const auto failure = live_->cluster().failure()) fail("{}", *failure);
   return live_->cluster().signal() == 0 ? 0 : 128 + live_->cluster().signal();
 }
@@ -59,34 +60,63 @@ bool WindowSession::load() {
 }
 
 void WindowSession::start() {
+  cameras_ = job_->scene->cameras;
   camera_ = std::make_unique<CameraControl>(job_->settings.camera, job_->scene->bounds);
-  history_ = std::make_unique<EditHistory>(job_->scene);
   const LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true};
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
-                                    [](const auto&) { Window::wake(); });
+                                    [this](const std::shared_ptr<const Shown>& shown) {
+                                      const std::lock_guard lock(latencyMutex_);
+                                      if (options_.stats) latency_.add(*shown);
+                                      Window::wake();
+                                    });
+  editor_ = std::make_unique<Editor>(job_->scene, *live_, *camera_);
+  if (auto script = scriptOf(options_, *job_->scene))
+    playback_.emplace(ScriptPlayer(std::move(*script), job_->scene, job_->settings.camera),
+                      options_.animate.has_value());
   live_->setView(view_);
   live_->start();
 }
 
 void WindowSession::step() {
-  window_.wait(camera_ && camera_->isFlying() ? kFlying : kIdle);
+  const bool moving = (camera_ && camera_->isFlying()) || (playback_ && playback_->isPlaying());
+  window_.wait(moving ? kMoving : kIdle);
   const std::vector<WindowEvent> events = window_.takeEvents();
   if (load()) {
     const WindowArea area = window_.pictureArea();
     for (const Command& command : input_.take(events, area.high.y - area.low.y, *camera_))
       carryOut(command);
     input_.passTo(Clock::now(), *camera_);
+    play();
     live_->setCamera(camera_->camera());
     takePicture();
   }
   redraw();
 }
 
+// From the first picture on: before, there is nobody to see it.
+void WindowSession::play() {
+  const Time before = std::exchange(played_, Clock::now());
+  if (!playback_ || board_.shown() == nullptr) return;
+  const ScriptPlayer::Step step = playback_->pass(played_ - before);
+  if (step.camera) camera_->go(*step.camera);
+  editor_->follow(step.edit);
+}
+
+void WindowSession::takePicture() {
+  const std::shared_ptr<const Shown> latest = live_->shown();
+  if (board_.take(latest, live_->cluster().tally().tasks.accepted)) {
+    window_.setTitle(latest->frame.moving ? "ninefold: moving"
+                                          : fmt::format("ninefold: {} frame(s)", latest->frames));
+    editor_->look(*latest);
+  }
+  board_.draw(*job_->scene, editor_->selection(), window_);
+}
+
 void WindowSession::redraw() {
   window_.beginFrame();
   if (!live_) {
     drawProgress("reading " + options_.scene, 0.05);
-  } else if (!shown_) {
+  } else if (board_.shown() == nullptr) {
     double done = 0;
     const std::string state = progressOf(live_->cluster(), done);
     drawProgress(state, done);
@@ -98,36 +128,43 @@ void WindowSession::redraw() {
 
 void WindowSession::carryOut(const Command& command) {
   using Kind = Command::Kind;
+  const WindowArea area = window_.pictureArea();
+  const Vec2 place = area.share(command.pointer);
+  const Shown* shown = board_.shown();
   switch (command.kind) {
     case Kind::select:
-      return drag_ ? drag_.reset() : pick(command.pointer);
+      if (shown != nullptr && area.contains(command.pointer)) editor_->pick(place, *shown);
+      return;
     case Kind::dragBegin:
-      return beginDrag(command);
+      if (shown != nullptr) editor_->beginDrag(command.mode, place, *shown);
+      return;
     case Kind::drag:
-      return moveDrag(command);
+      return editor_->drag(place);
     case Kind::dragEnd:
-      return drag_.reset();
+      return editor_->endDrag();
     case Kind::view:
-      view_ = viewOfDigit(static_cast<int>(command.amount));
-      return live_->setView(view_);
+      return show(viewOfDigit(static_cast<int>(command.amount)));
     case Kind::exposure:
-      exposure_ += command.amount;
-      return showCodes();
+      return board_.expose(board_.exposure() + command.amount);
     case Kind::reset:
       return camera_->reset();
     case Kind::nextCamera:
-      return camera_->go(job_->scene->cameras[nextCamera_++ % job_->scene->cameras.size()]);
+      return camera_->go(cameras_[nextCamera_++ % cameras_.size()]);
+    case Kind::saveView:
+      return keepView();
+    case Kind::togglePlay:
+      if (playback_) playback_->toggle();
+      return;
     case Kind::toggleLamp:
-      return toggleLamp();
+      return editor_->toggleLamp();
     case Kind::deselect:
-      selection_.reset();
-      return live_->wantObjects(false);
+      return editor_->deselect();
     case Kind::undo:
-      return step(history_->undo());
+      return editor_->undo();
     case Kind::redo:
-      return step(history_->redo());
+      return editor_->redo();
     case Kind::savePicture:
-      return savePicture("png");
+      return board_.save("png");
     case Kind::togglePanel:
       panel_ = !panel_;
       return;
@@ -136,221 +173,73 @@ void WindowSession::carryOut(const Command& command) {
     case Kind::saveScene:
       return saveScene();
     case Kind::frameSelection:
-      return camera_->frame(
-          selection_ ? boundsOfNode(edited(*job_->scene, history_->all()), selection_->node)
-                     : Bounds{});
+      return camera_->frame(editor_->boundsOfSelection());
   }
 }
 
-// --- pictures ---
-
-void WindowSession::takePicture() {
-  const std::shared_ptr<const Shown> latest = live_->shown();
-  if (latest == shown_) return;
-  if (shown_)
-    frameTimes_.push_back(
-        static_cast<float>(1e3 * seconds(latest->completed - latest->frame.opened)));
-  if (frameTimes_.size() > kTimesShown) frameTimes_.erase(frameTimes_.begin());
-  const double past = seconds(latest->completed - ratesAt_);
-  if (past > 0.5) {
-    const uint64_t rays = latest->rays.total(), tasks = live_->cluster().tally().tasks.accepted;
-    raysPerSecond_ = static_cast<double>(rays - raysThen_) / past;
-    tasksPerSecond_ = static_cast<double>(tasks - tasksThen_) / past;
-    raysThen_ = rays, tasksThen_ = tasks, ratesAt_ = latest->completed;
-  }
-  shown_ = latest;
-  window_.setTitle(latest->frame.moving ? "ninefold: moving"
-                                        : fmt::format("ninefold: {} frame(s)", latest->frames));
-  if (pick_) resolvePick();
-  showCodes();
-  if (recording_) savePicture("png");
+PanelView WindowSession::panelView() const {
+  PanelView view;
+  board_.tell(view);
+  editor_->tell(view);
+  view.state = live_->cluster().summary();
+  view.clients = live_->cluster().clients();
+  view.needs = describe(live_->needs());
+  view.settings = live_->settings();
+  view.view = view_;
+  view.target = target_;
+  view.speed = camera_->speed();
+  for (const Camera& camera : cameras_) view.cameras.push_back(camera.name);
+  if (playback_) view.playing = playback_->isPlaying();
+  return view;
 }
 
-void WindowSession::showCodes() {
-  if (!shown_) return;
-  std::vector<uint8_t> rgb;
-  const float exposure = isFalseColor(shown_->view) ? 0 : exposure_;
-  if (!toneMap_ || toneMapFor_ != exposure) toneMap_.emplace(exposure), toneMapFor_ = exposure;
-  toneMap_->apply(shown_->image, rgb);
-  if (selection_) drawOutline(*shown_, *job_->scene, *selection_, rgb);
-  window_.setPicture(rgb, shown_->image.width, shown_->image.height);
+void WindowSession::apply(const PanelChanges& changes) {
+  editor_->take(changes);
+  if (changes.settings) live_->setSettings(*changes.settings);
+  if (changes.view) show(*changes.view);
+  if (changes.exposure) board_.expose(*changes.exposure);
+  if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
+  if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
+  if (changes.camera) camera_->go(cameras_[*changes.camera]);
+  if (changes.saveView) keepView();
+  if (changes.togglePlay) playback_->toggle();
+  if (changes.savePng) board_.save("png");
+  if (changes.saveExr) board_.save("exr");
+  if (changes.saveScene) saveScene();
+  if (changes.record) board_.toggleRecording();
 }
 
-void WindowSession::savePicture(const std::string& extension) {
-  if (!shown_) return;
-  const std::string path = recording_ ? fmt::format("record.{:04}.{}", ++recorded_, extension)
-                                      : fmt::format("ninefold.{:04}.{}", ++saved_, extension);
-  try {
-    writeImage(path, {shown_->image, {}, {}}, ToneMap(exposure_));
-    log("picture in {}", path);
-  } catch (const Error& error) {
-    warn("{}", error.what());
-    recording_ = false;
-  }
+// One more camera, in the panel, under C, and in scenes that are saved.
+void WindowSession::keepView() {
+  Camera camera = camera_->camera();
+  const auto isTaken = [&](const std::string& name) {
+    return std::ranges::find(cameras_, name, &Camera::name) != cameras_.end();
+  };
+  for (int i = 1; camera.name.empty() || isTaken(camera.name); ++i)
+    camera.name = fmt::format("view {}", i);
+  log("{}: --camera {}", camera.name, specOf(*job_->scene, camera));
+  cameras_.push_back(std::move(camera));
 }
 
 void WindowSession::saveScene() {
   const std::string path = fmt::format("edited.{:04}.glb", ++saved_);
+  Scene scene = editor_->scene();
+  scene.cameras = cameras_;
   try {
-    writeGltf(path, edited(*job_->scene, history_->all()));
+    writeGltf(path, scene);
     log("the edited scene is in {}", path);
   } catch (const Error& error) {
     warn("{}", error.what());
   }
 }
 
-void WindowSession::saveLast() const {
-  if (!options_.output || !shown_) return;
-  writeImage(*options_.output, {shown_->image, {}, {}}, ToneMap(exposure_));
-  log("{} frame(s) in {}", shown_->frames, *options_.output);
-}
-
-// --- selecting and editing ---
-
-Vec2 WindowSession::filmPosition(Vec2 pointer, int width, int height) const {
-  return window_.pictureArea().toPicture(pointer, width, height);
-}
-
-void WindowSession::pick(Vec2 pointer) {
-  if (!shown_ || !window_.pictureArea().contains(pointer)) return;
-  const WindowArea area = window_.pictureArea();
-  pick_ = (pointer - area.low) / (area.high - area.low);
-  live_->wantObjects(true);
-  resolvePick();
-}
-
-void WindowSession::resolvePick() {
-  if (shown_->objects.empty()) return;  // a frame that has them will come
-  const Vec2 size(static_cast<float>(shown_->image.width),
-                  static_cast<float>(shown_->image.height));
-  const Vec2 film = *pick_ * size;
-  pick_.reset();
-  const std::optional<uint32_t> instance = instanceAt(*shown_, film);
-  if (!instance) {
-    selection_.reset();
-    return live_->wantObjects(false);
+void WindowSession::writeLast() {
+  if (options_.output && board_.shown() != nullptr) {
+    board_.write(*options_.output);
+    log("{} frame(s) in {}", board_.shown()->frames, *options_.output);
   }
-  select(*instance);
-  if (const auto point = pointAt(*shown_, film)) camera_->setPivot(*point);
-  showCodes();
-}
-
-void WindowSession::select(uint32_t instance) {
-  const Instance& thing = job_->scene->instances[instance];
-  const Mesh& mesh = job_->scene->meshes[static_cast<size_t>(thing.mesh)];
-  selection_ = Selection{thing.node, thing.name, static_cast<uint32_t>(mesh.material), {}};
-  ++action_;
-  log("selected {}", thing.name);
-}
-
-void WindowSession::beginDrag(const Command& command) {
-  if (!selection_ || selection_->light || !shown_ || shown_->objects.empty()) return;
-  const auto point =
-      pointAt(*shown_, filmPosition(command.pointer, shown_->image.width, shown_->image.height));
-  if (!point) return;
-  SceneEdit thing;
-  thing.objects.push_back({selection_->node, DMat4(1)});
-  const DMat4 before = history_->valuesNow(thing).objects[0].motion;
-  const Settings full = live_->settings();
-  drag_.emplace(command.mode, *point, boundsOfNode(*job_->scene, selection_->node, before).centre(),
-                filmPosition(command.pointer, full.width, full.height), before);
-  ++action_;
-}
-
-void WindowSession::moveDrag(const Command& command) {
-  if (!drag_) return;
-  const Settings full = live_->settings();  // frames in motion may be smaller
-  SceneEdit moved;
-  moved.objects.push_back(
-      {selection_->node, drag_->moveTo(filmPosition(command.pointer, full.width, full.height),
-                                       camera_->camera(), full.width, full.height)});
-  edit(moved);
-}
-
-// A lamp is a punctual light, or a surface that emits; off is black, on is as it was read.
-void WindowSession::toggleLamp() {
-  if (!selection_) return;
-  SceneEdit now;
-  if (selection_->light) {
-    now.lights.push_back(editOf(*job_->scene, *selection_->light));
-    LightEdit lamp = history_->valuesNow(now).lights[0];
-    lamp.intensity = isBlack(lamp.intensity) ? now.lights[0].intensity : Vec3(0);
-    now.lights[0] = lamp;
-  } else {
-    now.materials.push_back(editOfMaterial(*job_->scene, selection_->material));
-    MaterialEdit lamp = history_->valuesNow(now).materials[0];
-    lamp.emission = isBlack(lamp.emission) ? now.materials[0].emission : Vec3(0);
-    now.materials[0] = lamp;
-  }
-  ++action_;
-  edit(now);
-}
-
-void WindowSession::edit(const SceneEdit& edit) {
-  try {
-    checkEdit(*job_->scene, edit);
-  } catch (const Error& error) {
-    return warn("{}", error.what());
-  }
-  history_->apply(edit, action_);
-  live_->edit(edit);
-}
-
-void WindowSession::step(std::optional<SceneEdit> undone) {
-  if (undone) live_->edit(*undone);
-  ++action_;
-}
-
-// --- the panel ---
-
-PanelView WindowSession::panelView() const {
-  PanelView view;
-  view.shown = shown_.get();
-  view.frameTimes = frameTimes_;
-  view.raysPerSecond = raysPerSecond_, view.tasksPerSecond = tasksPerSecond_;
-  view.state = live_->cluster().summary();
-  view.clients = live_->cluster().clients();
-  view.needs = describe(live_->needs());
-  view.settings = live_->settings();
-  view.view = view_;
-  view.exposure = exposure_, view.target = target_;
-  view.speed = camera_->speed();
-  view.recording = recording_;
-  view.selection = selection_;
-  for (const PunctualLight& light : job_->scene->lights)
-    view.lights.push_back("lamp " + light.name);
-  for (const Camera& camera : job_->scene->cameras) view.cameras.push_back(camera.name);
-  if (!selection_) return view;
-  SceneEdit thing;
-  if (selection_->light) thing.lights.push_back(editOf(*job_->scene, *selection_->light));
-  thing.materials.push_back(editOfMaterial(*job_->scene, selection_->material));
-  const SceneEdit now = history_->valuesNow(thing);
-  view.material = now.materials[0];
-  if (selection_->light) view.light = now.lights[0];
-  return view;
-}
-
-void WindowSession::apply(const PanelChanges& changes) {
-  if (changes.settings) live_->setSettings(*changes.settings);
-  if (changes.view) live_->setView(view_ = *changes.view);
-  if (changes.exposure) exposure_ = *changes.exposure, showCodes();
-  if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
-  if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
-  if (changes.camera) camera_->go(job_->scene->cameras[*changes.camera]);
-  if (changes.selectLight)
-    selection_ =
-        Selection{-1, job_->scene->lights[*changes.selectLight].name, 0, *changes.selectLight};
-  SceneEdit turned;
-  if (changes.material) turned.materials.push_back(*changes.material);
-  if (changes.light) turned.lights.push_back(*changes.light);
-  if (!turned.empty()) edit(turned);
-  if (changes.sliderReleased && !drag_) ++action_;
-  if (changes.undo) step(history_->undo());
-  if (changes.redo) step(history_->redo());
-  if (changes.savePng) savePicture("png");
-  if (changes.saveExr) savePicture("exr");
-  if (changes.saveScene) saveScene();
-  if (changes.record) recording_ = !recording_;
+  const std::lock_guard lock(latencyMutex_);
+  if (options_.stats) latency_.write(*options_.stats, options_.scene);
 }
 
 int runWindow(const Options& options) {
@@ -361,7 +250,7 @@ int runWindow(const Options& options) {
     window.emplace("ninefold", std::max(720, options.settings.width), height);
   } catch (const NoDisplay& none) {
     warn("{}; going on without a window", none.what());
-    return runHeadless(options);
+    return options.script || options.animate ? runScript(options) : runHeadless(options);
   }
   WindowSession session(options, *window);
   return session.run();

@@ -1,4 +1,5 @@
-// session.h: what happens at the window: events move the camera, select and edit; pictures come back.
+// session.h: what happens at the window: events become commands of the camera, the editor and the
+// picture board; a script or an animation plays beside them; pictures come back.
 //
 // Threads: the main thread; the scene is read and pictures are made beside it. Errors: throws Error for
 // what the user must know, as runHeadless does.
@@ -6,13 +7,13 @@
 
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 
-#include "common/image/tone_map.h"
-#include "master/edit_history.h"
-#include "master/live_run.h"
-#include "master/window/panel.h"
-#include "master/window/window.h"
+#include "master/latency_log.h"
+#include "master/playback.h"
+#include "master/window/editor.h"
+#include "master/window/picture_board.h"
 #include "master/window_input.h"
 
 namespace ninefold {
@@ -29,54 +30,40 @@ class WindowSession {
   bool load();  // true once the scene is there
   void start();
   void step();
+  void play();
+  void takePicture();
+  void redraw();
+  void writeLast();
+
   void carryOut(const Command& command);
   void apply(const PanelChanges& changes);
-  void redraw();
-
-  void takePicture();
-  void showCodes();
-  void savePicture(const std::string& extension);
-  void saveScene();
-  void saveLast() const;
-
-  void pick(Vec2 pointer);
-  void resolvePick();
-  void select(uint32_t instance);
-  void beginDrag(const Command& command);
-  void moveDrag(const Command& command);
-  void toggleLamp();
-  void edit(const SceneEdit& edit);
-  void step(std::optional<SceneEdit> undone);
-
   PanelView panelView() const;
-  Vec2 filmPosition(Vec2 pointer, int width, int height) const;
+  void show(PictureView view) { live_->setView(view_ = view); }
+  void keepView();
+  void saveScene();
 
   const Options& options_;
   Window& window_;
   std::future<Job> loading_;
-  std::optional<Job> job_;
-  std::unique_ptr<LiveRun> live_;
-  std::unique_ptr<CameraControl> camera_;
-  std::unique_ptr<EditHistory> history_;
   WindowInput input_;
+  PictureBoard board_;
+  std::mutex latencyMutex_;
+  LatencyLog latency_;  // of all frames, if somebody wants it; guarded by latencyMutex_
 
-  std::shared_ptr<const Shown> shown_;
-  std::vector<float> frameTimes_;
-  Time ratesAt_{};
-  uint64_t raysThen_ = 0, tasksThen_ = 0;
-  double raysPerSecond_ = 0, tasksPerSecond_ = 0;
+  // Once the scene is there.
+  std::optional<Job> job_;
+  std::unique_ptr<CameraControl> camera_;
+  std::unique_ptr<LiveRun> live_;
+  std::unique_ptr<Editor> editor_;
+  std::optional<Playback> playback_;
+  Time played_{};                // up to now
+  std::vector<Camera> cameras_;  // the scene's, and those that were kept
 
   PictureView view_ = PictureView::beauty;
-  float exposure_ = 0, target_ = 100;
-  std::optional<ToneMap> toneMap_;
-  float toneMapFor_ = 0;  // exposure
-  bool panel_ = true, dirty_ = true, recording_ = false;
+  float target_ = 100;  // of frames in motion [ms]
+  bool panel_ = true;
   size_t nextCamera_ = 1;
-  int saved_ = 0, recorded_ = 0;
-  std::optional<Vec2> pick_;  // film position that waits for a frame with objects
-  std::optional<Selection> selection_;
-  std::optional<Drag> drag_;
-  uint64_t action_ = 1;  // of the edit history
+  int saved_ = 0;  // scenes
 };
 
 // --window: opens the window, or says why not and runs without one.

@@ -28,10 +28,8 @@ class NoDisplay : public Error {
 // A rectangle of the window [screen units].
 struct WindowArea {
   Vec2 low{0}, high{0};
-  // In pixels of a picture of width x height that fills the area; y downwards.
-  Vec2 toPicture(Vec2 p, int width, int height) const {
-    return (p - low) / (high - low) * Vec2(static_cast<float>(width), static_cast<float>(height));
-  }
+  // As shares of its width and height, y downwards.
+  Vec2 share(Vec2 p) const { return (p - low) / (high - low); }
   bool contains(Vec2 p) const {
     return p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y;
   }

@@ -73,6 +73,42 @@ TEST(PatchFilter, TakesNothingFromOneFrameToTheNext) {
   EXPECT_EQ(first, again);
 }
 
+// Two walls, one before the other, whose edge is between the columns 47 and 48.
+TEST(PatchFilter, ShowsWhatShareOfTheWindowCounts) {
+  const auto step = [](Vec3 v) {
+    return v.x < 0 ? wall(v) : plane(v, Vec3(0, 0, -5), Vec3(0, 0, 1));
+  };
+  const TileGrid grid(96, 64, {3, 3});
+  const Frame frame = frameOfShape(grid, step, [](int, int, const Point&) { return 1.0f; });
+  const auto shares = [&](float weight) {
+    PatchFilter filter(SurfaceTest::surface);
+    Patch patch;
+    RgbImage tile, all;
+    all.reset(96, 64);
+    for (int t = 0; t < grid.tiles(); ++t) {
+      fill(patch, frame, t);
+      filter.compose(patch, camera(), weight, tile);
+      filter.paintShares(patch, weight, tile);
+      for (int y = 0; y < tile.height; ++y)
+        for (int x = 0; x < tile.width; ++x)
+          set(all.pixels, all.at(patch.x0() + x, patch.y0() + y), tile.rgb(tile.at(x, y)));
+    }
+    return all;
+  };
+  const RgbImage full = shares(1), half = shares(0.5f), none = shares(0);
+  const auto ninths = [](const RgbImage& image, int x, int y) {
+    return 9 * image.rgb(image.at(x, y)).x;
+  };
+  EXPECT_FLOAT_EQ(ninths(full, 20, 30), 9);
+  EXPECT_FLOAT_EQ(ninths(full, 47, 30), 6);  // one column is behind the edge
+  EXPECT_FLOAT_EQ(ninths(full, 48, 30), 6);
+  EXPECT_FLOAT_EQ(ninths(full, 30, 0), 6);  // at the border of the picture
+  EXPECT_FLOAT_EQ(ninths(full, 0, 0), 4);
+  EXPECT_FLOAT_EQ(ninths(full, 47, 63), 4);
+  EXPECT_FLOAT_EQ(ninths(half, 20, 30), 5);
+  EXPECT_FLOAT_EQ(ninths(none, 20, 30), 1);
+}
+
 TEST(AovFilm, NamesItsChannelsAndAveragesThem) {
   const TileGrid grid(41, 23, {3, 3});
   const uint8_t extras = kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | kCausticPlane;

@@ -51,6 +51,19 @@ SceneEdit randomEdit(const Scene& scene, std::mt19937& random) {
   return edit;
 }
 
+TEST(EditHistory, UndoPassesOverWhatAScriptDid) {
+  const auto scene = someScene();
+  EditHistory history(scene);
+  SceneEdit hand, script;
+  hand.lights.push_back(editOf(*scene, 0)), hand.lights[0].intensity = Vec3(1);
+  script.lights.push_back(editOf(*scene, 1)), script.lights[0].intensity = Vec3(2);
+  history.apply(hand, 1);
+  history.follow(script);
+  EXPECT_EQ(history.undo()->lights.at(0).intensity, Vec3(7));
+  EXPECT_FALSE(history.undo());
+  EXPECT_EQ(history.valuesNow(script), script);
+}
+
 TEST(EditHistory, UndoAndRedoMeetEveryStateOfARandomSession) {
   const auto scene = someScene();
   Scene read = *scene;

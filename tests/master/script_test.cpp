@@ -1,5 +1,5 @@
 // Scripts: what they say at a time, and what is wrong with bad ones.
-#include "master/script_player.h"
+#include "master/playback.h"
 
 #include <gtest/gtest.h>
 
@@ -135,6 +135,52 @@ TEST(ScriptPlayer, TellsOnlyWhatIsDifferent) {
   EXPECT_EQ(step.edit.objects[0].node, 7);
   EXPECT_TRUE(step.camera);
   EXPECT_FALSE(player.moveTo(3.5).camera);
+}
+
+TEST(ScriptPlayer, GoesBackToo) {
+  const auto scene = std::make_shared<const Scene>(movingScene());
+  ScriptPlayer player(
+      parseScript(
+          R"({"seconds": 9, "events": [{"at": 1, "material": "glass", "roughness": 0.25}]})",
+          "s.json", *scene),
+      scene, scene->cameras[0]);
+  EXPECT_EQ(player.moveTo(2).edit.materials.at(0).roughness, 0.25f);
+  EXPECT_EQ(player.moveTo(0).edit.materials.at(0), editOfMaterial(*scene, 0));
+  EXPECT_TRUE(player.moveTo(0.5).edit.empty());
+}
+
+// Heights of the table of movingScene, 1 m a second.
+class PlaybackTest : public testing::Test {
+ protected:
+  Playback playback(bool repeats) const {
+    return {ScriptPlayer(playedAnimation({0, 2, 25}, 1, *scene), scene, {}), repeats};
+  }
+  static std::optional<double> height(Playback& playback, int ms) {
+    const ScriptPlayer::Step step = playback.pass(milliseconds(ms));
+    if (step.edit.objects.empty()) return std::nullopt;
+    return step.edit.objects[0].motion[3].y;
+  }
+  const std::shared_ptr<const Scene> scene = std::make_shared<const Scene>(movingScene());
+};
+
+TEST_F(PlaybackTest, StaysAtItsEndAndMayBeginAgain) {
+  Playback once = playback(false);
+  EXPECT_NEAR(height(once, 500).value(), 0.5, 1e-12);
+  EXPECT_NEAR(height(once, 5000).value(), 2, 1e-12);
+  EXPECT_FALSE(once.isPlaying());
+  EXPECT_FALSE(height(once, 500));
+  once.toggle();
+  EXPECT_NEAR(height(once, 250).value(), 0.25, 1e-12);
+}
+
+TEST_F(PlaybackTest, RepeatsAndPauses) {
+  Playback again = playback(true);
+  EXPECT_NEAR(height(again, 1500).value(), 1.5, 1e-12);
+  EXPECT_NEAR(height(again, 1500).value(), 1, 1e-12);
+  again.toggle();
+  EXPECT_FALSE(height(again, 700));
+  again.toggle();
+  EXPECT_NEAR(height(again, 250).value(), 1.25, 1e-12);
 }
 
 TEST(Script, EveryStateIsAnEditThatTheSceneTakes) {

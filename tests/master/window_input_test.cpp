@@ -125,6 +125,8 @@ TEST_F(WindowInputTest, KeysGiveTheirCommands) {
   EXPECT_EQ(press('S', {.control = true}).at(0).kind, Kind::saveScene);
   EXPECT_FALSE(camera.isFlying()) << "Control+S saves and does not fly";
   EXPECT_EQ(press(key::kHome).at(0).kind, Kind::reset);
+  EXPECT_EQ(press('V').at(0).kind, Kind::saveView);
+  EXPECT_EQ(press(' ').at(0).kind, Kind::togglePlay);
   EXPECT_TRUE(press('J').empty());
 }
 

@@ -42,6 +42,18 @@ TEST(CameraChoice, LookingStraightDownHasAnUp) {
   EXPECT_GT(glm::length(glm::cross(camera.forward, camera.up)), 0.9f);
 }
 
+TEST(CameraChoice, WhatIsToldOfACameraIsThatCamera) {
+  Scene scene = withCameras({"a"});
+  scene.origin = DVec3(3, -200, 0.5);
+  Camera camera = scene.cameras[0];
+  camera.eye = Vec3(0.25f, 1.7f, -3.1f), camera.verticalFov = 0.71f;
+  camera.forward = glm::normalize(Vec3(0.3f, -0.2f, -1));
+  const Camera told = chooseCamera(scene, specOf(scene, camera));
+  EXPECT_NEAR(glm::length(told.eye - camera.eye), 0, 1e-6f);
+  EXPECT_NEAR(glm::length(told.forward - camera.forward), 0, 1e-6f);
+  EXPECT_NEAR(told.verticalFov, camera.verticalFov, 1e-6f);
+}
+
 TEST(CameraChoice, EverythingElseIsAnErrorThatListsTheCameras) {
   const Scene scene = withCameras({"front", "door"});
   EXPECT_EQ(errorOf([&] { chooseCamera(scene, "window"); }),

@@ -3,6 +3,7 @@
 Screenshots are held against each other: what must have changed, and what must not. Every wait ends when the
 screen shows what is waited for; its deadline only ends a broken test. NINEFOLD_SCREENSHOTS=FOLDER keeps them.
 """
+import json
 import os
 import pathlib
 import re
@@ -14,12 +15,14 @@ import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "cluster"))
+from moving_square import moving_square  # noqa: E402
 from programs import BIN, SCENES, Program, eventually  # noqa: E402
 from screen import Screen  # noqa: E402
 
 WIDTH, HEIGHT = 720, 480  # of the window; the picture of 320x240 fills its height
 CALM = 2.5  # codes: noise of a picture at rest stays below
 FRAMES = 6   # of a picture at rest
+LIT = 60     # mean code of table_room with its lamp on is above, with the panel too
 
 
 def is_outline(r, g, b):
@@ -38,13 +41,12 @@ class WindowTest(unittest.TestCase):
         cls.screen.close()
         cls.folder.cleanup()
 
-    def start(self, *options):
+    def start(self, *options, scene=SCENES / "table_room.glb", camera="0.15,1.5,2.25:0,1.5,-0.5:60"):
         os.environ["DISPLAY"] = self.screen.display
         os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
-        self.program = Program([BIN / "ninefold-master", SCENES / "table_room.glb", "--window", "--size", "320x240",
-                                "--camera", "0.15,1.5,2.25:0,1.5,-0.5:60", "--local-clients", "1", *options],
-                               self.folder.name)
-        self.addCleanup(self.end)
+        self.program = Program([BIN / "ninefold-master", scene, "--window", "--size", "320x240", "--camera", camera,
+                                "--local-clients", "1", *options], self.folder.name)
+        self.addCleanup(self.program.close)
         eventually(self.focus, "a window")
 
     def focus(self):
@@ -56,12 +58,6 @@ class WindowTest(unittest.TestCase):
 
     def search(self):
         return self.screen.do("search", "--onlyvisible", "--name", "^ninefold").split("\n")[0]
-
-    def end(self):
-        if self.program.process.poll() is None:
-            self.program.process.send_signal(signal.SIGKILL)
-        self.program.process.wait()
-        self.program.reader.join()
 
     def look(self, name=None):
         picture = self.screen.picture()
@@ -159,6 +155,68 @@ class WindowTest(unittest.TestCase):
         self.until(lambda p: change(p) > 0.8 * far, "moved again")
         self.screen.key("ctrl+z")
         self.until(lambda p: change(p) < CALM, "and back")
+
+    def test_a_script_plays_in_the_window(self):
+        script, times = (pathlib.Path(self.folder.name) / name for name in ("s.json", "times.json"))
+        script.write_text(json.dumps({"seconds": 3, "events": [
+            {"from": 0, "to": 2.9, "object": "glass sphere", "by": [0.3, 0, 0]},
+            {"at": 3, "material": "lamp", "emission": [0, 0, 0]}]}))
+        self.start("--script", script, "--stats", times)
+        bright = self.until(lambda p: p.mean() > LIT, "the beginning: light", "script")
+        self.screen.key("Tab")
+        self.until(lambda p: p.mean() < 0.5 * LIT, "the end: darkness")
+        self.screen.key("space")
+        self.until(lambda p: p.mean() > LIT, "the beginning again")
+        self.until(lambda p: p.mean() < 0.5 * LIT, "the end again")
+        self.screen.key("ctrl+q")
+        self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+        self.assertGreater(json.loads(times.read_text())["latency_ms"]["count"], 1)
+
+    def test_an_animation_plays_over_and_over_and_pauses(self):
+        scene = pathlib.Path(self.folder.name) / "moves.gltf"
+        scene.write_text(moving_square())
+        self.start("--animate", "0:2:25", scene=scene, camera="0")
+        self.program.waits_for("is ready")
+        self.screen.key("Tab")
+
+        def where(picture):  # of the red square
+            places = picture.places(lambda r, g, b: r > g + 30 and r > b + 30)
+            return sum(x for x, _ in places) / len(places) if len(places) > 100 else WIDTH / 2
+        left, right = WIDTH / 2 - 40, WIDTH / 2 + 40
+        for turn in range(2):
+            self.until(lambda p: where(p) < left, f"the square on the left, turn {turn}")
+            self.until(lambda p: where(p) > right, f"the square on the right, turn {turn}")
+        self.until(lambda p: where(p) < left, "on the left again")
+        self.screen.key("space")
+        stopped = where(self.rest("paused"))
+        self.assertLess(abs(where(self.rest()) - stopped), 2, "it stays")
+        self.screen.key("space")
+        self.until(lambda p: where(p) > stopped + 80, "it goes on")
+
+    def test_a_view_that_was_kept_is_a_camera_of_the_saved_scene(self):
+        self.start()
+        self.rest()
+        self.screen.key("Tab")
+        first = self.rest()
+        self.screen.hold("d", 0.4)
+        walked = self.rest()
+        self.assertGreater(walked.difference(first), 8)
+        self.screen.key("v")
+        spec = self.program.waits_for(r"view 1: --camera (\S+)").group(1)
+        self.screen.key("ctrl+s")
+        saved = self.program.waits_for(r"the edited scene is in (\S+)").group(1)
+        self.screen.key("ctrl+q")
+        self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+        self.start(scene=saved, camera="view 1")
+        self.rest()
+        self.screen.key("Tab")
+        self.until(lambda p: p.difference(walked) < CALM, "the view that was kept, from the file", "kept")
+        self.screen.key("ctrl+q")
+        self.program.process.wait(60)
+        self.start(camera=spec)
+        self.rest()
+        self.screen.key("Tab")
+        self.until(lambda p: p.difference(walked) < CALM, "the view that was kept, from its line")
 
     sphere_at = (397, 341)  # as the camera sees them
     lamp_at = (360, 113)

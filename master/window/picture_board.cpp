@@ -1,0 +1,76 @@
+#include "master/window/picture_board.h"
+
+#include "common/base/log.h"
+#include "common/image/image_file.h"
+#include "master/window/picking.h"
+
+namespace ninefold {
+namespace {
+
+constexpr size_t kTimesShown = 120;
+constexpr double kRatesEvery = 0.5;  // [s]
+
+}  // namespace
+
+bool PictureBoard::take(const std::shared_ptr<const Shown>& latest, uint64_t tasks) {
+  if (latest == shown_) return false;
+  const bool first = !shown_;
+  shown_ = latest;
+  if (!first)
+    frameTimes_.push_back(
+        static_cast<float>(1e3 * seconds(latest->completed - latest->frame.opened)));
+  if (frameTimes_.size() > kTimesShown) frameTimes_.erase(frameTimes_.begin());
+  count(tasks);
+  if (recording_) save("png");
+  return true;
+}
+
+void PictureBoard::count(uint64_t tasks) {
+  const double past = seconds(shown_->completed - ratesAt_);
+  if (past < kRatesEvery) return;
+  const uint64_t rays = shown_->rays.total();
+  raysPerSecond_ = static_cast<double>(rays - raysThen_) / past;
+  tasksPerSecond_ = static_cast<double>(tasks - tasksThen_) / past;
+  raysThen_ = rays, tasksThen_ = tasks, ratesAt_ = shown_->completed;
+}
+
+float PictureBoard::exposureShown() const { return isFalseColor(shown_->view) ? 0 : exposure_; }
+
+void PictureBoard::draw(const Scene& scene, const std::optional<Selection>& selection,
+                        Window& window) {
+  if (!shown_) return;
+  Drawn now{shown_.get(), exposureShown(), selection};
+  if (now == drawn_) return;
+  if (!toneMap_ || now.exposure != drawn_.exposure) toneMap_.emplace(now.exposure);
+  drawn_ = std::move(now);
+  toneMap_->apply(shown_->image, rgb_);
+  if (selection) drawOutline(*shown_, scene, *selection, rgb_);
+  window.setPicture(rgb_, shown_->image.width, shown_->image.height);
+}
+
+void PictureBoard::save(const std::string& extension) {
+  if (!shown_) return;
+  const std::string path = recording_ ? fmt::format("record.{:04}.{}", ++recorded_, extension)
+                                      : fmt::format("ninefold.{:04}.{}", ++saved_, extension);
+  try {
+    write(path);
+    log("picture in {}", path);
+  } catch (const Error& error) {
+    warn("{}", error.what());
+    recording_ = false;
+  }
+}
+
+void PictureBoard::write(const std::string& path) const {
+  writeImage(path, {shown_->image, {}, {}}, ToneMap(exposureShown()));
+}
+
+void PictureBoard::tell(PanelView& view) const {
+  view.shown = shown_.get();
+  view.frameTimes = frameTimes_;
+  view.raysPerSecond = raysPerSecond_, view.tasksPerSecond = tasksPerSecond_;
+  view.exposure = exposure_;
+  view.recording = recording_;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,62 @@
+// picture_board.h: the latest picture of a session: on the window, in files, and in the panel's numbers.
+//
+// It is tone mapped anew only when something about it is different: the picture, the exposure, the
+// outlined thing. Files are ninefold.NNNN and, while it records, record.NNNN in the working folder.
+// Threads: the main thread. Errors: what cannot be written is told in one line, and ends a recording.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/tone_map.h"
+#include "master/live_run.h"
+#include "master/window/panel.h"
+#include "master/window/window.h"
+
+namespace ninefold {
+
+class PictureBoard {
+ public:
+  explicit PictureBoard(float exposure) : exposure_(exposure) {}
+
+  // The run's latest picture; `tasks`: that the cluster has done so far. False if it is known.
+  bool take(const std::shared_ptr<const Shown>& latest, uint64_t tasks);
+  void draw(const Scene& scene, const std::optional<Selection>& selection, Window& window);
+
+  const Shown* shown() const { return shown_.get(); }  // null before the first
+  float exposure() const { return exposure_; }         // [EV]
+  void expose(float exposure) { exposure_ = exposure; }
+  void toggleRecording() { recording_ = !recording_; }
+  // Into the next file with that extension.
+  void save(const std::string& extension);
+  // Throws Error.
+  void write(const std::string& path) const;
+  void tell(PanelView& view) const;
+
+ private:
+  void count(uint64_t tasks);
+  float exposureShown() const;
+
+  std::shared_ptr<const Shown> shown_;
+  float exposure_;
+  struct Drawn {
+    const Shown* shown = nullptr;
+    float exposure = 0;
+    std::optional<Selection> selection;
+    bool operator==(const Drawn&) const = default;
+  };
+  Drawn drawn_;
+  std::optional<ToneMap> toneMap_;  // of drawn_.exposure
+  std::vector<uint8_t> rgb_;
+  bool recording_ = false;
+  int saved_ = 0, recorded_ = 0;  // files
+
+  std::vector<float> frameTimes_;  // [ms]
+  Time ratesAt_{};
+  uint64_t raysThen_ = 0, tasksThen_ = 0;
+  double raysPerSecond_ = 0, tasksPerSecond_ = 0;
+};
+
+}  // namespace ninefold
