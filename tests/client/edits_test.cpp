@@ -2,65 +2,14 @@
 // one on the scene that was edited before it was traced, where rounding leaves no choice.
 #include <gtest/gtest.h>
 
-#include <random>
-
 #include "client/render_job.h"
 #include "common/scene/reader.h"
+#include "tests/scene/random_edits.h"
 
 namespace ninefold {
 namespace {
 
 constexpr int kEdits = 1000;
-
-class RandomEdits {
- public:
-  RandomEdits(const Scene& scene, uint32_t seed) : scene_(scene), random_(seed) {
-    for (const Instance& instance : scene.instances)
-      if (nodes_.empty() || nodes_.back() != instance.node) nodes_.push_back(instance.node);
-  }
-
-  SceneEdit next() {
-    SceneEdit edit;
-    const int things = 1 + static_cast<int>(random_() % 2);
-    for (int i = 0; i < things; ++i) {
-      const auto dice = random_() % 10;
-      if (dice < 6) edit.objects.push_back(motion());
-      if (dice >= 6) edit.materials.push_back(material());
-    }
-    SceneEdit once;
-    merge(once, edit);
-    return once;
-  }
-
- private:
-  double real(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
-  ObjectEdit motion() {
-    ObjectEdit edit;
-    edit.node = nodes_[random_() % nodes_.size()];
-    const double angle = real(-0.3, 0.3), c = std::cos(angle), s = std::sin(angle);
-    edit.motion = DMat4(DVec4(c, 0, -s, 0), DVec4(0, 1, 0, 0), DVec4(s, 0, c, 0),
-                        DVec4(real(-0.3, 0.3), real(0, 0.2), real(-0.3, 0.3), 1));
-    if (random_() % 8 == 0) edit.motion = DMat4(1);  // back where it was
-    return edit;
-  }
-  MaterialEdit material() {
-    const auto index = static_cast<uint32_t>(random_() % scene_.materials.size());
-    MaterialEdit edit = editOfMaterial(scene_, index);
-    const auto unit = [this] { return static_cast<float>(real(0, 1)); };
-    edit.baseColor = Vec3(unit(), unit(), unit());
-    edit.roughness = unit(), edit.metallic = random_() % 4 == 0 ? 1.0f : 0.0f;
-    edit.transmission = random_() % 4 == 0 ? 1.0f : 0.0f;
-    edit.ior = 1 + unit();
-    edit.emission *= 2 * unit();
-    return edit;
-  }
-
-  const Scene& scene_;
-  std::mt19937 random_;
-  std::vector<int> nodes_;
-};
 
 Settings smallPicture(const Scene& scene) {
   Settings s;
