@@ -118,7 +118,7 @@ class FloatSteps {
     const auto offset = static_cast<int32_t>(std::bit_cast<uint32_t>(v) - least_);
     const auto lower = static_cast<uint32_t>(static_cast<int32_t>(offset / double(step_)));
     const float low = level(lower), high = level(lower + 1);
-    const uint32_t up = (v > low) & (u < (v - low) / (high - low)) ? 1 : 0;
+    const uint32_t up = ((v > low) & (u < (v - low) / (high - low))) ? 1 : 0;
     return static_cast<uint16_t>(v == 0 ? 0 : 1 + lower + up);
   }
   float decode(uint16_t code) const {
