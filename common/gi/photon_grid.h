@@ -50,22 +50,32 @@ class PhotonGrid {
     if (photons_.empty() || glm::any(glm::lessThan(high, low_)) ||
         glm::any(glm::greaterThan(low, high_)))
       return true;
+    if (photons_.size() <= kFew) {
+      visitNear(photons_, low, high, visit);
+      return true;
+    }
     Slots slots;
     const int count = slotsAround(low, high, slots);
     if (count < 0) return false;
-    const float r2 = radius_ * radius_;
     for (int s = 0; s < count; ++s) {
       const uint32_t slot = slots[static_cast<size_t>(s)];
-      for (uint32_t i = starts_[slot]; i < starts_[slot + 1]; ++i) {
-        const Vec3 off = photons_[i].position - glm::clamp(photons_[i].position, low, high);
-        if (glm::dot(off, off) <= r2) visit(photons_[i]);
-      }
+      visitNear(std::span(photons_).subspan(starts_[slot], starts_[slot + 1] - starts_[slot]), low,
+                high, visit);
     }
     return true;
   }
 
  private:
+  static constexpr size_t kFew = 64;  // so many are looked at sooner than their cells are found
   static constexpr int kMostCells = 64;
+  template <typename Visit>
+  void visitNear(std::span<const Photon> some, Vec3 low, Vec3 high, const Visit& visit) const {
+    const float r2 = radius_ * radius_;
+    for (const Photon& photon : some) {
+      const Vec3 off = photon.position - glm::clamp(photon.position, low, high);
+      if (glm::dot(off, off) <= r2) visit(photon);
+    }
+  }
   using Slots = std::array<uint32_t, kMostCells>;
   // Those with photons, sorted; returns how many, -1 if there are more cells than kMostCells.
   int slotsAround(Vec3 low, Vec3 high, Slots& slots) const;
