@@ -1,0 +1,73 @@
+"""Each debug view, headless: what it shows is what it says."""
+import collections
+import math
+import unittest
+
+import png
+from programs import BIN, SCENES, ClusterTest
+
+VIEWS = ("beauty", "albedo", "normal", "depth", "direct", "indirect", "caustics", "sets", "error", "objects", "weights")
+SETS = 9
+
+
+def linear(code):
+    """What common/image/tone_map.h made a code of."""
+    c = code / 255
+    y = c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4
+    return y if y <= 0.8 else 0.8 - 0.2 * math.log(max(1e-3, 1 - (y - 0.8) / 0.2))
+
+
+class Views(ClusterTest):
+    def view(self, name, scene="table_room", frames=1, *options):
+        """Its pixels, row by row, as codes."""
+        out = self.folder / f"{name}.png"
+        master = self.start(BIN / "ninefold-master", SCENES / f"{scene}.glb", "--size", "96x72", "--local-clients", 2,
+                            "--frames", frames, "--view", name, "--output", out, *options)
+        self.assertEqual(master.ends(), 0, master.text)
+        return [pixel for row in png.read(out)[2] for pixel in row]
+
+    def light(self, pixels):
+        return [tuple(map(linear, p)) for p in pixels]
+
+    def mean(self, pixels):
+        return sum(sum(p) for p in pixels) / (3 * len(pixels))
+
+    def test_each_shows_what_it_says(self):
+        pictures = {name: self.view(name, frames=2 if name == "error" else 1) for name in VIEWS}
+        self.assertEqual(len(set(map(tuple, pictures.values()))), len(VIEWS), "each is another picture")
+        for name in ("depth", "error", "weights"):
+            self.assertTrue(all(r == g == b for r, g, b in pictures[name]), f"{name} is grey")
+        with self.subTest("normal"):  # n = 2 c - 1 is of length 1
+            lengths = [sum((2 * c - 1) ** 2 for c in p) ** 0.5 for p in self.light(pictures["normal"])]
+            self.assertGreater(sum(0.97 < length < 1.03 for length in lengths), 0.95 * len(lengths))
+        with self.subTest("weights"):  # most of the room is smooth; along its edges the window is not whole
+            shares = [p[0] for p in self.light(pictures["weights"])]
+            self.assertGreater(sum(s > 0.98 for s in shares), 0.6 * len(shares))
+            self.assertGreater(sum(0.1 < s < 0.9 for s in shares), 0.03 * len(shares))
+        with self.subTest("caustics"):  # below the glass sphere, and hardly anything elsewhere
+            caustics = self.light(pictures["caustics"])
+            lit = sum(sum(p) > 0.01 for p in caustics)
+            self.assertTrue(3 <= lit < 0.3 * len(caustics), f"{lit} pixels in caustics")
+            self.assertLess(self.mean(caustics), self.mean(self.light(pictures["beauty"])))
+        with self.subTest("sets"):  # interleaved: each has its share of the pixels
+            colours = collections.Counter(pictures["sets"])
+            self.assertEqual(set(colours.values()), {96 * 72 // SETS})
+        with self.subTest("objects"):  # a colour each
+            colours = collections.Counter(pictures["objects"])
+            self.assertTrue(8 <= len(colours) <= 40, f"{len(colours)} colours")
+        with self.subTest("exposure is for light only"):
+            self.assertTrue(pictures["albedo"] == self.view("albedo", "table_room", 1, "--exposure", "2"))
+
+    def test_direct_and_indirect_light_add_up(self):
+        # A diffuse room: beauty is their sum. The lamp itself is in both and is left out.
+        beauty, direct, indirect = (self.light(self.view(v, "cornell", 32, "--exposure", "-2"))
+                                    for v in ("beauty", "direct", "indirect"))
+        part = [i for i in range(len(beauty)) if max(beauty[i]) < 0.9]
+        self.assertGreater(len(part), 0.9 * len(beauty))
+        means = [self.mean([picture[i] for i in part]) for picture in (beauty, direct, indirect)]
+        self.assertAlmostEqual((means[1] + means[2]) / means[0], 1, delta=0.03)
+        self.assertTrue(all(m > 0.1 * means[0] for m in means[1:]))
+
+
+if __name__ == "__main__":
+    unittest.main()
