@@ -93,21 +93,20 @@ DMat4 motionOf(const AnimatedNode& node, const DMat4& world, DVec3 origin) {
 
 SceneEdit animationAt(const Scene& scene, double time) {
   const std::vector<DMat4> worlds = worldsAt(scene, time);
-  SceneEdit edit;
+  SceneEdit moved;
   for (size_t i = 0; i < worlds.size(); ++i) {
     const AnimatedNode& node = scene.animated[i];
-    SceneEdit step;
     if (node.hasInstances)
-      step.objects.push_back({node.node, motionOf(node, worlds[i], scene.origin)});
-    if (node.light >= 0) {
-      LightEdit light = editOf(scene, static_cast<uint32_t>(node.light));
-      light.position = Vec3(DVec3(worlds[i][3]) - scene.origin);
-      light.direction = unitOr(-DVec3(worlds[i][2]), light.direction);
-      step.lights.push_back(light);
-    }
-    merge(edit, step);
+      moved.objects.push_back({node.node, motionOf(node, worlds[i], scene.origin)});
+    if (node.light < 0) continue;
+    LightEdit light = editOf(scene, static_cast<uint32_t>(node.light));
+    light.position = Vec3(DVec3(worlds[i][3]) - scene.origin);
+    light.direction = unitOr(-DVec3(worlds[i][2]), light.direction);
+    moved.lights.push_back(light);
   }
-  return edit;
+  SceneEdit ordered;
+  merge(ordered, moved);
+  return ordered;
 }
 
 Camera animatedCamera(const Scene& scene, const Camera& camera, double time) {
