@@ -191,7 +191,7 @@ class WindowTest(unittest.TestCase):
         stopped = where(self.rest("paused"))
         self.assertLess(abs(where(self.rest()) - stopped), 2, "it stays")
         self.screen.key("space")
-        self.until(lambda p: where(p) > stopped + 80, "it goes on")
+        self.until(lambda p: abs(where(p) - stopped) > 40, "it goes on")
 
     def test_a_view_that_was_kept_is_a_camera_of_the_saved_scene(self):
         self.start()
