@@ -2,11 +2,11 @@
 //
 // All instances are flattened to world-space triangles, one geometry per instance (geomID =
 // instance index). The hierarchy is built by one thread with fixed quality, so that all clients of
-// a class have the same one. After an edit, instances that were ever moved have hierarchies of their
-// own beside the rest's, and what the edit left alone is shared with the tracer before; which are
-// moved is told by the caller, so that the result does not depend on how it came about. Alpha-masked texels are passed through by filter functions; back faces
-// are hit like front faces. The robust traversal is used: no cracks between triangles that share an
-// edge.
+// a class have the same one. After an edit, instances that were ever moved have hierarchies of
+// their own beside the rest's, and what the edit left alone is shared with the tracer before; which
+// are moved is told by the caller, so that the result does not depend on how it came about.
+// Alpha-masked texels are passed through by filter functions; back faces are hit like front faces.
+// The robust traversal is used: no cracks between triangles that share an edge.
 //
 // Threads: const functions are reentrant. Owner: holds flattened geometry, refers to the Scene,
 // which must outlive it. Errors: constructor throws Error when memory or the instruction set is
