@@ -6,7 +6,7 @@
 // kMaxSurvival):
 //   flux *= lobe weight / probability
 // so flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's
-// factor (see shading.h); S lobes carry it for both directions.
+// factor (see shading.h); for S lobes see particle_scatter.h.
 //
 // Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival; 4j+3
 // inside the lobe. Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
@@ -16,6 +16,7 @@
 
 #include "common/base/counters.h"
 #include "common/gi/emission.h"
+#include "common/gi/particle_scatter.h"
 #include "common/sampling/sampler.h"
 #include "common/sampling/warp.h"
 
@@ -47,15 +48,6 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
   if (bsdf.transmits())
     c.transmission = maxComponent(lobeAlbedo(bsdf, Lobe::transmission, cosThetaO));
   return c;
-}
-
-// Veach's factor of an S lobe for particles: |wo.ns wi.ng| / (|wo.ng wi.ns|), 0 if a normal
-// disagrees.
-inline float specularShadingFactor(const ShadingPoint& p, Vec3 wi, bool transmitted) {
-  const float in = shadingFactor(p, p.frame.normal, p.wo);
-  const float g = glm::dot(wi, p.ng), s = glm::dot(wi, p.frame.normal);
-  const bool agrees = transmitted ? g < 0 && s < 0 : g > 0 && s > 0;
-  return agrees ? in * g / s : 0.0f;
 }
 
 // visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes
@@ -103,14 +95,12 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     const float probability = lobe == Lobe::reflection ? choice.reflection : choice.transmission;
     if (u >= choice.reflection + choice.transmission || ++specularRun > t.settings.specularDepth)
       return;
-    const auto sample =
-        sampleLobe(p.bsdf, lobe, p.localWo(), uDirection, sampler.get1D(index, d + 3));
-    if (!sample) return;
-    const Vec3 wi = glm::normalize(p.frame.toWorld(sample->wi));
-    const bool transmitted = lobe == Lobe::transmission;
-    particle.flux *= specularShadingFactor(p, wi, transmitted) / probability * sample->weight;
-    particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
-    if (transmitted) media = t.shader.pass(p, media);
+    const float left = (lobe == Lobe::reflection ? u : u - choice.reflection) / probability;
+    const auto scattered = scatterParticle(p, lobe, uDirection, sampler.get1D(index, d + 3), left);
+    if (!scattered) return;
+    particle.flux *= scattered->weight / probability;
+    particle.origin = offsetOrigin(p.surface, scattered->wi), particle.direction = scattered->wi;
+    if (lobe == Lobe::transmission) media = t.shader.pass(p, media);
     fromSpecular = true;
   }
 }

@@ -131,7 +131,7 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   p.front = glm::dot(wo, s.geometricNormal) >= 0;
   p.ng = p.front ? s.geometricNormal : -s.geometricNormal;
   p.ns = shadingNormal(s, p.ng);
-  p.frame = Basis(glm::dot(p.ns, wo) > 1e-4f ? p.ns : p.ng);
+  p.frame = Basis(facesNormal(p.ns, wo) ? p.ns : p.ng);
 
   Vec3 base = m.baseColor;
   float opacity = m.opacity;

@@ -25,13 +25,16 @@
 
 namespace ninefold {
 
+// Whether w is in front of n: not so far at its horizon that a lobe about n could not be told from none.
+inline bool facesNormal(Vec3 n, Vec3 w) { return glm::dot(n, w) > 1e-4f; }
+
 // A surface point seen from direction wo; normals are turned to wo's side.
 struct ShadingPoint {
   SurfacePoint surface;
   Vec3 wo{0};                  // unit, towards where the path came from
   Vec3 ng{0};                  // geometric normal on wo's side
   Vec3 ns{0};                  // shading normal on ng's side, of D: depends on wo's side alone
-  Basis frame{Vec3(0, 0, 1)};  // of the S lobes: about ns, or about ng if wo is behind ns
+  Basis frame{Vec3(0, 0, 1)};  // of the eye's S lobes: about ns, or about ng if wo is behind ns
   Bsdf bsdf;
   bool front = true;  // wo is on the front side of the surface
 
