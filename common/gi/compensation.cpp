@@ -8,10 +8,11 @@
 namespace ninefold {
 namespace {
 
-// The short rays of sixteen receivers: where they go and how far they matter, sqrt(cos_x / b) [m].
+// The short rays of sixteen receivers: where they go, and how far at this xi, sqrt((1-xi) cos_x / b) [m].
 struct ShortRays {
   RayPacket packet;
   float cosX[kPacket];
+  float xi[kPacket];
   uint32_t active = 0;
 
   Vec3 direction(size_t lane) const {
@@ -23,15 +24,18 @@ struct ShortRays {
 void aim(const Transport& t, const ReceiverSamples& samples, int level, const Receivers& r,
          size_t first, size_t count, ShortRays& rays) {
   Vec2 u[kPacket];
-  for (size_t lane = 0; lane < kPacket; ++lane)
+  for (size_t lane = 0; lane < kPacket; ++lane) {
     u[lane] = samples.compensationDirection(r.pixel[first + lane], level);
+    rays.xi[lane] = samples.compensationRoulette(r.pixel[first + lane], level);
+  }
 #pragma GCC ivdep
   for (size_t lane = 0; lane < kPacket; ++lane) {
     const size_t i = first + lane;
     const Vec3 w = glm::normalize(Basis(r.ns(i)).toWorld(squareToCosineHemisphere(u[lane])));
     const float cosX = glm::dot(w, r.ng(i));
     rays.cosX[lane] = cosX;
-    rays.packet.set(lane, r.origin(i), w, 0, std::sqrt(std::max(cosX, 0.0f) / t.bound));
+    const float far2 = (1 - rays.xi[lane]) * std::max(cosX, 0.0f) / t.bound;
+    rays.packet.set(lane, r.origin(i), w, 0, std::sqrt(far2));
   }
   for (size_t lane = 0; lane < count; ++lane)
     rays.active |= (rays.cosX[lane] > 0 ? 1u : 0u) << lane;
@@ -65,19 +69,21 @@ struct Level {
   Receivers& receivers;
   Bounces& next;
 
-  // Receiver i met `hit` in direction w.
-  void meet(size_t i, float cosX, Vec3 w, const Hit& hit) {
+  // Receiver i met `hit` in direction w at xi.
+  void meet(size_t i, float cosX, Vec3 w, float xi, const Hit& hit) {
     const SurfacePoint s = t.tracer.surface(hit);
     const float g = cosX * std::abs(glm::dot(w, s.geometricNormal)) / (hit.t * hit.t);
     const float above = excess(g, t.bound);
     if (above <= 0) return;
     const Vec3 left = t.shader.transmittance(receivers.absorber[i], hit.t);
     const ShadingPoint y = t.shader.shade(s, -w, {});
-    receivers.addIrradiance(i, kPi * left * excessEmission(t, hit, y, g));
+    // Probability of a ray that is long enough, at least `above`.
+    const float reached = std::max(1 - t.bound * hit.t * hit.t / cosX, above);
+    receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
     const Vec3 factor = above * left * y.bsdf.diffuse;
     const float q = std::min(maxComponent(factor), kMaxSurvival);
     const uint32_t pixel = receivers.pixel[i];
-    if (!mayFollow || samples.compensationRoulette(pixel, pathVertices) >= q) return;
+    if (!mayFollow || xi >= q) return;
     next.points.add(receiverAt(y, pixel, receivers.absorber[i]));
     next.parents.push_back({i, factor / q});
   }
@@ -92,7 +98,7 @@ struct Level {
     t.tracer.closest16(shorts.packet, shorts.active, hits, false);
     for (size_t lane = 0; lane < lanes; ++lane)
       if ((shorts.active >> lane & 1u) != 0 && hits[lane] && hits[lane].t > 0)
-        meet(first + lane, shorts.cosX[lane], shorts.direction(lane), hits[lane]);
+        meet(first + lane, shorts.cosX[lane], shorts.direction(lane), shorts.xi[lane], hits[lane]);
   }
 };
 

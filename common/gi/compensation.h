@@ -8,9 +8,12 @@
 //   G, b, cos_s   as in vpl_gather.h; W_e with an emitter's own b
 //   E(y)          from VPLs and photons, of paths one D vertex longer, itself compensated (recursion)
 //
-// W is zero beyond t = sqrt(cos_x / b): the rays are short and cheap, and few of them hit anything.
-// A hit is followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided
-// by it: as often as it takes, for in a narrow gap all of the light comes this way.
+// W is zero beyond t = sqrt(cos_x / b): the rays are short, and few of them hit anything. A hit is
+// followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided by it: as
+// often as it takes, for in a narrow gap all of the light comes this way. The number xi < q that
+// decides this is known before the ray is: as q <= W <= 1 - b t^2/cos_x, nothing farther than
+// sqrt((1-xi) cos_x / b) can be followed, and the ray ends there. What a hit emits is divided by the
+// probability 1 - b t^2/cos_x that the ray was long enough for it.
 // Light that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray
 // that meets nothing, and S lobes at y, return nothing.
 //
