@@ -47,7 +47,7 @@ constexpr Flag kMethod[] = {
     {"specular-depth", "N", "mirrors and glass in a row at most, 1 to 1024 (default 32)"},
     {"bound", "C", "bound of the geometry term b = C/R^2, above 0 (default 30; paper 300)"},
     {"vpl-roulette", "F",
-     "skip virtual lights that add less than F times the mean, at random; 0 = none (default 2; "
+     "skip virtual lights that add less than F times the mean, at random; 0 = none (default 4; "
      "paper 0)"},
     {"photon-radius", "F", "first photon radius as a fraction of R, up to 1 (default 0.02)"},
     {"caustics", "off|direct|all",

@@ -29,7 +29,7 @@ namespace po = boost::program_options;
 struct Options {
   std::string scene, size = "640x480", isa = "auto";
   int frames = 4, directVpls = 4, indirectVpls = 18, photons = 1000, level = 1;
-  float vplRoulette = 2;
+  float vplRoulette = Settings{}.vplRoulette;
   bool noCompensation = false, json = false, help = false;
 };
 
@@ -186,7 +186,8 @@ int run(int argc, char** argv) {
       "indirect-vpls", po::value(&o.indirectVpls), "per set, mean, default 18")(
       "photons", po::value(&o.photons), "per set, default 1000")(
       "level", po::value(&o.level), "zstd level of the tiles, default 1; 0 = none")(
-      "vpl-roulette", po::value(&o.vplRoulette), "default 2; 0 = every virtual light is asked")(
+      "vpl-roulette", po::value(&o.vplRoulette),
+      "default as the master's; 0 = every virtual light is asked")(
       "no-compensation", po::bool_switch(&o.noCompensation), "leave the bound's energy out")(
       "isa", po::value(&o.isa), "auto, avx2 or avx512")(
       "json", po::bool_switch(&o.json), "write one JSON object")("help,h", po::bool_switch(&o.help),

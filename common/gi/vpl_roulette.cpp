@@ -5,8 +5,8 @@
 namespace ninefold {
 namespace {
 
-// VPLs that are taken on average, if there are so many: a few lights are not worth any noise.
-constexpr int kLeast = 8;
+// VPLs that are taken on average at least, if there are so many: a few are not worth any noise.
+constexpr int kLeast = 5;
 // Nobody's chance is less: what would add next to nothing may be all that is not hidden.
 constexpr float kLeastChance = 1.0f / 16;
 

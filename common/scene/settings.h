@@ -28,7 +28,7 @@ struct Settings {
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row, 1..1024
   float bound = 30;            // c of b = c/R^2, > 0
-  float vplRoulette = 2;       // f of vpl_roulette.h, 0 (ask all) .. kMaxVplRoulette
+  float vplRoulette = 4;       // f of vpl_roulette.h, 0 (ask all) .. kMaxVplRoulette
   float photonRadius = 0.02f;  // first photon radius as a fraction of R, > 0
   Caustics caustics = Caustics::all;
   Radiance environment{0};

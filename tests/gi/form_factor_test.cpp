@@ -39,7 +39,7 @@ TEST(FormFactor, SquaresAtARightAngleWithACommonEdge) {
   SceneBuilder b = receiver();
   b.quad(b.material(testing::matte(Vec3(0), Vec3(1))), Vec3(0), Vec3(0, 1, 0), Vec3(0, 0, 1));
   testing::expectRadiance(b.build(), testing::estimators(8, 1),
-                          kAlbedo * testing::squaresWithACommonEdge(), {.frames = 128});
+                          kAlbedo * testing::squaresWithACommonEdge(), {.frames = 192});
 }
 
 // The same without compensation: what the bound takes away near the edge is missing, and only that.
