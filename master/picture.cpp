@@ -66,11 +66,7 @@ std::string PictureMaker::imageHash() const {
 std::vector<Channel> PictureMaker::extraChannels() const {
   if (!aovs_) return {};
   std::vector<Channel> channels = aovs_->channels();
-  RgbImage error;
-  film_.standardError(error);
-  channels.push_back({"error.R", std::move(error.pixels.r)});
-  channels.push_back({"error.G", std::move(error.pixels.g)});
-  channels.push_back({"error.B", std::move(error.pixels.b)});
+  channels.push_back({"error.Y", film_.standardError()});
   return channels;
 }
 

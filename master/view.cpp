@@ -96,10 +96,9 @@ void paint(PictureView view, const Patch& patch, const PatchFilter& filter, floa
 }
 
 void paintError(const Film& film, RgbImage& mean) {
-  RgbImage error;
-  film.standardError(error);
+  const std::vector<float> error = film.standardError();
   for (size_t i = 0; i < mean.count(); ++i) {
-    const float relative = luminance(error.rgb(i)) / std::max(1e-6f, luminance(mean.rgb(i)));
+    const float relative = error[i] / std::max(1e-6f, luminance(mean.rgb(i)));
     mean.pixels.r[i] = mean.pixels.g[i] = mean.pixels.b[i] = relative;
   }
 }

@@ -183,7 +183,8 @@ void renderTask(const Transport& t, const View& view, const Task& task, const Li
                 CameraRays(view.camera, view.width, view.height),
                 scratch,
                 out,
-                PixelStream(s.seed, SampleUse::eyePath, task.frame.randomization, s.randomization)};
+                PixelStream(s.seed, SampleUse::eyePath, task.frame.randomization,
+                            s.method == Method::pathTrace ? kPathsPerPixel : 1, s.randomization)};
   if (s.method == Method::instantRadiosity) return radiosityTask(c);
   for (int j = 0; j < rect.height; ++j)
     for (int i = 0; i < rect.width; ++i) pathTracePixel(c, i, j);

@@ -11,32 +11,14 @@ namespace {
 
 int ceilDivide(int a, int b) { return (a + b - 1) / b; }
 
-float standardErrorOf(double m2, int64_t n) {
-  return static_cast<float>(std::sqrt(m2 / static_cast<double>(n - 1) / static_cast<double>(n)));
+// The count-th values of pixels whose running means are `mean`.
+void addRow(const float* values, size_t n, int64_t count, double* mean) {
+  const double share = 1.0 / static_cast<double>(count);
+#pragma GCC ivdep
+  for (size_t i = 0; i < n; ++i) mean[i] += (static_cast<double>(values[i]) - mean[i]) * share;
 }
 
 }  // namespace
-
-template <typename T>
-void RunningMoments::add(std::span<const T> values, size_t first, int64_t count) {
-  NINEFOLD_CHECK(first + values.size() <= mean.size());
-  const double share = 1.0 / static_cast<double>(count);
-  const T* x = values.data();
-  double* m = mean.data() + first;
-  const size_t n = values.size();
-  if (m2.empty()) {
-#pragma GCC ivdep
-    for (size_t i = 0; i < n; ++i) m[i] += (static_cast<double>(x[i]) - m[i]) * share;
-    return;
-  }
-  double* s = m2.data() + first;
-#pragma GCC ivdep
-  for (size_t i = 0; i < n; ++i) {
-    const double before = static_cast<double>(x[i]) - m[i];
-    m[i] += before * share;
-    s[i] += before * (static_cast<double>(x[i]) - m[i]);
-  }
-}
 
 Film::Film(int width, int height, bool keepsError)
     : width_(width),
@@ -57,8 +39,9 @@ Film::Film(int width, int height, bool keepsError)
 void Film::clear() {
   frames_ = 0;
   const size_t pixels = pixelCount(width_, height_);
-  for (RunningMoments* m : {&r_, &g_, &b_}) m->resize(pixels, keepsError_);
-  blocks_.resize(blockMeans_.size(), true);
+  for (auto* mean : {&r_, &g_, &b_}) mean->assign(pixels, 0);
+  if (keepsError_) pixels_.resize(pixels);
+  blocks_.resize(blockMeans_.size());
 }
 
 void Film::add(const RgbImage& frame) {
@@ -73,22 +56,27 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
   for (int y = 0; y < tile.height; ++y) {
     const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
     const size_t from = tile.at(0, y);
-    r_.add(std::span<const float>(tile.pixels.r).subspan(from, width), to, count);
-    g_.add(std::span<const float>(tile.pixels.g).subspan(from, width), to, count);
-    b_.add(std::span<const float>(tile.pixels.b).subspan(from, width), to, count);
+    addRow(&tile.pixels.r[from], width, count, &r_[to]);
+    addRow(&tile.pixels.g[from], width, count, &g_[to]);
+    addRow(&tile.pixels.b[from], width, count, &b_[to]);
   }
-  addBlocks(x0, y0, tile);
+  addLuminance(x0, y0, tile);
 }
 
-// Sums of the luminance, row by row within each block.
-void Film::addBlocks(int x0, int y0, const RgbImage& tile) {
+// To each pixel, and to the sums of the blocks, row by row within each block.
+void Film::addLuminance(int x0, int y0, const RgbImage& tile) {
   NINEFOLD_CHECK(x0 % kErrorBlock == 0 && y0 % kErrorBlock == 0);
+  std::vector<float> row(static_cast<size_t>(tile.width));
   for (int y = 0; y < tile.height; ++y) {
-    double* row = &blockMeans_[pixelCount(blockColumns_, (y0 + y) / kErrorBlock) +
+    double* sum = &blockMeans_[pixelCount(blockColumns_, (y0 + y) / kErrorBlock) +
                                static_cast<size_t>(x0 / kErrorBlock)];
-    if (y % kErrorBlock == 0) std::fill_n(row, ceilDivide(tile.width, kErrorBlock), 0.0);
-    for (int x = 0; x < tile.width; ++x)
-      row[x / kErrorBlock] += static_cast<double>(luminance(tile.rgb(tile.at(x, y))));
+    if (y % kErrorBlock == 0) std::fill_n(sum, ceilDivide(tile.width, kErrorBlock), 0.0);
+    for (size_t x = 0; x < row.size(); ++x) {
+      row[x] = luminance(tile.rgb(tile.at(0, y) + x));
+      sum[x / kErrorBlock] += static_cast<double>(row[x]);
+    }
+    const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
+    if (keepsError_) pixels_.add(row, to, frames_);
   }
 }
 
@@ -100,42 +88,43 @@ void Film::frameDone() {
     blockMeans_[b] /= blockPixels_[b];
   }
   blockMeans_.back() = whole / blockPixels_.back();
-  blocks_.add(std::span<const double>(blockMeans_), 0, frames_);
+  blocks_.add(blockMeans_, 0, frames_ - 1);
 }
 
 void Film::mean(RgbImage& out) const {
   out.reset(width_, height_);
   for (size_t i = 0; i < out.count(); ++i) {
-    out.pixels.r[i] = static_cast<float>(r_.mean[i]);
-    out.pixels.g[i] = static_cast<float>(g_.mean[i]);
-    out.pixels.b[i] = static_cast<float>(b_.mean[i]);
+    out.pixels.r[i] = static_cast<float>(r_[i]);
+    out.pixels.g[i] = static_cast<float>(g_[i]);
+    out.pixels.b[i] = static_cast<float>(b_[i]);
   }
 }
 
-void Film::standardError(RgbImage& out) const {
+std::vector<float> Film::standardError() const {
   NINEFOLD_CHECK(keepsError_);
-  out.reset(width_, height_);
-  if (frames_ < 2) return;
-  for (size_t i = 0; i < out.count(); ++i) {
-    out.pixels.r[i] = standardErrorOf(r_.m2[i], frames_);
-    out.pixels.g[i] = standardErrorOf(g_.m2[i], frames_);
-    out.pixels.b[i] = standardErrorOf(b_.m2[i], frames_);
-  }
+  std::vector<float> error(pixelCount(width_, height_), 0);
+  if (frames_ < 2) return error;
+  for (size_t i = 0; i < error.size(); ++i)
+    error[i] = static_cast<float>(std::sqrt(pixels_.estimate(i, frames_).squaredError));
+  return error;
 }
 
 double Film::relativeError() const {
+  if (frames_ < 2) return std::numeric_limits<double>::infinity();
   double sum = 0;
-  for (size_t b = 0; b + 1 < blockPixels_.size(); ++b) sum += blockPixels_[b] * blocks_.m2[b];
+  for (size_t b = 0; b + 1 < blockPixels_.size(); ++b)
+    sum += blockPixels_[b] * blocks_.estimate(b, frames_).squaredError;
   return relative(sum / blockPixels_.back());
 }
 
-double Film::imageRelativeError() const { return relative(blocks_.m2.back()); }
-
-double Film::relative(double m2) const {
+double Film::imageRelativeError() const {
   if (frames_ < 2) return std::numeric_limits<double>::infinity();
-  const double error =
-      std::sqrt(m2 / static_cast<double>(frames_ - 1) / static_cast<double>(frames_));
-  return error == 0 ? 0 : error / blocks_.mean.back();
+  return relative(blocks_.estimate(blockPixels_.size() - 1, frames_).squaredError);
+}
+
+double Film::relative(double squaredError) const {
+  if (squaredError == 0) return 0;
+  return std::sqrt(squaredError) / blocks_.estimate(blockPixels_.size() - 1, frames_).mean;
 }
 
 }  // namespace ninefold

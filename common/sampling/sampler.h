@@ -5,8 +5,9 @@
 //                randomized Sobol' sequence, so that K sets together are again well distributed.
 //                Dimensions beyond the first kSobolDimensions are padded replications: the same
 //                points, their indices permuted inside the block, with their own randomization.
-// PixelSampler   one sequence per pixel and frame, randomized by itself: paths of one frame complement
-//                each other, and frames stay independent, so that their spread states the error.
+// PixelSampler   eight sequences per pixel, each randomized by itself: frame f goes on with sequence f mod 8.
+//                So all paths of a pixel complement each other, edges converge faster than by
+//                chance, and the spread between the eight replications still states the error.
 // Randomization  exclusiveOr: one random word per dimension, as the paper; owen: nested uniform
 //                scrambling. Padding permutes indices by nested scrambling in both: Sobol' points
 //                are linear in the bits of the index, so an exclusive-or of indices would only be
@@ -101,18 +102,24 @@ class LightSampler {
   uint32_t mask_;
 };
 
-// What all pixels of a frame share.
+inline constexpr uint32_t kReplications = 8;
+
+// What all pixels of a frame share. `paths`: of each pixel in a frame.
 class PixelStream {
  public:
-  PixelStream(uint64_t seed, SampleUse use, uint32_t randomization, Randomization kind)
-      : key_(hashWords(seed, uint64_t{randomization} << 32 | static_cast<uint64_t>(use),
+  PixelStream(uint64_t seed, SampleUse use, uint32_t randomization, uint32_t paths,
+              Randomization kind)
+      : key_(hashWords(seed,
+                       uint64_t{randomization % kReplications} << 32 | static_cast<uint64_t>(use),
                        kPixelDomain)),
+        first_(randomization / kReplications * paths),
         kind_(kind) {}
 
  private:
   friend class PixelSampler;
   static constexpr uint64_t kPixelDomain = 1;  // keeps pixel keys apart from the keys of light sets
   uint64_t key_;
+  uint32_t first_;  // index of the frame's first path in the sequence
   Randomization kind_;
 };
 
@@ -120,7 +127,8 @@ class PixelSampler {
  public:
   // `index` counts the pixel's paths in the frame.
   PixelSampler(const PixelStream& stream, uint32_t x, uint32_t y, uint32_t index)
-      : sobol_{mixWord(stream.key_ ^ (uint64_t{y} << 32 | x)), stream.kind_}, index_(index) {}
+      : sobol_{mixWord(stream.key_ ^ (uint64_t{y} << 32 | x)), stream.kind_},
+        index_(stream.first_ + index) {}
 
   float get1D(uint32_t dimension) const { return sobol_.get1D(index_, dimension, ~0u); }
   // Dimensions `dimension` (even) and `dimension + 1`.

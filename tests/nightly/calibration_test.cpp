@@ -4,8 +4,8 @@
 // With S films of N frames, block means m_sb with stated standard errors e_sb, and their mean M_b over the
 // films:
 //
-//   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))     Student's t with N-1 degrees of freedom
-//   F    = mean of e_sb^2 / variance of m_sb over s      1; its spread is sqrt(2/(S-1) + 2/(S(N-1)))
+//   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))     Student's t with R-1 degrees of freedom, R = 8 replications
+//   F    = mean of e_sb^2 / variance of m_sb over s      1; its spread is sqrt(2/(S-1) + 2/(S(R-1)))
 //          for one block, and no larger for many together
 //
 // t is tested by Kolmogorov and Smirnov's statistic block by block, F for blocks and pixels, and for what
@@ -70,12 +70,13 @@ struct Quantity {
 };
 
 void take(const Film& film, std::vector<Quantity>& quantities) {
-  RgbImage mean, error;
-  film.mean(mean), film.standardError(error);
+  RgbImage mean;
+  film.mean(mean);
+  const std::vector<float> error = film.standardError();
   quantities.resize(mean.count());
   for (size_t i = 0; i < mean.count(); ++i) {
     quantities[i].means.push_back(static_cast<double>(mean.pixels.g[i]));
-    quantities[i].errors.push_back(static_cast<double>(error.pixels.g[i]));
+    quantities[i].errors.push_back(static_cast<double>(error[i]));
   }
 }
 
@@ -110,7 +111,7 @@ double kolmogorov(double x) {
 }
 
 double studentP(const Quantity& q) {
-  const boost::math::students_t student(kFrames - 1);
+  const boost::math::students_t student(kReplications - 1);
   std::vector<double> u;
   for (int s = 0; s < kFilms; ++s) {
     const auto i = static_cast<size_t>(s);
@@ -142,7 +143,7 @@ double realRelativeError(const std::vector<Quantity>& blocks) {
 void expectCalibrated(const Scene& scene, Settings settings) {
   settings.width = kWidth, settings.height = kHeight;
   const Films films = manyFilms(scene, settings);
-  const double spread = std::sqrt(2.0 / (kFilms - 1) + 2.0 / (kFilms * (kFrames - 1)));
+  const double spread = std::sqrt(2.0 / (kFilms - 1) + 2.0 / (kFilms * (kReplications - 1)));
   const double pixels = statedOverReal(films.pixels), blocks = statedOverReal(films.blocks);
   double worst = 1;
   for (const Quantity& q : films.blocks) worst = std::min(worst, studentP(q));

@@ -184,7 +184,7 @@ TEST(PixelSampler, EveryAlignedRunOfPathsOfAFrameIsANetInEveryReplication) {
       for (const uint32_t first : {0u, 64u, 4032u, 0xffffffc0u}) {
         PointSet points(4);
         for (uint32_t i = 0; i < 64; ++i) {
-          const PixelSampler sampler(PixelStream(3, SampleUse::eyePath, 5, kind), 11, 470,
+          const PixelSampler sampler(PixelStream(3, SampleUse::eyePath, 5, 1, kind), 11, 470,
                                      first + i);
           for (uint32_t d = 0; d < 4; d += 2) {
             const Vec2 p = sampler.get2D(kSobolDimensions * group + d);
@@ -199,21 +199,40 @@ TEST(PixelSampler, EveryAlignedRunOfPathsOfAFrameIsANetInEveryReplication) {
   }
 }
 
-// What the film's standard error rests on: a pixel's samples in one frame say nothing of the next,
-// and each alone is uniform. In 8 x 8 cells of the square, 20,000 frames: Pearson's statistic.
-TEST(PixelSampler, FramesAreIndependentAndUniform) {
-  constexpr uint32_t kFrames = 20000;
+// Frames that are a whole number of replications apart go on where the last one stopped: 64 paths of 16 or
+// 64 such frames are a net.
+TEST(PixelSampler, EveryEighthFrameContinuesOneSequence) {
+  for (const Randomization kind : kBoth)
+    for (const uint32_t paths : {1u, 4u})
+      for (const uint32_t replication : {0u, 5u}) {
+        PointSet points(2);
+        for (uint32_t i = 0; i < 64; ++i) {
+          const uint32_t frame = replication + kReplications * (i / paths);
+          const Vec2 p = PixelSampler(PixelStream(3, SampleUse::eyePath, frame, paths, kind), 11,
+                                      470, i % paths)
+                             .get2D(0);
+          points[0].push_back(p.x), points[1].push_back(p.y);
+        }
+        EXPECT_TRUE(isNet(points, 0)) << paths << " paths, replication " << replication;
+      }
+}
+
+// What the film's standard error rests on: a pixel's samples in one replication say nothing of those of
+// another, and each alone is uniform. In 8 x 8 cells of the square, 20,000 pixels: Pearson's statistic.
+TEST(PixelSampler, ReplicationsAreIndependentAndUniform) {
+  constexpr uint32_t kPixels = 20000;
   for (const Randomization kind : kAll) {
     for (const uint32_t dimension : {0u, 2u, 8u}) {
-      const auto sample = [&](uint32_t frame) {
-        return PixelSampler(PixelStream(3, SampleUse::eyePath, frame, kind), 17, 4, 0)
+      const auto sample = [&](uint32_t pixel, uint32_t frame) {
+        return PixelSampler(PixelStream(3, SampleUse::eyePath, frame, 1, kind), pixel % 200,
+                            pixel / 200, 0)
             .get2D(dimension);
       };
-      const std::vector<double> expected(64, kFrames / 64.0);
+      const std::vector<double> expected(64, kPixels / 64.0);
       std::vector<double> within(64), across(64);
-      for (uint32_t frame = 0; frame < kFrames; ++frame) {
-        const Vec2 u = sample(frame);
-        const float next = sample(frame + 1).x;
+      for (uint32_t pixel = 0; pixel < kPixels; ++pixel) {
+        const Vec2 u = sample(pixel, 42);
+        const float next = sample(pixel, 43).x;
         ++within[static_cast<size_t>(8 * u.x) + 8 * static_cast<size_t>(8 * u.y)];
         ++across[static_cast<size_t>(8 * u.x) + 8 * static_cast<size_t>(8 * next)];
       }
@@ -226,7 +245,7 @@ TEST(PixelSampler, FramesAreIndependentAndUniform) {
 TEST(PixelSampler, NeighbouringPixelsAreUncorrelated) {
   for (const Randomization kind : kAll) {
     const auto sample = [&](uint32_t x, uint32_t y, uint32_t d) {
-      return PixelSampler(PixelStream(3, SampleUse::eyePath, 0, kind), x, y, 0).get1D(d);
+      return PixelSampler(PixelStream(3, SampleUse::eyePath, 0, 1, kind), x, y, 0).get1D(d);
     };
     constexpr uint32_t kPixels = 20000;
     const auto apart = [&](uint32_t dx, uint32_t dy, uint32_t d) {
