@@ -1,7 +1,7 @@
 // frame_plan.h: the keys of a run's frames while the picture rests. Pure.
 //
 // Frame i (counted from 1) has randomization and rotation i - 1, so that every pixel meets every
-// light set and frames are independent, and
+// light set, frames have light of their own, and
 //
 //     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 1/2       photon radius [m]
 //     w(i) = min(1, K / i)                                               weight of neighbours

@@ -90,7 +90,7 @@ std::vector<testing::Estimator> estimators(int pathLength) {
   for (auto& e : all) e.settings.photons = 500, e.settings.photonRadius = 0.03f;
   return all;
 }
-constexpr testing::Tolerance kTolerance{.frames = 32, .bias = 5e-3};
+constexpr testing::Tolerance kTolerance{.frames = 40, .bias = 5e-3};
 
 // An area light: both methods find every path.
 void expectAllIsAbsorbed(const std::function<void(SceneBuilder&)>& add) {
