@@ -11,11 +11,19 @@ namespace {
 // stragglers may still be of.
 constexpr size_t kFramesKept = 3;
 
+bool differInViewOnly(Settings a, const Settings& b) {
+  a.camera = b.camera;
+  a.width = b.width, a.height = b.height;
+  return a == b;
+}
+
 }  // namespace
 
 RenderJob::RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion,
-                     const Settings& settings, const Delivery& delivery, int threads)
-    : light_(std::make_shared<Light>(std::move(scene), settings, delivery, threads)),
+                     const Settings& settings, const Delivery& delivery, int threads,
+                     const RenderJob* before)
+    : light_(std::make_shared<Light>(std::move(scene), settings, delivery, threads,
+                                     before != nullptr ? before->light_.get() : nullptr)),
       jobVersion_(jobVersion),
       settings_(settings),
       delivery_(delivery),
@@ -32,11 +40,17 @@ RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& 
       layerMask_(lit.layerMask_),
       renderer_(light_->renderer, settings) {}
 
-RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& settings,
-                        const Delivery& delivery, int threads)
+RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& its,
+                        const Delivery& delivery, int threads, const Light* before)
     : scene(std::move(s)),
+      settings(its),
       layerMask(layerMaskOf(needsOf(*scene->scene, settings.environment), settings.method)),
-      renderer(scene->tracer, settings),
+      begun(!scene->begun ? nullptr
+            : before != nullptr && before->scene->begun == scene->begun &&
+                    differInViewOnly(before->settings, settings)
+                ? before->begun
+                : std::make_shared<const Renderer>(scene->begun->tracer, settings)),
+      renderer(scene->tracer, settings, begun.get()),
       sets([this](const FrameKey& frame, int set) { return renderer.lightSet(frame, set); },
            kFramesKept) {
   const SurfaceTest test = delivery.filter.value_or(SurfaceTest::none);
@@ -45,10 +59,7 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& se
 
 bool RenderJob::hasLightOf(const std::shared_ptr<const TracedScene>& scene,
                            const Settings& settings) const {
-  Settings seen = settings_;
-  seen.camera = settings.camera;
-  seen.width = settings.width, seen.height = settings.height;
-  return scene == light_->scene && seen == settings;
+  return scene == light_->scene && differInViewOnly(settings_, settings);
 }
 
 RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,

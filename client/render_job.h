@@ -27,24 +27,30 @@
 
 namespace ninefold {
 
-// A scene with the hierarchy that refers to it, as it was fetched or after edits.
+// A scene with the hierarchy that refers to it, as it was fetched or after edits; and in a gesture what
+// it was when that began.
 struct TracedScene {
   TracedScene(std::shared_ptr<const Scene> fetched, Isa isa)
       : asFetched(std::move(fetched)), scene(asFetched), tracer(*scene, isa) {}
   // `all`: edits of the scene as it was fetched. What `before` has is shared as far as it is the same.
-  TracedScene(const TracedScene& before, const SceneEdit& all)
+  TracedScene(const TracedScene& before, const SceneEdit& all,
+              std::shared_ptr<const TracedScene> itBegan = nullptr)
       : asFetched(before.asFetched),
         scene(std::make_shared<const Scene>(edited(*asFetched, all))),
-        tracer(before.tracer, *scene, movedInstances(*asFetched, all)) {}
+        tracer(before.tracer, *scene, movedInstances(*asFetched, all)),
+        begun(std::move(itBegan)) {}
 
   const std::shared_ptr<const Scene> asFetched, scene;
   const Tracer tracer;
+  const std::shared_ptr<const TracedScene> begun;  // null at rest
 };
 
 class RenderJob {
  public:
+  // What was worked out for the gesture's beginning is taken from `before`, if that is of the same
+  // gesture and settings.
   RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion, const Settings& settings,
-            const Delivery& delivery, int threads);
+            const Delivery& delivery, int threads, const RenderJob* before = nullptr);
   // The light of `lit` under settings for which lit.hasLightOf(scene, settings).
   RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings);
   bool hasLightOf(const std::shared_ptr<const TracedScene>& scene, const Settings& settings) const;
@@ -80,9 +86,11 @@ class RenderJob {
   // What jobs share.
   struct Light {
     Light(std::shared_ptr<const TracedScene> scene, const Settings& settings,
-          const Delivery& delivery, int threads);
+          const Delivery& delivery, int threads, const Light* before);
     const std::shared_ptr<const TracedScene> scene;
+    const Settings settings;
     const uint8_t layerMask;
+    const std::shared_ptr<const Renderer> begun;  // of scene->begun
     const Renderer renderer;
     LightSetCache sets;
     std::vector<std::unique_ptr<Desk>> desks;

@@ -94,7 +94,8 @@ void SceneBuilder::answer(const act::BuildScene& question) {
 void SceneBuilder::answer(const act::EditScene& question) {
   checkEdit(*scene_->asFetched, question.edit);
   merge(edits_, question.edit);
-  scene_ = std::make_shared<TracedScene>(*scene_, edits_);
+  const auto settled = scene_->begun ? scene_->begun : scene_;
+  scene_ = std::make_shared<TracedScene>(*scene_, edits_, question.moving ? settled : nullptr);
 }
 
 void SceneBuilder::answer(const act::RestoreScene&) {
@@ -106,7 +107,7 @@ void SceneBuilder::answer(const act::PrepareJob& question) {
   const bool lit = latest_ && latest_->hasLightOf(scene_, question.settings);
   auto job = lit ? std::make_shared<RenderJob>(*latest_, question.jobVersion, question.settings)
                  : std::make_shared<RenderJob>(scene_, question.jobVersion, question.settings,
-                                               question.delivery, threads_);
+                                               question.delivery, threads_, latest_.get());
   latest_ = job;
   answers_.prepared(question, std::move(job));
 }

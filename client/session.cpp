@@ -105,18 +105,21 @@ void Session::continueFetch(Time now) {
 void Session::sceneBuilt(uint32_t load, Time) {
   if (load != load_ || scene_ != Scene::building) return;
   scene_ = Scene::built;
-  if (!edits_.empty()) {
-    edited_ = true;
-    push(act::EditScene{load_, std::exchange(edits_, {})});
-  }
+  EditsSoFar edits = std::exchange(edits_, {});
+  if (!edits.settled.empty()) editScene(std::move(edits.settled), false);
+  if (!edits.moving.empty()) editScene(std::move(edits.moving), true);
   if (!jobs_.empty()) prepare(jobs_.back());
 }
 
 void Session::on(msg::Edit&& m, Time) {
   if (!inside()) fail("an edit before Welcome");
-  if (scene_ != Scene::built) return merge(edits_, m.edit);
+  if (scene_ != Scene::built) return edits_.add(m.edit, m.moving);
+  editScene(std::move(m.edit), m.moving);
+}
+
+void Session::editScene(SceneEdit&& edit, bool moving) {
   edited_ = true;
-  push(act::EditScene{load_, std::move(m.edit)});
+  push(act::EditScene{load_, std::move(edit), moving});
 }
 
 void Session::on(msg::Configure&& m, Time) {

@@ -89,6 +89,7 @@ class Session {
 
   void checkTasks(const msg::Tasks& tasks) const;
   void continueFetch(Time now);
+  void editScene(SceneEdit&& edit, bool moving);
   void prepare(const msg::Configure& job);
   const msg::Configure* findJob(uint32_t version) const;
   void sendProgress(Time now);
@@ -113,7 +114,7 @@ class Session {
   // The scene, kept from one connection to the next.
   Scene scene_ = Scene::none;
   bool edited_ = false;  // the built scene is not as it was fetched
-  SceneEdit edits_;      // that wait for the scene to be built
+  EditsSoFar edits_;     // that wait for the scene to be built
   uint32_t load_ = 0;
   std::vector<BlobInfo> manifest_;
   uint32_t sceneVersion_ = 0;

@@ -49,7 +49,7 @@ void ClientSession::on(msg::Hello&& m, Time) {
   status_.state = ClientState::syncing;
   send(msg::Welcome{id_, releaseName()});
   send(offer_.sceneOffer());
-  if (auto edits = offer_.allEdits()) send(std::move(*edits));
+  for (msg::Edit& edit : offer_.allEdits()) send(std::move(edit));
   send(offer_.configure());
 }
 

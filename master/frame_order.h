@@ -14,8 +14,9 @@ struct FrameOrder {
   FrameKey key;
   uint32_t job = 1;
   Settings settings;
-  uint32_t scene = 0;  // how often the scene was edited
-  SceneEdit edit;      // what is different from the frame before
+  uint32_t scene = 0;   // version of the scene
+  SceneEdit edit;       // what is different from the version before
+  bool moving = false;  // as in msg::Edit
   uint8_t extraMask = 0;
   bool filtered = false;      // clients do it: a task is a whole tile
   float neighbourWeight = 1;  // of the filter

@@ -17,15 +17,18 @@ void JobOffer::setJob(uint32_t version, const Settings& settings) {
   settings_ = settings;
 }
 
-msg::Edit JobOffer::setEdit(uint32_t version, const SceneEdit& edit) {
-  NINEFOLD_CHECK(version > edits_.version);
-  edits_.version = version;
-  merge(edits_.edit, edit);
-  return {version, edit};
+msg::Edit JobOffer::setEdit(uint32_t version, const SceneEdit& edit, bool moving) {
+  NINEFOLD_CHECK(version > version_);
+  version_ = version;
+  edits_.add(edit, moving);
+  return {version, edit, moving};
 }
 
-std::optional<msg::Edit> JobOffer::allEdits() const {
-  return edits_.version > 0 ? std::optional(edits_) : std::nullopt;
+std::vector<msg::Edit> JobOffer::allEdits() const {
+  std::vector<msg::Edit> edits;
+  if (!edits_.settled.empty()) edits.push_back({version_, edits_.settled, false});
+  if (!edits_.moving.empty()) edits.push_back({version_, edits_.moving, true});
+  return edits;
 }
 
 msg::SceneOffer JobOffer::sceneOffer() const {

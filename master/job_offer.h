@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 #include <vector>
 
 #include "proto/messages.h"
@@ -23,10 +22,10 @@ class JobOffer {
   // The job has changed: `version` is larger than before.
   void setJob(uint32_t version, const Settings& settings);
   // The scene has changed: `version` is larger than before. The message for those who have all up to
-  // here; and the one for those who come later, if there was any edit.
-  msg::Edit setEdit(uint32_t version, const SceneEdit& edit);
-  std::optional<msg::Edit> allEdits() const;
-  uint32_t edits() const { return edits_.version; }
+  // here; and those for who comes later, none if there was no edit.
+  msg::Edit setEdit(uint32_t version, const SceneEdit& edit, bool moving);
+  std::vector<msg::Edit> allEdits() const;
+  uint32_t edits() const { return version_; }
   // The piece that was asked for. Error: no such blob or place.
   msg::BlobChunk piece(const msg::BlobRequest& request) const;
 
@@ -34,7 +33,8 @@ class JobOffer {
 
  private:
   const std::vector<Blob> blobs_;
-  msg::Edit edits_;  // merged
+  uint32_t version_ = 0;  // of the scene
+  EditsSoFar edits_;
   uint32_t job_ = 1;
   Settings settings_;
   const Delivery delivery_;

@@ -12,7 +12,7 @@ LivePlan::LivePlan(const Setup& setup, Time now)
       firstUnshown_(now) {
   latest_.settings = state_.settings;
   latest_.extraMask = state_.extraMask;
-  latest_.scene = state_.scene;
+  latest_.scene = scene_ = state_.scene;
 }
 
 FramePlan LivePlan::planOfRest() const {
@@ -75,7 +75,12 @@ LiveFrame LivePlan::open(Time now) {
   FrameOrder order = latest_;
   order.settings = settingsAt(moving_ ? quality_.current() : Quality{});
   order.extraMask = state_.extraMask;
-  order.scene = state_.scene;
+  order.moving = moving_;
+  if (state_.scene != scene_ || (unsettled_ && !moving_)) {
+    scene_ = state_.scene;
+    ++order.scene;
+    unsettled_ = moving_;
+  }
   if (!(order.settings == latest_.settings) || order.scene != latest_.scene) ++order.job;
   latest_ = order;
   LiveFrame frame;

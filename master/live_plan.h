@@ -4,7 +4,8 @@
 //   rest     frames of full quality, one after another, as FramePlan says; the film sums them up
 //   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
 //            at motion_quality's step, with the random bits of the first frame, so that nothing
-//            flickers; at most kInMotion of them are open
+//            flickers; at most kInMotion of them are open. An edited scene is announced as moving,
+//            and once more when it rests: sample streams are frozen in between (gi/transport.h)
 //
 // The newest state wins: what changed while a frame was rendered is in the next one, and changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
@@ -81,8 +82,10 @@ class LivePlan {
   MotionQuality quality_;
   FramePlan plan_;
   bool moving_ = false, dirty_ = false;
-  Time changed_{};       // the latest change
-  Time firstUnshown_{};  // the first change that no frame shows yet
+  uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
+  bool unsettled_ = false;  // it was announced as moving
+  Time changed_{};          // the latest change
+  Time firstUnshown_{};     // the first change that no frame shows yet
   uint32_t nextFrame_ = 0;
   FrameOrder latest_;  // whose job is current
   std::map<uint32_t, LiveFrame> open_;

@@ -196,7 +196,7 @@ void Server::openFrames(Time) {
 
 void Server::announce(const FrameOrder& order) {
   std::optional<msg::Edit> edit;
-  if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit);
+  if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit, order.moving);
   offer_.setJob(order.job, order.settings);
   for (Handle& peer : peers_) {
     peer.second.session->jobChanged(edit ? &*edit : nullptr);

@@ -172,6 +172,7 @@ struct Goodbye {
 struct Edit {
   uint32_t version = 0;  // how often the scene was edited; grows
   SceneEdit edit;        // what has changed since the version that the client has
+  bool moving = false;   // a gesture: streams stay those of the last edit that was none
 };
 
 }  // namespace msg

@@ -139,7 +139,7 @@ msg::Result decode(const pb::Result& in, Bytes&& payload) {
 msg::Ping decode(const pb::Ping& in, Bytes&&) { return {in.clock_ns()}; }
 msg::Pong decode(const pb::Pong& in, Bytes&&) { return {in.echo_ns(), in.clock_ns()}; }
 msg::Goodbye decode(const pb::Goodbye& in, Bytes&&) { return {text("reason", in.reason())}; }
-msg::Edit decode(const pb::Edit& in, Bytes&&) { return {in.version(), fromWire(in)}; }
+msg::Edit decode(const pb::Edit& in, Bytes&&) { return {in.version(), fromWire(in), in.moving()}; }
 
 template <typename Header>
 Message decodeAs(Frame&& frame) {

@@ -145,7 +145,7 @@ pb::Edit header(const msg::Edit& m) {
   NINEFOLD_CHECK(m.edit.objects.size() <= kMaxEdits && m.edit.lights.size() <= kMaxEdits &&
                  m.edit.materials.size() <= kMaxEdits);
   pb::Edit out;
-  out.set_version(m.version);
+  out.set_version(m.version), out.set_moving(m.moving);
   toWire(m.edit, out);
   return out;
 }

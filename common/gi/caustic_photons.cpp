@@ -40,14 +40,17 @@ void tracePhoton(const Transport& t, const Particle& start, const MediumStack& m
       });
 }
 
-void photonsFromEmitters(const Transport& t, const FrameKey& frame, int k, int count,
-                         const PhotonRadii& radii, RayCounts& rays, SortedPhotons& photons) {
+void photonsFromEmitters(const Transport& t, size_t stream, const FrameKey& frame, int k,
+                         int countOfFirst, const PhotonRadii& radii, RayCounts& rays,
+                         SortedPhotons& photons) {
+  const int count = t.streams.samples(stream, countOfFirst);
   Deposit out{radii, 1 / static_cast<float>(count), photons};
-  const LightSampler sampler(t.settings.seed, SampleUse::photon, frame.randomization,
-                             static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
+  const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), SampleUse::photon,
+                             frame.randomization, static_cast<uint32_t>(k), log2Ceil(count),
+                             t.settings.randomization);
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Particle start =
-        emitAimed(t, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
+        emitAimed(t, stream, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
     tracePhoton(t, start, {}, 0, sampler, i, rays, out);
   }
 }
@@ -128,7 +131,9 @@ void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSe
   const int fromVpls = all ? std::max(s.photons / 2, 1) : 0;
   const PhotonRadii radii(t, frame.photonRadius);
   SortedPhotons photons;
-  photonsFromEmitters(t, frame, k, std::max(s.photons - fromVpls, 1), radii, set.rays, photons);
+  for (size_t stream = 0; stream < t.streams.count(); ++stream)
+    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), radii, set.rays,
+                        photons);
   if (fromVpls > 0) {
     std::vector<const Vpl*> sources;
     for (const Vpl& vpl : set.vpls)

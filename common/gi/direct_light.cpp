@@ -56,15 +56,18 @@ std::optional<LightSample> samplePunctual(const PunctualLight& light, float P,
 
 }  // namespace
 
-std::optional<LightSample> sampleLight(const Transport& t, const ShadingPoint& p, Vec2 u) {
+std::optional<LightSample> sampleLight(const Transport& t, size_t stream, const ShadingPoint& p,
+                                       Vec2 u) {
   if (t.emitters.empty()) return std::nullopt;
-  const Distribution::Choice choice = t.emitters.byPower().choose(u.x);
-  const Emitter& e = t.emitters[choice.index];
-  const Vec2 place(choice.remapped, u.y);
+  const auto choice = t.streams.choose(stream, u.x);
+  if (!choice) return std::nullopt;
+  const Emitter& e = t.emitters[choice->index];
+  const Vec2 place(choice->remapped, u.y);
   if (e.kind == EmitterKind::triangle)
-    return sampleTriangle(t, e, choice.index, choice.probability, p, place);
-  if (e.kind == EmitterKind::environment) return sampleEnvironment(t, choice.probability, p, place);
-  return samplePunctual(t.lights[e.light], choice.probability, p);
+    return sampleTriangle(t, e, choice->index, choice->probability, p, place);
+  if (e.kind == EmitterKind::environment)
+    return sampleEnvironment(t, choice->probability, p, place);
+  return samplePunctual(t.lights[e.light], choice->probability, p);
 }
 
 Vec3 lightTransmittance(const Transport& t, const ShadingPoint& p, const MediumStack& media,
@@ -80,14 +83,13 @@ float lightPdf(const Transport& t, const Hit& hit, const SurfacePoint& surface, 
   const Emitter& e = t.emitters[static_cast<size_t>(index)];
   const float cosY = std::abs(glm::dot(w, surface.geometricNormal));
   if (cosY <= 0) return 0;
-  return t.emitters.byPower().probability(static_cast<uint32_t>(index)) / e.area * distance *
-         distance / cosY;
+  return t.streams.probability(static_cast<uint32_t>(index)) / e.area * distance * distance / cosY;
 }
 
 float environmentPdf(const Transport& t) {
   if (t.emitters.empty() || isBlack(t.emitters.environment())) return 0;
   const size_t last = t.emitters.size() - 1;
-  return t.emitters.byPower().probability(static_cast<uint32_t>(last)) * kSpherePdf;
+  return t.streams.probability(static_cast<uint32_t>(last)) * kSpherePdf;
 }
 
 Radiance emittedRadiance(const Transport& t, const ShadingPoint& p) {

@@ -1,5 +1,5 @@
 // direct_light.h: lights sampled from one surface point, for the S vertices of eye paths (and D
-// vertices of the reference path tracer). Emitter by power, then a place on it.
+// vertices of the reference path tracer). Emitter as light_streams.h says, then a place on it.
 //
 //   area          density per solid angle = P / A * d^2 / cos_y      (P = probability of the
 //   emitter) environment   P / (4 pi) punctual      delta: no other technique finds it, radiance
@@ -25,9 +25,10 @@ struct LightSample {
   float tFar = 1;
 };
 
-// A light sample on p's viewed side or behind it (`through`: lobes that transmit); nullopt if dark
-// or behind.
-std::optional<LightSample> sampleLight(const Transport& transport, const ShadingPoint& p, Vec2 u);
+// A light sample of a stream on p's viewed side or behind it (`through`: lobes that transmit); nullopt
+// if dark or behind. All streams together are the light.
+std::optional<LightSample> sampleLight(const Transport& transport, size_t stream,
+                                       const ShadingPoint& p, Vec2 u);
 
 // Share of the sample's light that the medium on its way leaves: the one on wo's side of p or,
 // `through`, the one behind it.

@@ -15,10 +15,11 @@ struct Source {
   Vec2 u;  // for the position
 };
 
-Source chooseSource(const Transport& t, Vec2 u01) {
-  const Distribution::Choice choice = t.emitters.byPower().choose(u01.x);
-  return {&t.emitters[choice.index], choice.index, choice.probability,
-          Vec2(choice.remapped, u01.y)};
+std::optional<Source> chooseSource(const Transport& t, size_t stream, Vec2 u01) {
+  const auto choice = t.streams.choose(stream, u01.x);
+  if (!choice) return std::nullopt;
+  return Source{&t.emitters[choice->index], choice->index, choice->probability,
+                Vec2(choice->remapped, u01.y)};
 }
 
 // Local sources: light that spreads from one point.
@@ -79,24 +80,32 @@ bool isLocal(const Emitter& e) {
 
 // One lobe of the mixture towards a target.
 struct Aim {
-  float weight = 0;       // relative; 0 = cannot be reached, or is all around
-  float oneMinusCos = 0;  // of the cone
+  float weight = 0;       // relative; 0 = could not be reached, or was all around
+  float oneMinusCos = 0;  // of the cone; 0 = that is so now
   Vec3 axis{0};
+
+  bool isThere() const { return weight > 0 && oneMinusCos > 0; }
 };
 
-Aim aimAt(const AimTarget& target, const LocalSource& source) {
-  const Vec3 towards = target.centre - source.position;
-  const float d2 = glm::dot(towards, towards), r2 = target.radius * target.radius;
+Aim aimAt(const Sphere& sphere, const LocalSource& source) {
+  const Vec3 towards = sphere.centre - source.position;
+  const float d2 = glm::dot(towards, towards), r2 = sphere.radius * sphere.radius;
   if (d2 <= r2 * 1.02f) return {};  // inside: the ordinary emission reaches it
   if (source.kind == LocalSource::Kind::lambert &&
-      glm::dot(towards, source.normal) < -target.radius)
+      glm::dot(towards, source.normal) < -sphere.radius)
     return {};
   const float sin2 = r2 / d2;
   const float oneMinusCos = sin2 / (1 + std::sqrt(1 - sin2));
   return {std::sqrt(oneMinusCos), oneMinusCos, towards / std::sqrt(d2)};
 }
 
-using Aims = std::array<Aim, Transport::kMaxTargets>;
+Aim aimAt(const AimTarget& target, const LocalSource& source) {
+  Aim aim = aimAt(target.now, source);
+  if (!(target.begun == target.now)) aim.weight = aimAt(target.begun, source).weight;
+  return aim;
+}
+
+using Aims = std::array<Aim, kMaxTargets>;
 
 float prepareAims(const Transport& t, const LocalSource& source, Aims& aims) {
   float total = 0;
@@ -124,7 +133,7 @@ float mixturePdf(const LocalSource& source, const Aims& aims, size_t count, floa
   float aimed = 0;
   for (size_t i = 0; i < count; ++i) {
     const Aim& aim = aims[i];
-    if (aim.weight <= 0) continue;
+    if (!aim.isThere()) continue;
     // |w - axis|^2 = 2 (1 - cos): stable for thin cones.
     const Vec3 off = w - aim.axis;
     if (0.5f * glm::dot(off, off) <= aim.oneMinusCos * 1.00001f)
@@ -137,10 +146,14 @@ Particle aimFrom(const Transport& t, const LocalSource& source, Vec2 u, float uT
   Aims aims;
   const float total = prepareAims(t, source, aims);
   const int chosen = chooseAim(aims, t.targets.size(), total, uTarget);
-  const Vec3 w = chosen < 0
-                     ? source.ordinarySample(u)
-                     : Basis(aims[static_cast<size_t>(chosen)].axis)
-                           .toWorld(squareToCone(u, aims[static_cast<size_t>(chosen)].oneMinusCos));
+  Vec3 w;
+  if (chosen < 0) {
+    w = source.ordinarySample(u);
+  } else {
+    const Aim& aim = aims[static_cast<size_t>(chosen)];
+    if (!aim.isThere()) return {};
+    w = Basis(aim.axis).toWorld(squareToCone(u, aim.oneMinusCos));
+  }
   const float pdf = mixturePdf(source, aims, t.targets.size(), total, w);
   const Vec3 intensity = source.intensity(w);
   return {source.origin(w), w, pdf > 0 ? intensity / pdf : Vec3(0)};
@@ -174,7 +187,7 @@ Particle beamParticle(const Transport& t, const Beam& beam, Vec2 u) {
 }
 
 // Where a target's centre lies across the beam, from the scene's centre.
-Vec3 acrossBeam(const Transport& t, const Beam& beam, const AimTarget& target) {
+Vec3 acrossBeam(const Transport& t, const Beam& beam, const Sphere& target) {
   const Vec3 from = target.centre - t.scene.bounds.centre();
   return from - glm::dot(from, beam.w) * beam.w;
 }
@@ -188,7 +201,8 @@ Particle aimBeam(const Transport& t, const Beam& beam, Vec2 u, float uTarget) {
   float spread = radius;
   if (!ordinary) {
     const float place = (uTarget - kOrdinaryShare) / (1 - kOrdinaryShare) * count;
-    const AimTarget& target = t.targets[std::min(static_cast<size_t>(place), t.targets.size() - 1)];
+    const Sphere& target =
+        t.targets[std::min(static_cast<size_t>(place), t.targets.size() - 1)].now;
     centre = acrossBeam(t, beam, target), spread = target.radius;
   }
   const Vec2 disk = spread * squareToDisk(u);
@@ -197,9 +211,9 @@ Particle aimBeam(const Transport& t, const Beam& beam, Vec2 u, float uTarget) {
   if (glm::dot(across, across) <= radius * radius)
     pdf += kOrdinaryShare * kInvPi / (radius * radius);
   for (const AimTarget& target : t.targets) {
-    const Vec3 off = across - acrossBeam(t, beam, target);
-    if (glm::dot(off, off) <= target.radius * target.radius)
-      pdf += (1 - kOrdinaryShare) / count * kInvPi / (target.radius * target.radius);
+    const Vec3 off = across - acrossBeam(t, beam, target.now);
+    const float r2 = target.now.radius * target.now.radius;
+    if (glm::dot(off, off) <= r2) pdf += (1 - kOrdinaryShare) / count * kInvPi / r2;
   }
   return {beamOrigin(t, beam, across), beam.w, pdf > 0 ? beam.irradiance / pdf : Vec3(0)};
 }
@@ -214,23 +228,25 @@ bool takeBackSide(const Emitter& e, float& u) {
 
 }  // namespace
 
-Particle emitParticle(const Transport& t, Vec2 u01, Vec2 u23) {
-  const Source s = chooseSource(t, u01);
-  if (!isLocal(*s.emitter)) return beamParticle(t, chooseBeam(t, s, u23), s.u);
-  const bool back = takeBackSide(*s.emitter, u23.x);
-  const LocalSource source = localSource(t, s, back);
+Particle emitParticle(const Transport& t, size_t stream, Vec2 u01, Vec2 u23) {
+  const auto s = chooseSource(t, stream, u01);
+  if (!s) return {};
+  if (!isLocal(*s->emitter)) return beamParticle(t, chooseBeam(t, *s, u23), s->u);
+  const bool back = takeBackSide(*s->emitter, u23.x);
+  const LocalSource source = localSource(t, *s, back);
   const Vec3 w = source.ordinarySample(u23);
   const float pdf = source.ordinaryPdf(w);
   if (source.kind == LocalSource::Kind::lambert) return {source.origin(w), w, source.flux};
   return {source.origin(w), w, pdf > 0 ? source.intensity(w) / pdf : Vec3(0)};
 }
 
-Particle emitAimed(const Transport& t, Vec2 u01, Vec2 u23, float uTarget) {
-  if (t.targets.empty()) return emitParticle(t, u01, u23);
-  const Source s = chooseSource(t, u01);
-  if (!isLocal(*s.emitter)) return aimBeam(t, chooseBeam(t, s, u23), s.u, uTarget);
-  const bool back = takeBackSide(*s.emitter, u23.x);
-  return aimFrom(t, localSource(t, s, back), u23, uTarget);
+Particle emitAimed(const Transport& t, size_t stream, Vec2 u01, Vec2 u23, float uTarget) {
+  if (t.targets.empty()) return emitParticle(t, stream, u01, u23);
+  const auto s = chooseSource(t, stream, u01);
+  if (!s) return {};
+  if (!isLocal(*s->emitter)) return aimBeam(t, chooseBeam(t, *s, u23), s->u, uTarget);
+  const bool back = takeBackSide(*s->emitter, u23.x);
+  return aimFrom(t, localSource(t, *s, back), u23, uTarget);
 }
 
 Particle emitAimed(const Transport& t, const LambertSource& source, Vec2 u, float uTarget) {

@@ -8,10 +8,14 @@
 //   directional  disk of the scene's R     flux = pi R^2 E0 / P
 //   environment  directions, then disk     flux = 4 pi pi R^2 L / P
 //
+// The emitter is one of a stream's (light_streams.h); a sample of one that is off now carries nothing.
+//
 // Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q of the
 // ordinary density, with share kOrdinaryShare, and of the cones (disks) that the targets' bounds
 // subtend:
 //   flux = J(omega) / q(omega),  J = emitted W/sr (parallel light: W/m^2) divided by P.
+// In a gesture a target's share of the mixture is what it was from here when the gesture began, its
+// cone is that of now; where one of the two is not there the target gets nothing.
 // So every direction that emits has density > 0, and no flux exceeds 1/kOrdinaryShare of the
 // ordinary one.
 //
@@ -34,10 +38,10 @@ struct Particle {
 inline constexpr float kOrdinaryShare = 0.2f;
 
 // u: four joint sample dimensions; emitter choice and first position coordinate share u[0].
-Particle emitParticle(const Transport& transport, Vec2 u01, Vec2 u23);
+Particle emitParticle(const Transport& transport, size_t stream, Vec2 u01, Vec2 u23);
 
 // uTarget chooses between the ordinary emission and a target.
-Particle emitAimed(const Transport& transport, Vec2 u01, Vec2 u23, float uTarget);
+Particle emitAimed(const Transport& transport, size_t stream, Vec2 u01, Vec2 u23, float uTarget);
 
 // A Lambertian source point, e.g. a D vertex of a light path: radiates `flux` with density cos/pi
 // about `normal`; the particle is aimed by the same mixture.

@@ -23,10 +23,11 @@ uint16_t foldHash(uint64_t hash) {
 }
 
 // Light sampled at a rough vertex into the chosen lobe.
-Radiance directAtLobe(const Transport& t, const Chain& c, Lobe lobe, Vec2 u, RayCounts& rays) {
+Radiance directAtLobe(const Transport& t, const Chain& c, Lobe lobe, size_t stream, Vec2 u,
+                      RayCounts& rays) {
   const ShadingPoint& p = c.point;
   if (p.bsdf.alpha == 0) return Radiance(0);
-  const auto light = sampleLight(t, p, u);
+  const auto light = sampleLight(t, stream, p, u);
   if (!light) return Radiance(0);
   const bool above = glm::dot(light->w, p.ng) > 0;
   if (above != (lobe == Lobe::reflection)) return Radiance(0);
@@ -96,7 +97,9 @@ EyePathEnd followLobe(const Transport& t, const ShadingPoint& first, Lobe lobe, 
   for (int depth = 0; depth < t.settings.specularDepth; ++depth) {
     const uint32_t d = firstDimension + 8 * static_cast<uint32_t>(depth);
     addToHash(c, lobe);
-    end.unfiltered += c.gain * c.throughput * directAtLobe(t, c, lobe, sampler.get2D(d + 4), rays);
+    for (size_t stream = 0; stream < t.streams.count(); ++stream)
+      end.unfiltered +=
+          c.gain * c.throughput * directAtLobe(t, c, lobe, stream, sampler.get2D(d + 4), rays);
     if (!step(t, c, lobe, sampler, d, rays, end.unfiltered)) break;
 
     // Pick D, or the lobe to follow.

@@ -53,20 +53,23 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
   return vpl;
 }
 
-void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector<Vpl>& vpls) {
-  const int count = t.settings.directVpls;
-  const LightSampler sampler(t.settings.seed, SampleUse::directVpl, frame.randomization,
-                             static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
+void addDirectVpls(const Transport& t, size_t stream, const FrameKey& frame, int k,
+                   std::vector<Vpl>& vpls) {
+  const int count = t.streams.samples(stream, t.settings.directVpls);
+  const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), SampleUse::directVpl,
+                             frame.randomization, static_cast<uint32_t>(k), log2Ceil(count),
+                             t.settings.randomization);
   std::unordered_map<uint32_t, size_t> places;  // of punctual emitters' VPLs
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Vec2 u = sampler.get2D(i, 0);
-    const Distribution::Choice choice = t.emitters.byPower().choose(u.x);
-    const Vpl vpl = directVpl(t, choice.index, Vec2(choice.remapped, u.y),
-                              1 / (static_cast<float>(count) * choice.probability));
-    const EmitterKind kind = t.emitters[choice.index].kind;
+    const auto choice = t.streams.choose(stream, u.x);
+    if (!choice) continue;
+    const Vpl vpl = directVpl(t, choice->index, Vec2(choice->remapped, u.y),
+                              1 / (static_cast<float>(count) * choice->probability));
+    const EmitterKind kind = t.emitters[choice->index].kind;
     const bool fixed = kind != EmitterKind::triangle && kind != EmitterKind::environment;
     if (fixed) {
-      const auto [place, isNew] = places.try_emplace(choice.index, vpls.size());
+      const auto [place, isNew] = places.try_emplace(choice->index, vpls.size());
       if (!isNew) {
         vpls[place->second].power += vpl.power;
         continue;
@@ -76,14 +79,14 @@ void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector
   }
 }
 
-// Walks 2^pathsLog2 particles of block k and hands each D vertex to deposit(point, arrival).
+// Walks 2^pathsLog2 particles of block k of a stream and hands each D vertex to deposit(arrival).
 template <typename Deposit>
-void walkIndirect(const Transport& t, SampleUse use, uint32_t randomization, int k, int pathsLog2,
-                  RayCounts& rays, Deposit&& deposit) {
-  const LightSampler sampler(t.settings.seed, use, randomization, static_cast<uint32_t>(k),
-                             pathsLog2, t.settings.randomization);
+void walkIndirect(const Transport& t, size_t stream, SampleUse use, uint32_t randomization, int k,
+                  int pathsLog2, RayCounts& rays, Deposit&& deposit) {
+  const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), use, randomization,
+                             static_cast<uint32_t>(k), pathsLog2, t.settings.randomization);
   for (uint32_t i = 0; i < 1u << pathsLog2; ++i) {
-    const Particle start = emitParticle(t, sampler.get2D(i, 0), sampler.get2D(i, 2));
+    const Particle start = emitParticle(t, stream, sampler.get2D(i, 0), sampler.get2D(i, 2));
     walkLightPath(t, start, {}, 0, sampler, i, 4, rays, [&](const Arrival& a) {
       if (!isBlack(a.point->bsdf.diffuse) && t.allows(a.diffuseBefore + 2)) deposit(a);
       return t.allows(a.diffuseBefore + 3);
@@ -103,13 +106,24 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
   return vpl;
 }
 
+void addIndirectVpls(const Transport& t, size_t stream, const FrameKey& frame, int k,
+                     int pathsLog2OfFirst, LightSet& set) {
+  const auto wanted = static_cast<unsigned>(t.streams.samples(stream, 1 << pathsLog2OfFirst));
+  const int pathsLog2 = std::bit_width(wanted) - 1;
+  const float share = 1 / static_cast<float>(1u << pathsLog2);
+  walkIndirect(t, stream, SampleUse::lightPath, frame.randomization, k, pathsLog2, set.rays,
+               [&](const Arrival& a) { set.vpls.push_back(indirectVpl(t, a, share)); });
+}
+
 }  // namespace
 
 int lightPathsLog2(const Transport& t) {
   if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(2)) return -1;
   RayCounts rays;
   uint64_t vertices = 0;
-  walkIndirect(t, SampleUse::probe, 0, 0, kPilotLog2, rays, [&](const Arrival&) { ++vertices; });
+  for (size_t stream = 0; stream < t.streams.count(); ++stream)
+    walkIndirect(t, stream, SampleUse::probe, 0, 0, kPilotLog2, rays,
+                 [&](const Arrival&) { ++vertices; });
   if (vertices == 0) return -1;
   const double mean = static_cast<double>(vertices) / (1 << kPilotLog2);
   const double wanted = std::log2(t.settings.indirectVpls / mean);
@@ -119,11 +133,11 @@ int lightPathsLog2(const Transport& t) {
 LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
   LightSet set;
   if (t.emitters.empty()) return set;
-  addDirectVpls(t, frame, k, set.vpls);
+  for (size_t stream = 0; stream < t.streams.count(); ++stream)
+    addDirectVpls(t, stream, frame, k, set.vpls);
   if (pathsLog2 >= 0) {
-    const float share = 1 / static_cast<float>(1u << pathsLog2);
-    walkIndirect(t, SampleUse::lightPath, frame.randomization, k, pathsLog2, set.rays,
-                 [&](const Arrival& a) { set.vpls.push_back(indirectVpl(t, a, share)); });
+    for (size_t stream = 0; stream < t.streams.count(); ++stream)
+      addIndirectVpls(t, stream, frame, k, pathsLog2, set);
     std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power); });
   }
   addCausticPhotons(t, frame, k, set);

@@ -10,7 +10,8 @@
 // into one. Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / (n^2 2^m),
 // n = index of the medium around (radiance is basic, the particles' flux is not). m is
 // such that the mean number of VPLs is nearest (in ratio) to the wanted one; walks are never cut to
-// a count. Caustic photons: see caustic_photons.h.
+// a count. Caustic photons: see caustic_photons.h. In a gesture N and m are what they were when it
+// began, and there may be a second stream: light_streams.h.
 //
 // Source:  Keller 1997; Wald et al. 2002, section 4.
 // Proved:  tests/gi (furnace, energy, order independence).
@@ -44,9 +45,10 @@ struct LightSet {
   RayCounts rays;  // what making it cost
 };
 
-// m of 2^m light paths a set, from a pilot of fixed size: same on every client.
+// m of 2^m light paths a set, from a pilot of fixed size: same on every client. -1: none is needed.
 int lightPathsLog2(const Transport& transport);
 
+// pathsLog2: m of the first stream.
 LightSet makeLightSet(const Transport& transport, const FrameKey& frame, int k, int pathsLog2);
 
 }  // namespace ninefold

@@ -32,9 +32,9 @@ LobeValue evaluateWay(const ShadingPoint& p, Way way, Vec3 w) {
 }
 
 Radiance directAtVertex(const Transport& t, const ShadingPoint& p, const MediumStack& media,
-                        Way way, Vec2 u, RayCounts& rays) {
+                        Way way, size_t stream, Vec2 u, RayCounts& rays) {
   if (way != Way::diffuse && p.bsdf.alpha == 0) return Radiance(0);
-  const auto light = sampleLight(t, p, u);
+  const auto light = sampleLight(t, stream, p, u);
   if (!light) return Radiance(0);
   const LobeValue value = evaluateWay(p, way, light->w);
   const Vec3 contribution = value.value * light->weight;
@@ -123,7 +123,9 @@ Radiance tracePath(const Transport& t, Vec3 eye, Vec3 direction, const MediumSta
     const uint32_t d = 8 * static_cast<uint32_t>(vertex);
     Way way{};
     if (!chooseWay(t, p, sampler.get1D(d + 2), vertex, path, way)) return sum;
-    sum += path.throughput * directAtVertex(t, p, path.media, way, sampler.get2D(d + 4), rays);
+    for (size_t stream = 0; stream < t.streams.count(); ++stream)
+      sum += path.throughput *
+             directAtVertex(t, p, path.media, way, stream, sampler.get2D(d + 4), rays);
     if (!scatter(t, p, way, sampler.get2D(d), sampler.get1D(d + 3), path)) return sum;
   }
   return sum;

@@ -10,14 +10,11 @@ constexpr float kBrightest = 1;
 }  // namespace
 
 PhotonRadii::PhotonRadii(const Transport& t, Metres radius) : radius_(radius) {
-  float flux = 0;
-  for (size_t i = 0; i < t.emitters.size(); ++i) flux += maxComponent(t.emitters[i].flux);
-  const float sceneRadius = t.scene.bounds.radius();
-  const float shrunk = radius / (t.settings.photonRadius * sceneRadius);  // r / r_first
+  const float shrunk = radius / (t.settings.photonRadius * t.radius);  // r / r_first
   // Fractions of R: their squares stay in range whatever the scene's size.
   for (size_t j = 0; j < kPhotonKinds; ++j) {
-    const float part = this->radius(j) / (shrunk * sceneRadius);
-    most_[j] = kBrightest * 0.25f * part * part * flux;
+    const float part = this->radius(j) / (shrunk * t.radius);
+    most_[j] = kBrightest * 0.25f * part * part * t.lampFlux;
   }
 }
 

@@ -4,7 +4,7 @@
 //   r_j = 2^j r,   the least j < kPhotonKinds with   Phi/(pi r_j^2) <= E_max
 //   E_max = kBrightest E_0 (r_first/r)^2,   E_0 = flux of all lights / (4 pi R^2)
 //
-// R: radius of the scene's bounds; r: the frame's radius, r_first: the first frame's. All r_j shrink
+// R: radius of the scene's bounds, E_0 and it as a gesture found them (transport.h); r: the frame's radius, r_first: the first frame's. All r_j shrink
 // with r, so the estimate stays consistent.
 //
 // Source:  written for this project; the same end as photon differentials (Schjoth et al. 2007).

@@ -48,9 +48,11 @@ struct Renderer::Impl {
     Transport transport;
     int pathsLog2;
 
-    Light(const Tracer& tracer, const Settings& settings)
-        : transport(tracer, settings),
-          pathsLog2(settings.method == Method::instantRadiosity ? lightPathsLog2(transport) : -1) {}
+    Light(const Tracer& tracer, const Settings& settings, const Light* begun)
+        : transport(tracer, settings, begun != nullptr ? &begun->transport : nullptr),
+          pathsLog2(begun != nullptr && begun->pathsLog2 >= 0     ? begun->pathsLog2
+                    : settings.method == Method::instantRadiosity ? lightPathsLog2(transport)
+                                                                  : -1) {}
   };
   std::shared_ptr<const Light> light;
   View view;
@@ -59,9 +61,11 @@ struct Renderer::Impl {
       : light(std::move(l)), view(viewOf(light->transport, settings)) {}
 };
 
-Renderer::Renderer(const Tracer& tracer, const Settings& settings)
-    : impl_(std::make_unique<Impl>(std::make_shared<const Impl::Light>(tracer, settings),
-                                   settings)) {}
+Renderer::Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun)
+    : impl_(std::make_unique<Impl>(
+          std::make_shared<const Impl::Light>(
+              tracer, settings, begun != nullptr ? begun->impl_->light.get() : nullptr),
+          settings)) {}
 
 Renderer::Renderer(const Renderer& lit, const Settings& settings)
     : impl_(std::make_unique<Impl>(lit.impl_->light, settings)) {}

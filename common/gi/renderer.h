@@ -31,7 +31,9 @@ struct Task {
 
 class Renderer {
  public:
-  Renderer(const Tracer& tracer, const Settings& settings);
+  // `begun`: of the scene that a gesture began with, under the same settings; null at rest. Counts,
+  // shares, b and the photons' spread stay what they are there (transport.h).
+  Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun = nullptr);
   // The same light seen by the camera, and in the size, of `settings`; the rest of them must be
   // those of `lit`. Bit for bit what a new Renderer would be.
   Renderer(const Renderer& lit, const Settings& settings);

@@ -1,10 +1,17 @@
-// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters, the
-// bound of the geometry term, and the targets that caustic photons aim at. Threads: const after
-// construction. Refers to the Tracer and its Scene.
+// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters and the
+// streams that sample them, the bound of the geometry term, and the targets that caustic photons aim at.
+//
+// In a gesture, the state that it began with decides what would otherwise change for all when one
+// thing is touched: which share of the samples a lamp and a target get, b, and how far photons are
+// spread (photon_radii.h). A gesture that began in the dark has nothing to go by: all is as at rest.
+//
+// Threads: const after construction. Refers to the Tracer and its Scene.
 #pragma once
 
 #include <vector>
 
+#include "common/gi/aim_targets.h"
+#include "common/gi/light_streams.h"
 #include "common/gi/shading.h"
 #include "common/scene/emitters.h"
 #include "common/scene/needs.h"
@@ -13,27 +20,23 @@
 
 namespace ninefold {
 
-// A sphere around objects with S lobes.
-struct AimTarget {
-  Vec3 centre{0};
-  float radius = 0;  // [m]
-};
-
 struct Transport {
-  Transport(const Tracer& tracer, const Settings& settings);
+  // `begun`: of the state that a gesture began with; null at rest.
+  Transport(const Tracer& tracer, const Settings& settings, const Transport* begun = nullptr);
 
   const Tracer& tracer;
   const Scene& scene;
   Settings settings;
   Shader shader;
   Emitters emitters;
+  LightStreams streams;
   std::vector<PunctualLight> lights;  // the scene's, moved off surfaces that they lie in
   Needs needs;
-  float bound;         // b = c/R^2 [1/m^2]
+  Metres radius;   // R of the scene's bounds, by which b and photons go; of `begun` in a gesture
+  float lampFlux;  // of all lamps, largest component [W]; likewise
+  float bound;     // b = c/R^2 [1/m^2]
   Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
-  std::vector<AimTarget> targets;  // empty if nothing is specular; at most kMaxTargets
-
-  static constexpr size_t kMaxTargets = 16;
+  std::vector<AimTarget> targets;
 
   // Bound of the geometry term at an area emitter, from all of which one point was taken with probability P:
   // where G < P/A, such a point adds at most L to E, less than the emitter seen near by does; and a

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "common/base/error.h"
 #include "common/scene/world.h"
@@ -73,6 +74,11 @@ void merge(SceneEdit& into, const SceneEdit& later) {
   mergeList(into.objects, later.objects, &ObjectEdit::node);
   mergeList(into.lights, later.lights, &LightEdit::light);
   mergeList(into.materials, later.materials, &MaterialEdit::material);
+}
+
+void EditsSoFar::add(const SceneEdit& edit, bool isMoving) {
+  merge(moving, edit);
+  if (!isMoving) merge(settled, std::exchange(moving, {}));
 }
 
 void checkEdit(const Scene& scene, const SceneEdit& edit) {

@@ -59,6 +59,13 @@ MaterialEdit editOfMaterial(const Scene& scene, uint32_t material);
 // `later` over `into`: each thing once, in ascending order, as its last edit has it.
 void merge(SceneEdit& into, const SceneEdit& later);
 
+// All edits so far, for somebody who comes late: those up to the state that the gesture under way began
+// with, which decides about sample streams (gi/transport.h), and those since. At rest all are settled.
+struct EditsSoFar {
+  SceneEdit settled, moving;
+  void add(const SceneEdit& edit, bool isMoving);
+};
+
 // Everything that it names exists in `scene`, and every number is in range.
 void checkEdit(const Scene& scene, const SceneEdit& edit);
 

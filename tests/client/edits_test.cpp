@@ -50,6 +50,27 @@ TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
   EXPECT_NE(render(followed), render(asRead));
 }
 
+// One that saw a gesture begin, step by step, and one that comes in the middle of it.
+TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
+  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto asRead = std::make_shared<const TracedScene>(read, Isa::automatic);
+  RandomEdits random(*read, 5);
+  SceneEdit settled;
+  for (int i = 0; i < 10; ++i) merge(settled, random.next());
+  const auto begun = std::make_shared<const TracedScene>(*asRead, settled);
+  SceneEdit all = settled;
+  std::shared_ptr<const TracedScene> followed = begun;
+  for (int i = 0; i < 10; ++i) {
+    merge(all, random.next());
+    followed = std::make_shared<const TracedScene>(*followed, all, begun);
+  }
+  const TracedScene late(std::make_shared<const Scene>(*read), Isa::automatic);
+  const auto lateBegun = std::make_shared<const TracedScene>(late, settled);
+  EXPECT_EQ(render(followed),
+            render(std::make_shared<const TracedScene>(*lateBegun, all, lateBegun)));
+  EXPECT_NE(render(followed), render(std::make_shared<const TracedScene>(late, all)));
+}
+
 // The other order of building: edited first, traced in one hierarchy.
 TEST(Edits, PartsOfTheirOwnSeeWhatOneHierarchySees) {
   const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));

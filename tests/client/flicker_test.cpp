@@ -7,6 +7,7 @@
 // moving box itself, a pixel is unchanged if it shows neither the box nor a glass, and if no segment from
 // its point x to a VPL of its set meets the box, before or after; that is told by geometry, where the
 // shadow rays of a pixel do not depend on its neighbours' (no roulette) and end at x (no compensation).
+// And whatever a gesture does to the lamp and the glass of the other room, no byte here changes.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -22,18 +23,20 @@ namespace {
 using testing::SceneBuilder;
 
 constexpr int kSets = 9;
-constexpr int kBox = 6;  // node
+constexpr int kRightLamp = 4, kRightGlass = 5, kBox = 6;  // nodes
+constexpr uint32_t kRightLampsMaterial = 3;
 
 // side: of the room that the camera is in, -1 or 1. The box is in the other or the same, at x > 0.
 std::shared_ptr<const Scene> twoRooms(float side) {
   SceneBuilder b;
   const int grey = b.material(testing::matte(Vec3(0.6f)));
-  const int lamp = b.material(testing::matte(Vec3(0), Vec3(10)));
   const int glass = b.material(testing::glass(1.5f));
+  const int lamps[] = {b.material(testing::matte(Vec3(0), Vec3(10))),
+                       b.material(testing::matte(Vec3(0), Vec3(10)))};
   b.box(grey, Vec3(-4, -1.5f, -1.5f), Vec3(4, 1.5f, 1.5f), true);
   b.box(grey, Vec3(-0.05f, -1.5f, -1.5f), Vec3(0.05f, 1.5f, 1.5f), false);
   for (const float x : {-2.0f, 2.0f}) {
-    b.quad(lamp, Vec3(x - 0.3f, 1.49f, -0.3f), Vec3(0.6f, 0, 0), Vec3(0, 0, 0.6f));
+    b.quad(lamps[x > 0], Vec3(x - 0.3f, 1.49f, -0.3f), Vec3(0.6f, 0, 0), Vec3(0, 0, 0.6f));
     b.sphere(glass, Vec3(x, -1, 0), 0.3f, 12);
   }
   b.box(grey, Vec3(3.0f, -1.4f, 0.8f), Vec3(3.15f, -1.25f, 0.95f), false);
@@ -75,8 +78,8 @@ struct Frame {
   std::vector<std::vector<Bytes>> sent;
 };
 
-Frame render(const std::shared_ptr<const TracedScene>& traced, const FrameKey& key) {
-  const Settings s = settings(*traced->scene);
+Frame render(const std::shared_ptr<const TracedScene>& traced, const Settings& s,
+             const FrameKey& key) {
   const Renderer renderer(traced->tracer, s);
   RenderJob job(traced, 1, s, {}, 1);
   Frame frame;
@@ -90,6 +93,10 @@ Frame render(const std::shared_ptr<const TracedScene>& traced, const FrameKey& k
                           .result.encoded);
   }
   return frame;
+}
+
+Frame render(const std::shared_ptr<const TracedScene>& traced, const FrameKey& key) {
+  return render(traced, settings(*traced->scene), key);
 }
 
 SceneEdit step(int i) {
@@ -228,6 +235,35 @@ TEST(Flicker, PixelsWhoseRaysMissTheMovedBoxAreUnchanged) {
   }
   EXPECT_GT(unchanged, 1000) << "of " << unchanged + others;
   EXPECT_GT(differ, 50);
+}
+
+TEST(Flicker, AGestureInAnotherRoomChangesNoByte) {
+  const auto scene = twoRooms(-1);
+  Settings s = settings(*scene);
+  s.vplRoulette = 0, s.caustics = Caustics::direct;
+  const auto begun = std::make_shared<const TracedScene>(scene, Isa::automatic);
+  const Frame before = render(begun, s, firstFrame());
+  const auto moved = [](int node) {
+    SceneEdit edit;
+    edit.objects.push_back({node, DMat4(1)});
+    edit.objects[0].motion[3] = DVec4(0.4, 0.1, 0.3, 1);
+    return edit;
+  };
+  const auto glowing = [&](float radiance) {
+    SceneEdit edit;
+    edit.materials.push_back(editOfMaterial(*scene, kRightLampsMaterial));
+    edit.materials[0].emission = Vec3(radiance);
+    return edit;
+  };
+  for (const SceneEdit& edit :
+       {moved(kRightGlass), moved(kRightLamp), glowing(0), glowing(3), glowing(100)}) {
+    const auto gesture = std::make_shared<const TracedScene>(*begun, edit, begun);
+    EXPECT_TRUE(render(gesture, s, firstFrame()).sent == before.sent);
+    // Shared out anew by power, they would all be others.
+    if (edit.materials.empty()) continue;
+    const auto atRest = std::make_shared<const TracedScene>(*begun, edit);
+    EXPECT_FALSE(render(atRest, s, firstFrame()).sent == before.sent);
+  }
 }
 
 }  // namespace

@@ -146,6 +146,26 @@ TEST(Session, EditsWaitAsOneForASceneThatIsNotThereYet) {
   EXPECT_EQ(h.take<act::PrepareJob>().size(), 1u);
 }
 
+TEST(Session, InAGestureTheyWaitAsTwo) {
+  SessionHarness h;
+  h.welcome();
+  h.session.received(msg::SceneOffer{1, {SessionHarness::blob(1)}}, h.now);
+  h.session.received(msg::Edit{1, emptyRoom(0), false}, h.now);
+  h.session.received(msg::Edit{2, emptyRoom(1), true}, h.now);
+  h.session.received(msg::Edit{3, {}, false},
+                     h.now);  // the end of one: it belongs to what was before
+  for (const uint32_t i : {2u, 3u}) h.session.received(msg::Edit{2 + i, emptyRoom(i), true}, h.now);
+  h.session.received(SessionHarness::settings(), h.now);
+  h.session.blobsFound(h.take<act::FindBlobs>().at(0).load, {}, h.now);
+  h.session.sceneBuilt(h.take<act::BuildScene>().at(0).load, h.now);
+  const auto edits = h.take<act::EditScene>();
+  ASSERT_EQ(edits.size(), 2u);
+  EXPECT_FALSE(edits[0].moving);
+  EXPECT_EQ(edits[0].edit.materials.size(), 2u);
+  EXPECT_TRUE(edits[1].moving);
+  EXPECT_EQ(edits[1].edit.materials.size(), 2u);
+}
+
 TEST(Session, ARestartedMasterGetsTheSceneAsItWasFetched) {
   SessionHarness h;
   h.becomeReady();

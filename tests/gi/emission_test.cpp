@@ -94,11 +94,11 @@ TEST(Emission, MeanFluxIsTheEmittersPower) {
     ASSERT_GE(t.targets.size(), 2u);
     const double whole = wholeFlux(scene, kind);
     const Mean ordinary = meanFlux([&](const LightSampler& s, uint32_t i) {
-      return emitParticle(t, s.get2D(i, 0), s.get2D(i, 2));
+      return emitParticle(t, 0, s.get2D(i, 0), s.get2D(i, 2));
     });
     EXPECT_NEAR(ordinary.value, whole, 4 * ordinary.error + 1e-4 * whole) << static_cast<int>(kind);
     const Mean aimed = meanFlux([&](const LightSampler& s, uint32_t i) {
-      return emitAimed(t, s.get2D(i, 0), s.get2D(i, 2), s.get1D(i, 4));
+      return emitAimed(t, 0, s.get2D(i, 0), s.get2D(i, 2), s.get1D(i, 4));
     });
     EXPECT_NEAR(aimed.value, whole, 4 * aimed.error + 1e-4 * whole)
         << "aimed " << static_cast<int>(kind);
@@ -113,8 +113,9 @@ TEST(Emission, AimedParticlesMostlyMeetTheirTargets) {
   const LightSampler sampler(1, SampleUse::photon, 0, 0, 10, Randomization::owen);
   int ordinary = 0, aimed = 0;
   for (uint32_t i = 0; i < 1024; ++i) {
-    const Particle p = emitParticle(t, sampler.get2D(i, 0), sampler.get2D(i, 2));
-    const Particle q = emitAimed(t, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
+    const Particle p = emitParticle(t, 0, sampler.get2D(i, 0), sampler.get2D(i, 2));
+    const Particle q =
+        emitAimed(t, 0, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
     ordinary += tracer.occluded(p.origin, p.direction, 100) ? 1 : 0;
     aimed += tracer.occluded(q.origin, q.direction, 100) ? 1 : 0;
   }
@@ -127,7 +128,8 @@ TEST(Emission, NoFluxExceedsTheOrdinaryOneByMoreThanItsShareAllows) {
   const Transport t(tracer, Settings{});
   const LightSampler sampler(2, SampleUse::photon, 0, 0, 12, Randomization::owen);
   for (uint32_t i = 0; i < 4096; ++i) {
-    const Particle p = emitAimed(t, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
+    const Particle p =
+        emitAimed(t, 0, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
     EXPECT_LE(p.flux.x, 4 * kPi / kOrdinaryShare * 1.001f);
   }
 }

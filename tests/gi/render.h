@@ -37,11 +37,13 @@ inline Vec3 pixelAt(const RgbPlane& plane, size_t i) {
   return Vec3(plane.r[i], plane.g[i], plane.b[i]);
 }
 
-// Unfiltered: layers composed as reflectance * E + U.
-inline Rendered render(const Tracer& tracer, Settings settings, int frames) {
+// Unfiltered: layers composed as reflectance * E + U. `begun`: what a gesture began with, or null.
+inline Rendered render(const Tracer& tracer, Settings settings, int frames,
+                       const Tracer* begun = nullptr) {
   settings.camera = tracer.scene().cameras.front();
   settings.environment = tracer.scene().environment;
-  const Renderer renderer(tracer, settings);
+  const auto then = begun != nullptr ? std::make_unique<Renderer>(*begun, settings) : nullptr;
+  const Renderer renderer(tracer, settings, then.get());
   const auto scratch = renderer.makeScratch();
   const TileGrid grid(settings.width, settings.height, settings.interleave);
   Rendered out{settings.width, settings.height, {}, {}, {}};

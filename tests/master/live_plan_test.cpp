@@ -178,6 +178,29 @@ TEST_F(LivePlanTest, WithoutMotionEveryStateIsAStillOfItsOwn) {
   }
 }
 
+TEST_F(LivePlanTest, AnEditedSceneIsAnnouncedAsMovingAndOnceMoreWhenItRests) {
+  done();
+  LiveState state = plan.state();
+  uint32_t version = 0;
+  for (int step = 1; step <= 3; ++step) {
+    ++state.scene;
+    plan.change(state, now);
+    const LiveFrame frame = done();
+    EXPECT_TRUE(frame.order.moving);
+    EXPECT_EQ(frame.order.scene, ++version);
+  }
+  pass(LivePlan::kSettle);
+  for (int i = 0; i < 3; ++i) {
+    const LiveFrame frame = done();
+    EXPECT_FALSE(frame.order.moving);
+    EXPECT_EQ(frame.order.scene, 4u);
+  }
+  moveTo(7);  // the camera alone: nothing about the scene is to be said
+  EXPECT_EQ(done().order.scene, 4u);
+  pass(LivePlan::kSettle);
+  EXPECT_EQ(done().order.scene, 4u);
+}
+
 TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
   const uint32_t before = done().order.job;
   LiveState state = plan.state();

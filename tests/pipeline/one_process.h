@@ -12,10 +12,11 @@ namespace ninefold::testing {
 
 class OneProcess {
  public:
-  // The scene's first camera and environment.
-  OneProcess(const Tracer& tracer, const Settings& settings)
+  // The scene's first camera and environment. `begun`: what a gesture began with, or null.
+  OneProcess(const Tracer& tracer, const Settings& settings, const Tracer* begun = nullptr)
       : settings_(completed(settings, tracer.scene())),
-        renderer_(tracer, settings_),
+        begun_(begun != nullptr ? std::make_unique<Renderer>(*begun, settings_) : nullptr),
+        renderer_(tracer, settings_, begun_.get()),
         scratch_(renderer_.makeScratch()),
         plan_(settings.photonRadius * tracer.scene().bounds.radius(), settings.interleave.sets(),
               true) {
@@ -68,6 +69,7 @@ class OneProcess {
   }
 
   Settings settings_;
+  std::unique_ptr<const Renderer> begun_;
   Renderer renderer_;
   std::unique_ptr<Scratch, void (*)(Scratch*)> scratch_;
   FramePlan plan_;

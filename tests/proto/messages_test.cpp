@@ -62,7 +62,7 @@ std::vector<Message> oneOfEach() {
       msg::Ping{1},
       msg::Pong{1, 2},
       msg::Goodbye{"done"},
-      msg::Edit{9, oddEdit()}};
+      msg::Edit{9, oddEdit(), true}};
 }
 
 Peer senderOf(const Message& message) {
@@ -94,6 +94,7 @@ TEST(Messages, FieldsArriveWhereTheyBelong) {
   EXPECT_EQ(tasks.frame.rotation, 12u);
   EXPECT_EQ(tasks.items[1], (msg::TaskItem{4, 255, 31}));
   EXPECT_EQ(std::get<msg::Edit>(decode(oneOfEach()[15])).edit, oddEdit());
+  EXPECT_TRUE(std::get<msg::Edit>(decode(oneOfEach()[15])).moving);
   const auto settings = std::get<msg::Configure>(decode(oneOfEach()[6])).settings;
   EXPECT_EQ(settings.camera, oddSettings().camera);
   EXPECT_EQ(settings.interleave, oddSettings().interleave);

@@ -1,0 +1,50 @@
+// light_streams.h: which lamp each sample of a light set starts from. Pure.
+//
+//   at rest        one stream of n samples; lamps are chosen in proportion to power (emitters.h)
+//   in a gesture   the same choice with the probabilities that the gesture began with: a sample stays
+//                  with its lamp, whatever is done to the others, and finds no light if that is off now.
+//                  Lamps that were off then have a second stream of their own, beside the first:
+//                  n' = n Phi'/Phi samples, 1 to n;   Phi', Phi: power of the second's, the first's lamps
+//
+// Each emitter is in one stream, and is divided by the probability with which it is chosen there: what
+// was frozen costs noise, never energy.
+//
+// Threads: const after construction.   Errors: none.   Proved: tests/gi/gesture_test.cpp.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/scene/emitters.h"
+
+namespace ninefold {
+
+class LightStreams {
+ public:
+  // `begun`: the lamps that a gesture began with; null at rest.
+  LightStreams(const Emitters& now, const Emitters* begun);
+
+  size_t count() const { return streams_.size(); }
+  // The emitter that sample u of a stream takes; nothing if it is off now.
+  std::optional<Distribution::Choice> choose(size_t stream, float u) const;
+  // With which an emitter is chosen in its stream.
+  float probability(uint32_t emitter) const;
+  // Of a stream, where the first has n.
+  int samples(size_t stream, int n) const;
+  // Streams share no random numbers.
+  static uint64_t seedOf(size_t stream, uint64_t seed);
+
+ private:
+  struct Stream {
+    Distribution choice;
+    std::vector<int> emitters;  // by place in `choice`; -1: off now
+  };
+  struct Place {
+    uint32_t stream = 0, place = 0;
+  };
+  std::vector<Stream> streams_;
+  std::vector<Place> places_;  // by emitter
+  double secondOverFirst_ = 0;
+};
+
+}  // namespace ninefold
