@@ -8,28 +8,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <utility>
+
+#include "common/base/descriptor.h"
 
 namespace ninefold {
 namespace {
 
 constexpr int kReceiveDeadlineMs = 5000;
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  explicit operator bool() const { return fd_ >= 0; }
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-
- private:
-  int fd_;
-};
 
 std::string systemText() { return std::strerror(errno); }
 

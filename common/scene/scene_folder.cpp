@@ -9,26 +9,13 @@
 #include <cerrno>
 #include <cstring>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
 
 namespace ninefold {
 namespace {
 
 namespace fs = std::filesystem;
-
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
 
 // "http:", "file:", "data:" ..., and Windows' drive letters.
 bool hasScheme(std::string_view reference) {
