@@ -6,6 +6,8 @@
 namespace ninefold {
 namespace {
 
+constexpr size_t kDigits = 10;
+
 Vec3 at(const RgbPlane& plane, size_t i) { return Vec3(plane.r[i], plane.g[i], plane.b[i]); }
 
 void put(RgbPlane& plane, size_t i, Vec3 v) {
@@ -38,6 +40,18 @@ std::optional<PictureView> viewNamed(const std::string& name) {
   const auto found = std::ranges::find(kViewNames, name);
   if (found == kViewNames.end()) return std::nullopt;
   return static_cast<PictureView>(found - kViewNames.begin());
+}
+
+std::optional<PictureView> viewOfKey(int digit, bool shift) {
+  const size_t view = static_cast<size_t>(digit == 0 ? 9 : digit - 1) + (shift ? kDigits : 0);
+  if (view >= kViewNames.size()) return std::nullopt;
+  return static_cast<PictureView>(view);
+}
+
+std::string keyOf(PictureView view) {
+  const auto place = static_cast<size_t>(view);
+  const std::string digit = std::to_string((place + 1) % kDigits);
+  return place < kDigits ? digit : "Shift+" + digit;
 }
 
 uint8_t planesOf(PictureView view) {

@@ -44,6 +44,11 @@ inline constexpr std::array kViewNames{"beauty", "albedo",   "normal",   "depth"
 inline const char* nameOf(PictureView view) { return kViewNames[static_cast<size_t>(view)]; }
 std::optional<PictureView> viewNamed(const std::string& name);
 
+// Number keys in their order on the keyboard, 1 .. 9, 0, are the first ten views; with Shift, from 1 on, those
+// beyond. Nothing where there are no more.
+std::optional<PictureView> viewOfKey(int digit, bool shift);
+std::string keyOf(PictureView view);  // "7", "Shift+1"
+
 inline constexpr float kDepthShownWhite = 2;  // in radii of the scene
 
 // Extra planes, and settings, that a task needs for it.

@@ -88,7 +88,9 @@ void WindowInput::onPress(int key, const Modifiers& modifiers, CameraControl&) {
     if (key == 'Q') say(Kind::close);
     return;
   }
-  if (isDigit(key)) say(Kind::view, static_cast<float>(key - '0'));
+  if (isDigit(key))
+    if (const auto view = viewOfKey(key - '0', modifiers.shift))
+      commands_.push_back({Kind::view, pointer_, dragMode(modifiers_), 0, *view});
   switch (key) {
     case '[':
       return say(Kind::exposure, -kExposureStep);
@@ -118,7 +120,7 @@ void WindowInput::onPress(int key, const Modifiers& modifiers, CameraControl&) {
 }
 
 void WindowInput::say(Command::Kind kind, float amount) {
-  commands_.push_back({kind, pointer_, dragMode(modifiers_), amount});
+  commands_.push_back({kind, pointer_, dragMode(modifiers_), amount, {}});
 }
 
 DragMode WindowInput::dragMode(const Modifiers& modifiers) const {
@@ -162,7 +164,7 @@ void WindowInput::onMove(const WindowEvent& event, float height, CameraControl& 
   if (!left_) return;
   if (!dragging_ && glm::length(pointer_ - pressedAt_) >= kClick) {
     dragging_ = true;
-    commands_.push_back({Command::Kind::dragBegin, pressedAt_, dragMode(modifiers_), 0});
+    commands_.push_back({Command::Kind::dragBegin, pressedAt_, dragMode(modifiers_), 0, {}});
   }
   if (dragging_) say(Command::Kind::drag);
 }

@@ -5,7 +5,7 @@
 //   right button       look around     middle button: orbit about the pivot; with Shift: pan
 //   left button        a click selects, a drag moves what is selected (Control: up and down,
 //                      X Y Z held: along that axis, R held: turns)
-//   1 .. 9, 0          views           [ ]: exposure
+//   1 .. 9, 0, Shift+1, Shift+2   views (view.h)                     [ ]: exposure
 //   F  frame the selection             Home: the first view again    C: the scene's next camera
 //   L  lamp on or off                  Escape: select nothing
 //   Control+Z, Y       undo, redo      Control+S: save the scene     P: picture into a file
@@ -19,6 +19,7 @@
 
 #include "master/camera_control.h"
 #include "master/drag.h"
+#include "master/view.h"
 #include "master/window_events.h"
 
 namespace ninefold {
@@ -29,7 +30,7 @@ struct Command {
     dragBegin,  // of the selection, at `pointer`
     drag,       // to `pointer`
     dragEnd,
-    view,      // number `amount`, counted as on the keyboard: 1 .. 9, 0
+    view,      // `view`
     exposure,  // by `amount` [EV]
     frameSelection,
     reset,
@@ -49,6 +50,7 @@ struct Command {
   Vec2 pointer{0};
   DragMode mode = DragMode::ground;
   float amount = 0;
+  PictureView view = PictureView::beauty;
 };
 
 class WindowInput {

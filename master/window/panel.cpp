@@ -73,11 +73,19 @@ void drawLight(const PanelView& view, PanelChanges& changes) {
   changes.settings = s;
 }
 
+void drawViews(const PanelView& view, PanelChanges& changes) {
+  if (!ImGui::BeginCombo("view", nameOf(view.view))) return;
+  for (size_t i = 0; i < kViewNames.size(); ++i) {
+    const auto each = static_cast<PictureView>(i);
+    const std::string text = fmt::format("{}  [{}]", nameOf(each), keyOf(each));
+    if (ImGui::Selectable(text.c_str(), each == view.view)) changes.view = each;
+  }
+  ImGui::EndCombo();
+}
+
 void drawPicture(const PanelView& view, PanelChanges& changes) {
   if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  int look = static_cast<int>(view.view);
-  if (ImGui::Combo("view", &look, kViewNames.data(), static_cast<int>(kViewNames.size())))
-    changes.view = static_cast<PictureView>(look);
+  drawViews(view, changes);
   float exposure = view.exposure, target = view.target;
   slide(ImGui::SliderFloat("exposure", &exposure, -8, 8, "%.1f EV"), changes.exposure, exposure);
   slide(ImGui::SliderFloat("frame in motion", &target, 20, 500, "%.0f ms"), changes.target, target);

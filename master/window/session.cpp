@@ -14,9 +14,6 @@ namespace {
 constexpr Duration kIdle = milliseconds(100);  // between two looks when nothing happens
 constexpr Duration kMoving = milliseconds(8);  // while keys are held or a script plays
 
-// Numbers 1 .. 9, 0 as they stand on the keyboard.
-PictureView viewOfDigit(int digit) { return static_cast<PictureView>(digit == 0 ? 9 : digit - 1); }
-
 std::string progressOf(const Cluster& cluster, double& done) {
   done = 0.5;
   for (const ClientInfo& client : cluster.clients())
@@ -143,7 +140,7 @@ void WindowSession::carryOut(const Command& command) {
     case Kind::dragEnd:
       return editor_->endDrag();
     case Kind::view:
-      return show(viewOfDigit(static_cast<int>(command.amount)));
+      return show(command.view);
     case Kind::exposure:
       return board_.expose(board_.exposure() + command.amount);
     case Kind::reset:

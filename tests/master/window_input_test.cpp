@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 namespace ninefold {
 namespace {
 
@@ -73,6 +75,22 @@ TEST_F(WindowInputTest, TheWheelChangesTheSpeedAndWithControlTheDistance) {
   EXPECT_NE(camera.camera().eye, eye);
 }
 
+TEST_F(WindowInputTest, EveryViewHasANumberKeyOfItsOwn) {
+  std::multiset<PictureView> reached;
+  for (const bool shift : {false, true})
+    for (const char digit : std::string("1234567890")) {
+      Modifiers modifiers;
+      modifiers.shift = shift;
+      for (const Command& command : press(digit, modifiers)) {
+        ASSERT_EQ(command.kind, Kind::view);
+        reached.insert(command.view);
+        EXPECT_EQ(keyOf(command.view), (shift ? "Shift+" : "") + std::string(1, digit));
+      }
+    }
+  for (size_t i = 0; i < kViewNames.size(); ++i)
+    EXPECT_EQ(reached.count(static_cast<PictureView>(i)), 1u) << kViewNames[i];
+}
+
 TEST_F(WindowInputTest, ClickSelectsAndDragDoesNot) {
   button(Button::left, true, Vec2(100, 100));
   EXPECT_TRUE(move(Vec2(102, 101)).empty()) << "a hand trembles";
@@ -118,7 +136,7 @@ TEST_F(WindowInputTest, ButtonsTurnTheCamera) {
 
 TEST_F(WindowInputTest, KeysGiveTheirCommands) {
   EXPECT_EQ(press('3').at(0).kind, Kind::view);
-  EXPECT_EQ(press('3').at(0).amount, 3);
+  EXPECT_EQ(press('3').at(0).view, PictureView::normal);
   EXPECT_EQ(press(']').at(0).amount, WindowInput::kExposureStep);
   EXPECT_EQ(press('Z', {.control = true}).at(0).kind, Kind::undo);
   EXPECT_EQ(press('Z', {.shift = true, .control = true}).at(0).kind, Kind::redo);

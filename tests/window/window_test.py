@@ -100,7 +100,8 @@ class WindowTest(unittest.TestCase):
             self.until(lambda p: p.difference(first) < CALM, "the first exposure again")
 
         with self.subTest("views"):
-            for key, name in (("2", "albedo"), ("3", "normal"), ("4", "depth"), ("8", "sets")):
+            for key, name in (("2", "albedo"), ("3", "normal"), ("4", "depth"), ("8", "sets"), ("shift+1", "objects"),
+                              ("shift+2", "weights")):
                 self.screen.key(key)
                 self.until(lambda p: p.difference(first) > 8, name, f"view_{name}")
             self.screen.key("1")
