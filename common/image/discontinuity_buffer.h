@@ -10,34 +10,23 @@
 // constant E comes out bit for bit. The sum runs over the window row by row, so that the result is
 // the same however tiles are shared out.
 //
-// Works on a patch. All its planes have the same shape, so that each position of the window is
-// another phase's plane shifted by a constant, and a phase is filtered as one long row: what this
-// computes in the border is never looked at.
+// Works on a patch, a phase as one long row: what this computes in the border is never looked at.
 //
 // Source:  Keller and Heidrich 2001; Wald et al. 2002.
 // Proved:  tests/image/discontinuity_buffer_test.cpp.
-// Threads: one at a time. Memory: 4 floats per pixel of a patch, taken by the first guide().
+// Threads: one at a time.
 #pragma once
 
-#include "common/image/patch.h"
-#include "common/image/surface_test.h"
-#include "common/math/camera.h"
+#include "common/image/surface_links.h"
 
 namespace ninefold {
 
-// SurfaceGuide of each pixel of a phase.
-struct GuidePlanes {
-  std::vector<float> u, gradX, gradY, slack;
-
-  void resize(size_t n) { u.resize(n), gradX.resize(n), gradY.resize(n), slack.resize(n); }
-};
-
 class DiscontinuityBuffer {
  public:
-  explicit DiscontinuityBuffer(SurfaceTest test) : test_(test) {}
+  explicit DiscontinuityBuffer(SurfaceTest test) : links_(test) {}
 
-  // Prepares the first layer's surface test. Once for each patch.
-  void guide(const Patch& patch, const Camera& camera);
+  // Finds where the surface goes on. Once for each patch, before the others.
+  void prepare(const Patch& patch, const Camera& camera) { links_.connect(patch, camera); }
 
   // Filters E of a layer for one phase's pixels into `out`, a plane of the patch's shape.
   // neighbourWeight in [0, 1]: 1 filters fully, 0 copies.
@@ -48,12 +37,12 @@ class DiscontinuityBuffer {
               std::vector<float>& out) const;
 
  private:
-  // Calls take(index of the first pixel, E_0, sums over the window) for each run of pixels.
+  struct Sums;
+  // Calls take(index of the first pixel, sums over the window) for each kLanes pixels.
   template <typename Take>
   void sum(const Patch& patch, int layer, int phase, float weight, const Take& take) const;
 
-  const SurfaceTest test_;
-  std::vector<GuidePlanes> guides_;  // per phase; none for the paper's test
+  SurfaceLinks links_;
 };
 
 }  // namespace ninefold

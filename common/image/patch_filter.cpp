@@ -17,7 +17,7 @@ void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighb
                           RgbImage& beauty) {
   beauty.reset(patch.width(), patch.height());
   irradiance_.resize(static_cast<size_t>(patch.phases()));
-  buffer_.guide(patch, camera);
+  buffer_.prepare(patch, camera);
   for (int layer = 0; layer < kLayers; ++layer) {
     if (!hasLayer(patch.layerMask(), layer)) continue;
     for (int phase = 0; phase < patch.phases(); ++phase)

@@ -23,7 +23,7 @@ class Filtered {
     plane.resize(Patch::kPixels);
     for (int tile = 0; tile < grid.tiles(); ++tile) {
       fill(patch, frame, tile);
-      buffer.guide(patch, camera());
+      buffer.prepare(patch, camera());
       for (int p = 0; p < grid.interleave().sets(); ++p) {
         buffer.filter(patch, layer, p, weight, plane);
         forEachInner(patch, p, [&](size_t i, int x, int y) {
