@@ -139,8 +139,19 @@ void Cluster::wake() {
 }
 
 void Cluster::decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed) {
-  loop_.post([this, tile = std::move(tile), malformed] {
-    server_.decoded(tile, malformed, Clock::now());
+  {
+    const std::lock_guard lock(mutex_);
+    decoded_.push_back({std::move(tile), malformed});
+    if (decoded_.size() > 1) return;  // the loop has been told
+  }
+  loop_.post([this] {
+    std::vector<Decoded> all;
+    {
+      const std::lock_guard lock(mutex_);
+      all.swap(decoded_);
+    }
+    const Time now = Clock::now();
+    for (const Decoded& d : all) server_.decoded(d.tile, d.malformed, now);
   });
 }
 

@@ -13,6 +13,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "master/local_clients.h"
 #include "master/server.h"
@@ -81,6 +82,11 @@ class Cluster {
   std::optional<Time> firstDispatch_;   // guarded by mutex_
   std::vector<ClientInfo> clients_;     // guarded by mutex_
   ServerTally tally_;                   // guarded by mutex_
+  struct Decoded {
+    ReceivedTile tile;
+    std::optional<std::string> malformed;
+  };
+  std::vector<Decoded> decoded_;  // guarded by mutex_; what the loop has not seen yet
 
   std::thread thread_;
 };

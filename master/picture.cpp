@@ -6,23 +6,23 @@ namespace ninefold {
 void gather(const GatheredFrame& frame, int tile, Patch& patch) {
   const FrameShape& shape = frame.view.shape;
   patch.reset(shape, tile);
-  uint8_t bright = 0;
+  uint8_t bright = 0, glowing = 0;
   const auto forEachTask = [&](const auto& f) {
     forEachAround(shape.grid, tile, 1, [&](int around) {
       for (int phase = 0; phase < patch.phases(); ++phase) f(around, phase);
     });
   };
   forEachTask([&](int around, int phase) {
-    for (int layer = 0; layer < kLayers; ++layer)
-      if (hasLayer(shape.layerMask, layer) && !frame.task(around, phase).isBlack(layer))
-        bright = static_cast<uint8_t>(bright | 1u << layer);
+    bright |= frame.task(around, phase).bright();
+    glowing |= frame.task(around, phase).glowing();
   });
   patch.lighten(bright);
+  patch.setGlow(glowing);
   forEachTask([&](int around, int phase) {
-    const Patch::Overlap part = patch.overlap(shape.grid.rect(around, phase));
+    const Patch::Overlap part = patch.overlap(phase, shape.grid.rect(around, phase));
     frame.task(around, phase)
-        .copy({part.fromI, part.fromJ, part.to, part.width, part.height}, bright, Patch::kSide,
-              patch.phase(phase));
+        .copy({part.fromI, part.fromJ, part.to, part.width, part.height}, bright, glowing,
+              Patch::kSide, patch.phase(phase));
   });
 }
 

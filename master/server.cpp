@@ -55,7 +55,7 @@ void Server::closed(ClientId id, const std::string& reason) {
   if (!isClosing() && !peer.second.session->over()) {
     peer.second.session->disconnected();
     lost(peer, reason, Clock::now());
-    dispatch(Clock::now());
+    dispatchSoon();
   }
   peer.second.connection.reset();
 }
@@ -66,7 +66,7 @@ void Server::withPeer(ClientId id, Event event) {
   const Time now = Clock::now();
   event(*found->second.session, now);
   carryOut(*found, now);
-  dispatch(now);
+  dispatchSoon();
 }
 
 void Server::carryOut(Handle& peer, Time now) {
@@ -140,7 +140,7 @@ void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>&
     ++tally_.malformed;
     peer->second.session->expel(*malformed);
     carryOut(*peer, now);
-    return dispatch(now);
+    return dispatchSoon();
   }
   const Duration cost = std::chrono::nanoseconds(tile.result.busyNs);
   const Verdict verdict = scheduler_.resultArrived(tile.client, taskOf(tile.result), cost, now);
@@ -149,7 +149,7 @@ void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>&
     tally_.lastCompletion = now;
     open_.erase(tile.result.frame);
   }
-  dispatch(now);
+  dispatchSoon();
 }
 
 void Server::supersede(uint32_t firstWanted, Time now) {
@@ -169,6 +169,16 @@ void Server::tick(Time now) {
     carryOut(peer, now);
   }
   dispatch(now);
+}
+
+// Once for all that the loop has at hand: many results often come together.
+void Server::dispatchSoon() {
+  if (std::exchange(dispatchWaits_, true)) return;
+  loop_.post([this, weak = std::weak_ptr(alive_)] {
+    if (weak.expired()) return;
+    dispatchWaits_ = false;
+    dispatch(Clock::now());
+  });
 }
 
 void Server::dispatch(Time now) {

@@ -108,6 +108,7 @@ class Server {
   void on(Handle& peer, todo::Finish&& a, Time now);
   void lost(Handle& peer, const std::string& reason, Time now);
 
+  void dispatchSoon();
   void dispatch(Time now);
   void letJoin(Time now);
   void announce(const FrameOrder& order);
@@ -126,7 +127,9 @@ class Server {
   ClientId nextId_ = 1;
   bool started_ = false;  // waitClients were ready once
   ServerTally tally_;
-  std::unique_ptr<Listener> listener_;  // null once the server closes
+  bool dispatchWaits_ = false;                                    // in the loop
+  const std::shared_ptr<char> alive_ = std::make_shared<char>();  // for what waits in the loop
+  std::unique_ptr<Listener> listener_;                            // null once the server closes
 };
 
 }  // namespace ninefold

@@ -23,6 +23,8 @@ class SecureSocket {
   // Proves both sides to each other. The peer may use kHandshakeBytes for that. On failure the peer
   // is told why.
   asio::awaitable<void> handshake();
+  // Plain bytes that the network has already brought; 0 if there are none.
+  size_t readReceived(std::span<std::byte> into) { return tls_.read(into); }
   // Plain bytes; 0 when the peer has ended its side in order.
   asio::awaitable<size_t> read(std::span<std::byte> into);
   // Queues plain bytes for flush().

@@ -13,6 +13,13 @@ size_t sizeOf(const Frame& frame) {
   return kFrameHeadBytes + frame.header.size() + frame.payload.size();
 }
 
+void append(const Frame& frame, Bytes& out) {
+  const auto add = [&out](ByteView bytes) { out.insert(out.end(), bytes.begin(), bytes.end()); };
+  add(frameHead(frame));
+  add(viewOf(frame.header));
+  add(frame.payload);
+}
+
 }  // namespace
 
 TcpConnection::TcpConnection(asio::io_context& io, std::shared_ptr<SecureSocket> socket, Peer other,
@@ -90,11 +97,9 @@ asio::awaitable<void> TcpConnection::writeFrames() {
   while (!isClosed_) {
     size_t bytes = 0;
     const std::deque<Frame> batch = takeBatch(bytes);
-    for (const Frame& frame : batch) {
-      socket_->write(frameHead(frame));
-      socket_->write(viewOf(frame.header));
-      socket_->write(frame.payload);
-    }
+    for (const Frame& frame : batch) append(frame, plain_);
+    socket_->write(plain_);  // at once: few, full records of TLS
+    plain_.clear();
     if (socket_->hasOutput()) {
       const auto moved = [this] { writeDeadline_ = Clock::now() + options_.write; };
       moved();
@@ -134,7 +139,9 @@ void TcpConnection::heard(Frame&& frame) {
 
 asio::awaitable<void> TcpConnection::readFrames() {
   while (!isClosed_) {
-    const size_t got = co_await socket_->read(parser_.space());
+    // What is there already takes no waiting.
+    size_t got = socket_->readReceived(parser_.space());
+    if (got == 0) got = co_await socket_->read(parser_.space());
     if (got == 0) break;
     std::optional<Frame> frame = parser_.filled(got);
     if (heardFirst_ || frame) readDeadline_ = Clock::now() + options_.silence;

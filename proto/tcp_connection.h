@@ -55,6 +55,7 @@ class TcpConnection : public Connection, public std::enable_shared_from_this<Tcp
 
   // The loop's thread only.
   Events events_;
+  Bytes plain_;  // of the batch that is being written
   FrameParser parser_{messageLimit};
   asio::steady_timer wakeWriter_, wakeWatch_;
   bool started_ = false, isClosed_ = false, heardFirst_ = false;

@@ -157,6 +157,7 @@ UnpackedTile TileDecoder::unpack(Bytes&& bytes, const TileShape& expected) {
   if (pixels > 0) {
     TileResult shape;
     shape.layerMask = expected.layerMask, shape.extraMask = expected.extraMask;
+    tile.fields_.reserve(3 * kFieldsOfLayer + 5);
     FieldOpener opener(expected.width, static_cast<size_t>(pixels), fields, tile.fields_,
                        tile.flat_);
     if (expected.layerMask == 0)
@@ -165,26 +166,34 @@ UnpackedTile TileDecoder::unpack(Bytes&& bytes, const TileShape& expected) {
       forEachField(opener, shape);
   }
   fields.expectEnd();
+  tile.findLight();
   return tile;
 }
 
-bool UnpackedTile::isBlack(int layer) const {
-  if (fields_.empty()) return true;
-  size_t first = 0;
-  for (int before = 0; before < layer; ++before)
-    first += hasLayer(layerMask_, before) ? kFieldsOfLayer : 0;
-  return fields_[first].isZero() && fields_[first + 1].isZero() && fields_[first + 2].isZero();
+void UnpackedTile::findLight() {
+  if (fields_.empty()) return;
+  const FieldView* field = fields_.data();
+  for (int layer = 0; layer < kLayers; ++layer) {
+    if (!hasLayer(layerMask_, layer)) continue;
+    const auto bit = static_cast<uint8_t>(1u << layer);
+    if (!field[2].isZero()) glowing_ |= bit;
+    if (!field[0].isZero() || !field[1].isZero() || !field[2].isZero()) bright_ |= bit;
+    field += kFieldsOfLayer;
+  }
 }
 
-void UnpackedTile::copy(const Part& part, uint8_t layers, int stride, TileResult& out) const {
+void UnpackedTile::copy(const Part& part, uint8_t layers, uint8_t glowing, int stride,
+                        TileResult& out) const {
   if (part.width <= 0 || part.height <= 0) return;
   FieldCopier copier(fields_.data(), {static_cast<size_t>(part.fromJ * width_ + part.fromI),
                                       static_cast<size_t>(width_), static_cast<size_t>(part.to),
                                       static_cast<size_t>(stride), part.width, part.height});
   for (int layer = 0; layer < kLayers; ++layer) {
     if (!hasLayer(out.layerMask, layer)) continue;
+    LayerPlanes& planes = out.layers[static_cast<size_t>(layer)];
+    copier.leaveOut(hasLayer(glowing, layer) ? nullptr : &planes.unfiltered);
     if (hasLayer(layers, layer))
-      forEachFieldOfLayer(copier, out.layers[static_cast<size_t>(layer)]);
+      forEachFieldOfLayer(copier, planes);
     else
       copier.skip(kFieldsOfLayer);
   }

@@ -23,7 +23,6 @@
 // Errors: encode CHECKs its limits; decode throws Error on anything malformed, before it allocates.
 #pragma once
 
-#include <deque>
 #include <memory>
 
 #include "common/image/image.h"
@@ -77,27 +76,29 @@ class UnpackedTile {
   int width() const { return width_; }
   int height() const { return height_; }
   size_t bytes() const { return bytes_.size(); }
-  // Reflectance, E and U of a layer are 0 everywhere.
-  bool isBlack(int layer) const;
+  // Layers that have reflectance, E or U anywhere; those that have U.
+  uint8_t bright() const { return bright_; }
+  uint8_t glowing() const { return glowing_; }
 
   // Decodes a part of some layers, and of all extra planes, into the planes of `out`, which has the
-  // same layers and extras. Rows of `out` hold `stride` pixels.
+  // same layers and extras; U only of those that glow. Rows of `out` hold `stride` pixels.
   struct Part {
     int fromI = 0, fromJ = 0;  // first pixel in the tile
     int to = 0;                // its index in out's planes
     int width = 0, height = 0;
   };
-  void copy(const Part& part, uint8_t layers, int stride, TileResult& out) const;
+  void copy(const Part& part, uint8_t layers, uint8_t glowing, int stride, TileResult& out) const;
   // All of a tile of radiance; sets the shape of `out`.
   void copyRadiance(RgbImage& out) const;
 
  private:
   friend class TileDecoder;
+  void findLight();
   int width_ = 0, height_ = 0;
-  Bytes bytes_;                            // what the fields' planes point into
-  std::deque<std::vector<uint8_t>> flat_;  // and these
+  Bytes bytes_;                             // what the fields' planes point into
+  std::vector<std::vector<uint8_t>> flat_;  // and these
   std::vector<FieldView> fields_;
-  uint8_t layerMask_ = 0;
+  uint8_t layerMask_ = 0, bright_ = 0, glowing_ = 0;
 };
 
 class TileDecoder {

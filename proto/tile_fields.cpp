@@ -222,6 +222,7 @@ void FieldCopier::fraction(RgbPlane& values, float top) {
 }
 
 void FieldCopier::light(RgbPlane& values) {
+  if (&values == leftOut_) return skip(1);
   float *r = values.r.data(), *g = values.g.data(), *b = values.b.data();
   forEachPixel<4>(
       *next_++, part_,

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 
 #include "common/image/layers.h"
 #include "common/math/units.h"
@@ -107,7 +106,7 @@ class FieldOpener {
  public:
   // `flat` gets the constant planes of fields that are not constant as a whole.
   FieldOpener(int width, size_t pixels, MutableReader& in, std::vector<FieldView>& fields,
-              std::deque<std::vector<uint8_t>>& flat)
+              std::vector<std::vector<uint8_t>>& flat)
       : width_(static_cast<size_t>(width)),
         pixels_(pixels),
         in_(in),
@@ -126,7 +125,7 @@ class FieldOpener {
   const size_t width_, pixels_;
   MutableReader& in_;
   std::vector<FieldView>& fields_;
-  std::deque<std::vector<uint8_t>>& flat_;
+  std::vector<std::vector<uint8_t>>& flat_;
 };
 
 // Part of a tile: `width` x `height` pixels that begin at pixel `from` of its rows of `fromStride`,
@@ -148,9 +147,11 @@ class FieldCopier {
   void words(std::vector<uint32_t>& values);
 
   void skip(int fields) { next_ += fields; }
+  void leaveOut(const RgbPlane* light) { leftOut_ = light; }  // null: nothing
 
  private:
   const FieldView* next_;
+  const RgbPlane* leftOut_ = nullptr;
   const TilePart part_;
 };
 

@@ -4,7 +4,8 @@
 // They load the master and the network as real clients do, at any number, without a core for each.
 // With --pace recorded an answer takes as long as it took when recorded, light sets included: the
 // first task of each light set of a frame takes so much longer as it did on average in the
-// recording. Recorded frames repeat. One thread serves all of them.
+// recording; --slower makes all of it so many times as long, so that many clients need little of the
+// machine that they share with the master. Recorded frames repeat. One thread serves all of them.
 // Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
 
 #include <boost/program_options.hpp>
@@ -25,6 +26,7 @@ namespace po = boost::program_options;
 struct Options {
   std::string master, keyFile, recording, pace = "full";
   int clients = 1, threads = 1;
+  double slower = 1;
   bool help = false;
 };
 
@@ -87,6 +89,7 @@ class ReplayClient {
       : loop_(loop),
         recorded_(recorded),
         paced_(options.pace == "recorded"),
+        slower_(options.slower),
         number_(number),
         onEnd_(std::move(onEnd)),
         freeAt_(static_cast<size_t>(options.threads), Time{}) {}
@@ -146,7 +149,8 @@ class ReplayClient {
     const bool newSet = made_.emplace(frame.randomization, set).second;
     if (made_.size() > 256) made_.erase(made_.begin());
     result.setsMade = newSet ? 1 : 0;
-    const Duration cost = recorded_.work(*recorded) + (newSet ? recorded_.setTime() : Duration{0});
+    const Duration whole = recorded_.work(*recorded) + (newSet ? recorded_.setTime() : Duration{0});
+    const auto cost = std::chrono::duration_cast<Duration>(slower_ * whole);
     result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(cost).count());
     if (!paced_) {
       connection_->send(std::move(result));
@@ -169,6 +173,7 @@ class ReplayClient {
   EventLoop& loop_;
   const Recorded& recorded_;
   const bool paced_;
+  const double slower_;
   const int number_;
   const OnEnd onEnd_;
   std::shared_ptr<Connection> connection_;
@@ -251,6 +256,7 @@ int run(int argc, char** argv) {
       "clients", po::value(&o.clients), "how many, default 1")("threads", po::value(&o.threads),
                                                                "of each client, default 1")(
       "pace", po::value(&o.pace), "full: answer at once (default); recorded: as long as it took")(
+      "slower", po::value(&o.slower), "with --pace recorded: times as long; default 1")(
       "help,h", po::bool_switch(&o.help), "show this text");
   po::variables_map values;
   po::store(po::parse_command_line(argc, argv, flags), values);
@@ -266,6 +272,7 @@ int run(int argc, char** argv) {
     failUsage("--pace {}: must be full or recorded", o.pace);
   checkRange("clients", o.clients, 1, 1024);
   checkRange("threads", o.threads, 1, 1024);
+  checkRange("slower", o.slower, 1.0, 1000.0);
   return Replay(o).run();
 }
 

@@ -63,7 +63,8 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
   addLuminance(x0, y0, tile);
 }
 
-// To each pixel, and to the sums of the blocks, row by row within each block.
+// To each pixel, and to the sums of the blocks, row by row within each block. A row's blocks take
+// turns: an addition has to wait for the one before it to the same sum.
 void Film::addLuminance(int x0, int y0, const RgbImage& tile) {
   NINEFOLD_CHECK(x0 % kErrorBlock == 0 && y0 % kErrorBlock == 0);
   std::vector<float> row(static_cast<size_t>(tile.width));
@@ -71,10 +72,10 @@ void Film::addLuminance(int x0, int y0, const RgbImage& tile) {
     double* sum = &blockMeans_[pixelCount(blockColumns_, (y0 + y) / kErrorBlock) +
                                static_cast<size_t>(x0 / kErrorBlock)];
     if (y % kErrorBlock == 0) std::fill_n(sum, ceilDivide(tile.width, kErrorBlock), 0.0);
-    for (size_t x = 0; x < row.size(); ++x) {
-      row[x] = luminance(tile.rgb(tile.at(0, y) + x));
-      sum[x / kErrorBlock] += static_cast<double>(row[x]);
-    }
+    for (size_t x = 0; x < row.size(); ++x) row[x] = luminance(tile.rgb(tile.at(0, y) + x));
+    for (size_t column = 0; column < kErrorBlock; ++column)
+      for (size_t x = column; x < row.size(); x += kErrorBlock)
+        sum[x / kErrorBlock] += static_cast<double>(row[x]);
     const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
     if (keepsError_) pixels_.add(row, to, frames_);
   }

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "common/base/error.h"
+#include "common/sampling/whole_tile.h"
 
 namespace ninefold {
 namespace {
@@ -51,26 +52,28 @@ void Patch::reset(const FrameShape& frame, int tile) {
   const bool samePlanes = phases_.size() == sets && frame.layerMask == frame_.layerMask &&
                           frame.extraMask == frame_.extraMask;
   frame_ = frame;
-  dark_ = frame.layerMask;
+  dark_ = frame.layerMask, glowing_ = 0;
   i0_ = tile % grid.columns() * kTaskSide, j0_ = tile / grid.columns() * kTaskSide;
   x0_ = i0_ * grid.interleave().n, y0_ = j0_ * grid.interleave().m;
   width_ = std::min(grid.width() - x0_, kTaskSide * grid.interleave().n);
   height_ = std::min(grid.height() - y0_, kTaskSide * grid.interleave().m);
-  phases_.resize(sets), inner_.resize(sets);
+  phases_.resize(sets), inner_.resize(sets), reach_.resize(sets);
   for (size_t p = 0; p < sets; ++p) {
     inner_[p] = grid.rect(tile, static_cast<int>(p));
+    reach_[p] = rectWithBorder(grid, tile, static_cast<int>(p));
     if (!samePlanes) phases_[p].reset(kSide, kSide, frame.layerMask, frame.extraMask);
     for (LayerPlanes& layer : phases_[p].layers) std::ranges::fill(layer.distance, 0.0f);
   }
 }
 
-Patch::Overlap Patch::overlap(const TaskRect& rect) const {
-  const int i = std::max(rect.i0, i0_ - 1), j = std::max(rect.j0, j0_ - 1);
+Patch::Overlap Patch::overlap(int phase, const TaskRect& rect) const {
+  const TaskRect& wanted = reach_[static_cast<size_t>(phase)];
+  const int i = std::max(rect.i0, wanted.i0), j = std::max(rect.j0, wanted.j0);
   Overlap out;
   out.fromI = i - rect.i0, out.fromJ = j - rect.j0;
   out.to = (j - j0_ + 1) * kSide + (i - i0_ + 1);
-  out.width = std::max(0, std::min(rect.i0 + rect.width, i0_ + kTaskSide + 1) - i);
-  out.height = std::max(0, std::min(rect.j0 + rect.height, j0_ + kTaskSide + 1) - j);
+  out.width = std::max(0, std::min(rect.i0 + rect.width, wanted.i0 + wanted.width) - i);
+  out.height = std::max(0, std::min(rect.j0 + rect.height, wanted.j0 + wanted.height) - j);
   return out;
 }
 
@@ -80,11 +83,12 @@ void Patch::place(int phase, const TaskRect& rect, const TileResult& result) {
     fail("result of phase {}: {}x{} pixels, layers {}, planes {}; asked for were {}x{}, {}, {}",
          phase, result.width, result.height, result.layerMask, result.extraMask, rect.width,
          rect.height, layerMask(), extraMask());
-  const Overlap part = overlap(rect);
+  const Overlap part = overlap(phase, rect);
   if (part.width == 0) return;
   for (int layer = 0; layer < kLayers; ++layer)
     if (!isBlack(result.layers[static_cast<size_t>(layer)]))
       lighten(static_cast<uint8_t>(1u << layer));
+  setGlow(layerMask());
   forEachPlane(result, this->phase(phase), [&](const auto& from, auto& to) {
     for (int j = 0; j < part.height; ++j)
       std::copy_n(from.begin() + (part.fromJ + j) * rect.width + part.fromI, part.width,

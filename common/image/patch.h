@@ -6,7 +6,8 @@
 // lies outside the picture, or was not filled in, has distance 0: no x, so that the filter takes
 // nothing from there.
 //
-// A layer is dark until something is placed in it that is not black: then nothing of it counts.
+// A layer is dark until something is placed in it that is not black: then nothing of it counts. It
+// glows if it has U anywhere.
 //
 // Threads: plain data. Memory: of the first reset(); later ones of the same job take none.
 // Errors:  place() throws Error if the result has not the shape and planes of its rectangle.
@@ -35,13 +36,14 @@ class Patch {
   // Takes another tile; forgets all that was placed.
   void reset(const FrameShape& frame, int tile);
 
-  // The part of a rectangle of the phase's sub-plane that lies in the patch, border included.
+  // The part of a rectangle of the phase's sub-plane that lies in the patch, as far as the filter
+  // looks across the tile's border in this phase.
   struct Overlap {
     int fromI = 0, fromJ = 0;  // in the rectangle
     int to = 0;                // index in the patch's planes
     int width = 0, height = 0;
   };
-  Overlap overlap(const TaskRect& rect) const;
+  Overlap overlap(int phase, const TaskRect& rect) const;
 
   // Copies what overlaps of a rectangle's result, black layers excepted.
   void place(int phase, const TaskRect& rect, const TileResult& result);
@@ -50,6 +52,9 @@ class Patch {
   const TileResult& phase(int p) const { return phases_[static_cast<size_t>(p)]; }
   void lighten(uint8_t layers) { dark_ &= static_cast<uint8_t>(~layers); }
   bool isDark(int layer) const { return (dark_ >> layer & 1) != 0; }
+  // Whether U of a layer counts; where not, its planes are not to be read.
+  void setGlow(uint8_t layers) { glowing_ = layers; }
+  bool glows(int layer) const { return (glowing_ >> layer & 1) != 0; }
 
   // The tile's own sub-pixels of a phase.
   const TaskRect& inner(int p) const { return inner_[static_cast<size_t>(p)]; }
@@ -79,9 +84,9 @@ class Patch {
   FrameShape frame_;
   int i0_ = 0, j0_ = 0;
   int x0_ = 0, y0_ = 0, width_ = 0, height_ = 0;
-  uint8_t dark_ = 0;
+  uint8_t dark_ = 0, glowing_ = 0;
   std::vector<TileResult> phases_;
-  std::vector<TaskRect> inner_;
+  std::vector<TaskRect> inner_, reach_;  // by phase: without and with what is needed around it
 };
 
 // Are reflectance, E and U of a layer 0 everywhere?

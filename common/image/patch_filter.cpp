@@ -1,28 +1,90 @@
 #include "common/image/patch_filter.h"
 
+#include <tuple>
+
 namespace ninefold {
 namespace {
 
-// beauty += reflectance E' + U for one row of one channel, every `step`-th pixel.
-void composeRow(const float* reflectance, const float* irradiance, const float* unfiltered,
-                int width, int step, float* beauty) {
+// Old values may stay.
+void reshape(size_t pixels, RgbPlane& plane) {
+  for (auto* values : {&plane.r, &plane.g, &plane.b}) values->resize(pixels);
+}
+
+// sum += reflectance E' [+ U] of one channel.
+void addLight(const Patch& patch, const std::vector<float>& reflectance,
+              const std::vector<float>& irradiance, const std::vector<float>* unfiltered,
+              std::vector<float>& sum) {
+  constexpr int kFirst = Patch::kSide + 1;
+  const float *rho = reflectance.data(), *e = irradiance.data();
+  float* out = sum.data();
+  const int end = patch.inner(0).height * Patch::kSide + patch.inner(0).width + 1;
+  if (unfiltered == nullptr) {
 #pragma GCC ivdep
-  for (int i = 0; i < width; ++i)
-    beauty[i * step] += reflectance[i] * irradiance[i] + unfiltered[i];
+    for (int i = kFirst; i < end; ++i) out[i] += rho[i] * e[i];
+    return;
+  }
+  const float* u = unfiltered->data();
+#pragma GCC ivdep
+  for (int i = kFirst; i < end; ++i) out[i] += rho[i] * e[i] + u[i];
+}
+
+// out[x] = rows[x mod n][x / n]
+void interleave(const std::vector<const float*>& rows, int width, float* out) {
+  const int n = static_cast<int>(rows.size());
+  int x = 0;
+  if (n == 3) {  // the usual pattern, in vectors
+    const float *a = rows[0], *b = rows[1], *c = rows[2];
+#pragma GCC ivdep
+    for (int i = 0; i < width / 3; ++i)
+      out[3 * i] = a[i], out[3 * i + 1] = b[i], out[3 * i + 2] = c[i];
+    x = width / 3 * 3;
+  }
+  for (; x < width; ++x) out[x] = rows[static_cast<size_t>(x % n)][x / n];
 }
 
 }  // namespace
 
 void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighbourWeight,
                           RgbImage& beauty) {
-  beauty.reset(patch.width(), patch.height());
+  const auto [n, m] = patch.grid().interleave();
+  beauty.width = patch.width(), beauty.height = patch.height();
+  reshape(beauty.count(), beauty.pixels);
   irradiance_.resize(static_cast<size_t>(patch.phases()));
+  radiance_.resize(static_cast<size_t>(n));
+  reshape(Patch::kPixels, filtered_);
   buffer_.prepare(patch, camera);
-  for (int layer = 0; layer < kLayers; ++layer) {
-    if (!hasLayer(patch.layerMask(), layer)) continue;
-    for (int phase = 0; phase < patch.phases(); ++phase)
-      composeLayer(patch, layer, phase, neighbourWeight, beauty);
+  std::vector<const float*> rows(static_cast<size_t>(n));
+  for (int py = 0; py < m; ++py) {
+    for (int px = 0; px < n; ++px) {
+      RgbPlane& sum = radiance_[static_cast<size_t>(px)];
+      sum.resize(Patch::kPixels);
+      for (int layer = 0; layer < kLayers; ++layer)
+        if (hasLayer(patch.layerMask(), layer))
+          addLayer(patch, layer, py * n + px, neighbourWeight, sum);
+    }
+    for (int y = py; y < patch.height(); y += m)
+      for (const auto plane : {&RgbPlane::r, &RgbPlane::g, &RgbPlane::b}) {
+        for (size_t px = 0; px < rows.size(); ++px)
+          rows[px] = (radiance_[px].*plane).data() + (y / m + 1) * Patch::kSide + 1;
+        interleave(rows, patch.width(), &(beauty.pixels.*plane)[beauty.at(0, y)]);
+      }
   }
+}
+
+void PatchFilter::addLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
+                           RgbPlane& sum) {
+  const bool isKept = layer == kDiffuse && patch.extraMask() != 0;
+  RgbPlane& kept = irradiance_[static_cast<size_t>(phase)];
+  if (isKept) kept.resize(Patch::kPixels);
+  if (patch.isDark(layer)) return;
+  RgbPlane& filtered = isKept ? kept : filtered_;
+  buffer_.filter(patch, layer, phase, neighbourWeight, filtered);
+  const LayerPlanes& planes = patch.phase(phase).layers[static_cast<size_t>(layer)];
+  const auto& [rho, e, u] = std::tie(planes.reflectance, filtered, planes.unfiltered);
+  const bool glows = patch.glows(layer);
+  addLight(patch, rho.r, e.r, glows ? &u.r : nullptr, sum.r);
+  addLight(patch, rho.g, e.g, glows ? &u.g : nullptr, sum.g);
+  addLight(patch, rho.b, e.b, glows ? &u.b : nullptr, sum.b);
 }
 
 void PatchFilter::paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const {
@@ -38,33 +100,6 @@ void PatchFilter::paintShares(const Patch& patch, float neighbourWeight, RgbImag
       const float share = scatters ? shares[from] : 0;
       grey.pixels.r[to] = grey.pixels.g[to] = grey.pixels.b[to] = share;
     });
-  }
-}
-
-void PatchFilter::composeLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
-                               RgbImage& beauty) {
-  RgbPlane& filtered = layer == kDiffuse ? irradiance_[static_cast<size_t>(phase)] : filtered_;
-  if (patch.isDark(layer)) {
-    filtered.resize(Patch::kPixels);
-    return;
-  }
-  if (filtered.r.empty()) filtered.resize(Patch::kPixels);
-  buffer_.filter(patch, layer, phase, neighbourWeight, filtered);
-  const LayerPlanes& planes = patch.phase(phase).layers[static_cast<size_t>(layer)];
-  const Interleave pattern = patch.grid().interleave();
-  const TaskRect& inner = patch.inner(phase);
-  if (inner.count() == 0) return;
-  for (int j = 0; j < inner.height; ++j) {
-    const auto from = static_cast<size_t>((j + 1) * Patch::kSide + 1);
-    const size_t to = beauty.at(phase % pattern.n, phase / pattern.n + pattern.m * j);
-    const auto row = [&](const std::vector<float>& reflectance, const std::vector<float>& light,
-                         const std::vector<float>& unfiltered, std::vector<float>& out) {
-      composeRow(&reflectance[from], &light[from], &unfiltered[from], inner.width, pattern.n,
-                 &out[to]);
-    };
-    row(planes.reflectance.r, filtered.r, planes.unfiltered.r, beauty.pixels.r);
-    row(planes.reflectance.g, filtered.g, planes.unfiltered.g, beauty.pixels.g);
-    row(planes.reflectance.b, filtered.b, planes.unfiltered.b, beauty.pixels.b);
   }
 }
 

@@ -18,7 +18,8 @@ class PatchFilter {
   // Writes the tile's pixels; sets the shape of `beauty`.
   void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty);
 
-  // E' of the diffuse layer after compose, in the patch's planes.
+  // E' of the diffuse layer after compose, in the patch's planes; only if it has extra planes, for
+  // which this is another.
   const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }
 
   // After compose: into each of the tile's pixels, as grey, what share of the window the diffuse
@@ -26,12 +27,12 @@ class PatchFilter {
   void paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const;
 
  private:
-  void composeLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
-                    RgbImage& beauty);
+  void addLayer(const Patch& patch, int layer, int phase, float neighbourWeight, RgbPlane& sum);
 
   DiscontinuityBuffer buffer_;
   std::vector<RgbPlane> irradiance_;  // of the diffuse layer, by phase
-  RgbPlane filtered_;                 // of another layer
+  RgbPlane filtered_;                 // E' of one layer and phase
+  std::vector<RgbPlane> radiance_;    // of the phases of one row
 };
 
 }  // namespace ninefold

@@ -1,16 +1,14 @@
 """scripts/bench_client: the time of a frame's rays alone beside the client's whole time for that frame."""
 import argparse
-import json
 import os
 import statistics
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 from bench_lib import output  # noqa: E402  the path comes first
-from bench_lib.cluster import Failure, program, progress, scene_file  # noqa: E402
+from bench_lib.cluster import Failure, answer, program, progress, scene_file  # noqa: E402
 from report_lib.scenes import SHIPPED  # noqa: E402
 from report_lib.tables import Table  # noqa: E402
 
@@ -40,10 +38,7 @@ def parse(words):
 def run(scene, options, flags):
     command = [program("ninefold-client-benchmark"), scene_file(scene), "--size", options.size, "--frames",
                str(options.frames), "--level", "0", "--json", *flags]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise Failure(f"{' '.join(command)}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
+    return answer(command)
 
 
 def add_row(table, scene, plain, roulette):

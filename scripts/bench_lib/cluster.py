@@ -31,6 +31,14 @@ def scene_file(name):
     return os.path.join(ROOT, "scenes", name + ".glb")
 
 
+def answer(command):
+    """What a program that prints JSON says."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise Failure(f"{' '.join(command)}: {done.stderr.strip()}")
+    return json.loads(done.stdout)
+
+
 class Cluster:
     """Keeps a cluster key and recordings in a folder that goes away with it."""
 
@@ -77,11 +85,11 @@ class Cluster:
         file = os.path.join(self.folder, name + ".recording")
         return file, self.real(scene, [*arguments, "--frames", frames], 1, threads, file)
 
-    def replay(self, scene, arguments, recording, count, pace="full"):
+    def replay(self, scene, arguments, recording, count, pace="full", slower=1):
         """Clients that send a recording."""
         def clients(address):
             return [[program("ninefold-replay-client"), "--master", address, "--key-file", self.key,
-                     "--recording", recording, "--clients", str(count), "--pace", pace]]
+                     "--recording", recording, "--clients", str(count), "--pace", pace, "--slower", str(slower)]]
         return self.run(scene, [*arguments, "--local-clients", 0, "--wait-clients", count], clients)
 
 

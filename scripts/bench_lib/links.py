@@ -6,7 +6,7 @@ from bench_lib.cluster import Failure, ended, program
 
 MASTER, CLIENTS = "ninefold-bench-m", "ninefold-bench-c"
 ADDRESS = "10.77.0.1"  # the master's
-BURST = {100: "64kb", 1000: "256kb", 10000: "2mb"}  # tbf needs at least a timer tick's worth
+BURST = {20: "64kb", 100: "64kb", 1000: "256kb", 10000: "2mb"}  # tbf needs at least a timer tick's worth
 
 
 def sh(*words):

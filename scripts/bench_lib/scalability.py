@@ -1,9 +1,7 @@
 """scripts/bench_scalability: the paper's Table 1: scenes by numbers of clients."""
 import argparse
 import os
-import shlex
 import socket
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
@@ -11,6 +9,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 from bench_lib import output  # noqa: E402  the path comes first
 from bench_lib.cluster import Cluster, Failure, progress  # noqa: E402
+from bench_lib.hosts import Hosts  # noqa: E402
 from report_lib.tables import Table  # noqa: E402
 
 SCENES = ["table_room", "egg_room", "invisible_date", "office", "conference"]
@@ -24,6 +23,8 @@ def parse(words):
     parser.add_argument("--clients", nargs="+", type=int, default=CLIENTS)
     parser.add_argument("--size", default="640x480")
     parser.add_argument("--seconds", type=float, default=15, help="of one measurement, about")
+    parser.add_argument("--slower", type=float, default=1, metavar="F",
+                        help="replayed clients take F times as long, so that many leave the master its cores")
     parser.add_argument("--hosts", metavar="FILE",
                         help="real clients by ssh: a line for each, HOST [PROGRAM], PROGRAM being its ninefold-client; "
                              "an ssh key must be there, and this machine is reached by its host name")
@@ -36,40 +37,13 @@ def parse(words):
     return options
 
 
-class Hosts:
-    """Clients on other machines; the cluster key goes there by ssh and is removed again."""
-
-    def __init__(self, options, key):
-        with open(options.hosts, encoding="utf-8") as file:
-            lines = [line.split() for line in file if line.strip() and not line.startswith("#")]
-        self.hosts = [(words[0], words[1] if len(words) > 1 else "ninefold-client") for words in lines]
-        self.options, self.key = options, key
-
-    def __len__(self):
-        return len(self.hosts)
-
-    def clients(self, count):
-        def commands(_):
-            for host, remote in self.hosts[:count]:
-                # The key comes by standard input into a private file that goes away with the client.
-                script = ("f=$(mktemp) && trap 'rm -f \"$f\"' EXIT && cat > \"$f\" && "
-                          f"{shlex.quote(remote)} --master {self.options.address}:{self.options.port} --key-file \"$f\"")
-                yield ["sh", "-c", f"ssh -o BatchMode=yes {shlex.quote(host)} {shlex.quote(script)} "
-                                   f"< {shlex.quote(self.key)}"]
-        return commands
-
-    def run(self, cluster, scene, arguments, count):
-        return cluster.run(scene, [*arguments, "--local-clients", 0, "--wait-clients", count], self.clients(count),
-                           listen=f"0.0.0.0:{self.options.port}")
-
-
 def measure(cluster, options, scene, hosts):
     """Yields (count, kind, stats)."""
     size = ["--size", options.size, "--wire-level", "1"]
     progress(f"{scene}: one real client, recorded")
     recording, alone = cluster.record(scene, size, RECORDED, 1)
     for count in options.clients:
-        frames = max(3, round(options.seconds * alone["fps"] * count))
+        frames = max(3, round(options.seconds * alone["fps"] * count / options.slower))
         flags = [*size, "--frames", frames]
         progress(f"{scene}: {count} clients, {frames} frames")
         if hosts and count <= len(hosts):
@@ -77,7 +51,7 @@ def measure(cluster, options, scene, hosts):
         elif not hosts and count <= os.cpu_count():
             yield count, "real", cluster.real(scene, flags, count)
         if not hosts:
-            yield count, "replayed", cluster.replay(scene, flags, recording, count, "recorded")
+            yield count, "replayed", cluster.replay(scene, flags, recording, count, "recorded", options.slower)
     os.unlink(recording)
 
 
@@ -88,7 +62,7 @@ def main(words):
     series = {}
     try:
         with Cluster() as cluster:
-            hosts = Hosts(options, cluster.key) if options.hosts else None
+            hosts = Hosts(options.hosts, f"{options.address}:{options.port}", cluster.key) if options.hosts else None
             for scene in options.scenes:
                 base = {}
                 for count, kind, s in measure(cluster, options, scene, hosts):
@@ -112,7 +86,8 @@ def main(words):
         return 1
     output.write_table("bench_scalability", "Scenes by numbers of clients", table, (
         f"{options.size}, one thread a client. \"real\" and \"ssh\": clients that render. \"replayed\": NOT rendering:",
-        "they answer with what one real client of this machine gave, after the time that it took, light sets included.",
+        f"they answer with what one real client of this machine gave, after {options.slower:g} times the time that it took, "
+        "light sets included.",
         "Efficiency: frames a second for each client over that of the fewest clients of the same kind. Idle: of the",
         "clients' threads. On this machine real clients share the cores with the master."))
     output.plot_lines("bench_scalability", "scalability.png", series, "clients", "efficiency [%]",

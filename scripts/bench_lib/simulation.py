@@ -1,15 +1,13 @@
 """scripts/simulate_cluster: how well the scheduler uses 1 to 1,000 clients, without having them."""
 import argparse
-import json
 import os
-import subprocess
 import sys
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 from bench_lib import output  # noqa: E402  the path comes first
-from bench_lib.cluster import Failure, program, progress  # noqa: E402
+from bench_lib.cluster import Failure, answer, program, progress  # noqa: E402
 from report_lib.tables import Table  # noqa: E402
 
 CLIENTS = [1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000]
@@ -44,10 +42,7 @@ def simulate(options, story, count):
     command = [program("ninefold-simulate-cluster"), "--clients", str(count), "--frames", str(frames), "--size",
                options.size, "--task-ms", str(options.task_ms), "--set-ms", str(options.set_ms),
                "--frames-in-flight", str(options.frames_in_flight), *STORIES[story]]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise Failure(f"{' '.join(command)}: {done.stderr.strip()}")
-    return json.loads(done.stdout)
+    return answer(command)
 
 
 def main(words):

@@ -46,9 +46,9 @@ void fill(Patch& patch, const std::vector<UnpackedTile>& tasks) {
   patch.lighten(kDiffuseBit);
   for (int tile = 0; tile < 9; ++tile)
     for (int phase = 0; phase < 9; ++phase) {
-      const Patch::Overlap part = patch.overlap(kGrid.rect(tile, phase));
+      const Patch::Overlap part = patch.overlap(phase, kGrid.rect(tile, phase));
       tasks[static_cast<size_t>(phase)].copy(
-          {part.fromI, part.fromJ, part.to, part.width, part.height}, kDiffuseBit, Patch::kSide,
+          {part.fromI, part.fromJ, part.to, part.width, part.height}, kDiffuseBit, 0, Patch::kSide,
           patch.phase(phase));
     }
 }

@@ -61,7 +61,7 @@ class AssemblyTest : public testing::TestWithParam<int> {
         const TaskRect rect = kGrid.rect(around, phase);
         EXPECT_EQ(task.width(), rect.width);
         planes.reset(rect.width, rect.height, kDiffuseBit, 0);
-        task.copy({0, 0, 0, rect.width, rect.height}, kDiffuseBit, rect.width, planes);
+        task.copy({0, 0, 0, rect.width, rect.height}, kDiffuseBit, kDiffuseBit, rect.width, planes);
         for (const float e : planes.layers[0].irradiance.r)
           EXPECT_EQ(static_cast<int>(e * 1.01f) / 1000, number + 1);
       }

@@ -61,7 +61,8 @@ class TileMaker {
 inline TileResult decodeAll(const UnpackedTile& tile, const TileShape& shape) {
   TileResult out;
   out.reset(shape.width, shape.height, shape.layerMask, shape.extraMask);
-  tile.copy({0, 0, 0, shape.width, shape.height}, shape.layerMask, shape.width, out);
+  tile.copy({0, 0, 0, shape.width, shape.height}, shape.layerMask, shape.layerMask, shape.width,
+            out);
   return out;
 }
 inline TileResult decodeAll(ByteView bytes, const TileShape& shape) {

@@ -235,7 +235,7 @@ TEST(TileCodec, PartsAreThoseOfTheWhole) {
     const TileResult whole = decodeAll(unpacked, shape);
     TileResult part;
     part.reset(20, 20, kAllLayers, kAllExtraPlanes);
-    unpacked.copy({3, 2, 20 * 5 + 4, 9, 6}, kTransmissionBit, 20, part);
+    unpacked.copy({3, 2, 20 * 5 + 4, 9, 6}, kTransmissionBit, kTransmissionBit, 20, part);
     for (int j = 0; j < 20; ++j)
       for (int i = 0; i < 20; ++i) {
         const bool inside = i >= 4 && i < 13 && j >= 5 && j < 11;
