@@ -29,7 +29,9 @@ void append(std::string& text, int count, const char* what) {
 Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
     : remoteMayJoin_(setup.remoteMayJoin),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
-      local_(withMaster(std::move(setup.local), server_.endpoint())) {}
+      local_(withMaster(std::move(setup.local), server_.endpoint())) {
+  watchSignals();  // before anybody is told that the master listens
+}
 
 Cluster::~Cluster() {
   stop("the master ends");
@@ -37,7 +39,6 @@ Cluster::~Cluster() {
 }
 
 void Cluster::start() {
-  watchSignals();
   thread_ = std::thread([this] { run(); });
 }
 

@@ -54,7 +54,7 @@ TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
 TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
   const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
   const auto asRead = std::make_shared<const TracedScene>(read, Isa::automatic);
-  RandomEdits random(*read, 5);
+  RandomEdits random(*read, 6);
   SceneEdit settled;
   for (int i = 0; i < 10; ++i) merge(settled, random.next());
   const auto begun = std::make_shared<const TracedScene>(*asRead, settled);
