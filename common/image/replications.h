@@ -7,6 +7,7 @@
 //
 //   squared standard error of m   =   R/(R-1) sum_r (c_r/N)^2 (m_r - m)^2
 //
+// The film counts its own frames: they must come in order and without gaps, but may begin with any.
 // Below nine frames that is s^2/N. Frames that are all alike have an error of exactly 0.
 //
 // Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002 (replications of randomized points).

@@ -18,7 +18,7 @@ HEAD = ["scene", "whole [ms]", "light sets", "tiles", "encoding", "the rays alon
 NOTES = (
     "CPU time of one thread a frame, medians of rounds in which all runs take turns. Whole: light sets, tiles and encoding as a",
     "client on loopback does them. The rays alone: the very same rays once more, in the same calls, and nothing else. Ratio: rays",
-    "alone over whole, every virtual light asked. With roulette: whole frames as they are rendered (--vpl-roulette 4), and what",
+    "alone over whole, every virtual light asked. With roulette: whole frames as they are rendered (the default of --vpl-roulette), and what",
     "part of the time without is left.")
 
 
