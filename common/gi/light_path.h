@@ -67,7 +67,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -particle.direction, media);
     if (t.shader.neverEntered(p, media)) {  // it started inside: the light was taken for one in air
       particle.flux /= t.shader.squaredIndex(media);
-      media.enter(p.surface.material);
+      t.shader.enter(media, p.surface.material);
       particle.flux *= t.shader.squaredIndex(media);
     }
     particle.flux *= t.shader.attenuation(p, media, hit.t);

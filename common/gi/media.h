@@ -1,12 +1,11 @@
-// media.h: which solid transmitting materials a path is inside of, innermost last, so that nested
-// dielectrics (a glass ball in water) meet with the right relative index of refraction. Where two
-// overlap, the one entered last counts, and leaving the other one there changes nothing; where two
-// touch, both are crossed at once (tracing/contacts.h).
+// media.h: which solid transmitting materials a path is inside of, so that nested dielectrics (a glass
+// ball in water) meet with the right relative index of refraction. Where two overlap, the one of the
+// higher rank counts (solid_ranks.h), whatever came first on the path, and the surface of the other one
+// is not there; where two touch, both are crossed at once (tracing/contacts.h).
 //
-// Air (index 1) is around everything. Entering pushes a material, leaving removes its innermost
-// entry; leaving what was never entered (a light inside glass) changes nothing, so a light inside two
-// nested solids is taken for one in the inner solid alone. Deeper nests than kMaxNested forget the
-// outermost entry. Threads: plain value.
+// Air (index 1) is around everything. Leaving what was never entered (a light inside glass) changes
+// nothing, so a light inside two nested solids is taken for one in the inner solid alone. Of more than
+// kMaxNested solids those of the lowest ranks are forgotten. Threads: plain value.
 #pragma once
 
 namespace ninefold {
@@ -16,32 +15,37 @@ class MediumStack {
   static constexpr int kMaxNested = 4;
   static constexpr int kAir = -1;
 
-  // Material index of the innermost medium, or kAir.
-  int innermost() const { return count_ == 0 ? kAir : material_[count_ - 1]; }
+  // Material index of the medium that counts, or kAir.
+  int innermost() const { return count_ == 0 ? kAir : solids_[count_ - 1].material; }
 
   bool contains(int material) const {
     for (int i = 0; i < count_; ++i)
-      if (material_[i] == material) return true;
+      if (solids_[i].material == material) return true;
     return false;
   }
-  void enter(int material) {
+  void enter(int material, int rank) {
     if (count_ == kMaxNested) {
-      for (int i = 1; i < kMaxNested; ++i) material_[i - 1] = material_[i];
-      --count_;
+      if (rank <= solids_[0].rank) return;
+      removeAt(0);
     }
-    material_[count_++] = material;
+    int at = count_++;
+    for (; at > 0 && solids_[at - 1].rank > rank; --at) solids_[at] = solids_[at - 1];
+    solids_[at] = {material, rank};
   }
   void leave(int material) {
-    for (int i = count_ - 1; i >= 0; --i) {
-      if (material_[i] != material) continue;
-      for (int j = i + 1; j < count_; ++j) material_[j - 1] = material_[j];
-      --count_;
-      return;
-    }
+    for (int i = 0; i < count_; ++i)
+      if (solids_[i].material == material) return removeAt(i);
   }
 
  private:
-  int material_[kMaxNested] = {};
+  struct Solid {
+    int material, rank;
+  };
+  void removeAt(int at) {
+    for (int i = at + 1; i < count_; ++i) solids_[i - 1] = solids_[i];
+    --count_;
+  }
+  Solid solids_[kMaxNested] = {};  // by rising rank
   int count_ = 0;
 };
 

@@ -5,11 +5,9 @@
 namespace ninefold {
 namespace {
 
-// Solids around the eye: those whose back face a ray to the outside meets first, from the inside
-// out.
+// Solids around the eye: those whose back face a ray to the outside meets first.
 MediumStack mediaAround(const Transport& t, Vec3 eye) {
-  std::vector<int> outwards;
-  MediumStack entered;
+  MediumStack media, entered;
   Vec3 origin = eye;
   const Vec3 direction = glm::normalize(Vec3(0.3f, 0.9f, 0.2f));
   for (int i = 0; i < 64; ++i) {
@@ -19,16 +17,14 @@ MediumStack mediaAround(const Transport& t, Vec3 eye) {
     const bool fromFront = glm::dot(direction, s.geometricNormal) < 0;
     t.shader.forEachCrossed(s, fromFront, [&](int material, bool enters) {
       if (enters)
-        entered.enter(material);
+        t.shader.enter(entered, material);
       else if (entered.contains(material))
         entered.leave(material);
       else
-        outwards.push_back(material);
+        t.shader.enter(media, material);
     });
     origin = offsetOrigin(s, direction);
   }
-  MediumStack media;
-  for (auto it = outwards.rbegin(); it != outwards.rend(); ++it) media.enter(*it);
   return media;
 }
 

@@ -1,5 +1,6 @@
 #include "common/gi/shading.h"
 
+#include "common/gi/solid_ranks.h"
 #include "common/scene/needs.h"
 #include "common/scene/texture.h"
 
@@ -44,13 +45,16 @@ Reflectance MeanReflection::operator()(Vec3 f0, Vec3 f90, float alpha) const {
 }
 
 Shader::Shader(const Scene& scene) : scene_(&scene) {
-  for (const Material& m : scene.materials) {
+  const std::vector<int> ranks = solidRanks(scene);
+  for (size_t i = 0; i < scene.materials.size(); ++i) {
+    const Material& m = scene.materials[i];
     Prepared p;
+    p.rank = ranks[i];
     p.fixedEnds = !m.specularMap && !m.specularColorMap;
     if (p.fixedEnds) p.ends = dielectricEnds(m, {});
     p.fixedMean = p.fixedEnds && !m.metallicRoughnessMap;
     if (p.fixedMean) p.mean = coatReflection(p.ends, m.roughness * m.roughness);
-    p.transmits = m.transmission > 0 && m.metallic < 1;
+    p.transmits = transmits(m);
     p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
     p.specular = p.transmits || !p.folds || m.alphaMode == AlphaMode::blend;
     p.diffuse = mayBeDiffuseOf(m, p.folds);
@@ -149,9 +153,13 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   p.bsdf.alpha = alpha < kSmoothAlpha ? 0.0f : alpha;
   p.bsdf.thin = !m.solid;
   if (prepared.transmits) {
+    const int outside = before(p, media), inside = pass(p, media).innermost();
+    if (m.solid && inside == outside) {  // within another solid that counts
+      p.bsdf.passThrough = 1;
+      return p;
+    }
     fillTransmitting(p.bsdf, m, prepared, base, metallic, s);
-    p.bsdf.eta =
-        p.bsdf.thin ? m.ior : indexOf(pass(p, media).innermost()) / indexOf(before(p, media));
+    p.bsdf.eta = m.solid ? indexOf(inside) / indexOf(outside) : m.ior;
   } else {
     fillOpaque(p.bsdf, m, prepared, base, metallic, alpha, s);
   }
@@ -191,6 +199,10 @@ int Shader::before(const ShadingPoint& p, const MediumStack& media) const {
   return neverEntered(p, media) ? p.surface.material : media.innermost();
 }
 
+void Shader::enter(MediumStack& media, int material) const {
+  media.enter(material, materials_[static_cast<size_t>(material)].rank);
+}
+
 float Shader::squaredIndex(const MediumStack& media) const {
   const float n = indexOf(media.innermost());
   return n * n;
@@ -198,7 +210,7 @@ float Shader::squaredIndex(const MediumStack& media) const {
 
 MediumStack Shader::pass(const ShadingPoint& p, MediumStack media) const {
   forEachCrossed(p.surface, p.front, [&](int material, bool enters) {
-    enters ? media.enter(material) : media.leave(material);
+    enters ? enter(media, material) : media.leave(material);
   });
   return media;
 }

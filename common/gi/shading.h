@@ -75,6 +75,9 @@ class Shader {
   // The medium on wo's side.
   int before(const ShadingPoint& point, const MediumStack& media) const;
 
+  // Adds a solid to what a path is inside of.
+  void enter(MediumStack& media, int material) const;
+
   // The media after passing through the surface away from wo, and through all in contact with it.
   MediumStack pass(const ShadingPoint& point, MediumStack media) const;
 
@@ -117,6 +120,7 @@ class Shader {
     bool transmits = false;  // dielectric interface
     bool specular = false;   // keeps any S lobe
     bool diffuse = false;    // may have a D lobe
+    int rank = 0;            // among overlapping solids: solid_ranks.h
     Vec3 sigma{0};           // attenuation inside [1/m]
     float meanFresnel = 0;   // of a transmitting material's interface
     bool fixedEnds = false;  // no texture changes `ends`

@@ -61,8 +61,6 @@ uint8_t Needs::layerMask() const {
                               (transmission ? kTransmissionBit : 0));
 }
 
-bool transmits(const Material& m) { return m.transmission > 0 && m.metallic < 1; }
-
 bool foldsIntoDiffuse(const Scene& scene, const Material& m) {
   const float metallic = largestMetallic(scene, m);
   if (metallic == 0 && m.specular == 0) return true;

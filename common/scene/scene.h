@@ -73,6 +73,9 @@ struct Material {
   float attenuationDistance = std::numeric_limits<float>::infinity();  // [m]
 };
 
+// Whether light passes through: metals do not transmit.
+inline bool transmits(const Material& m) { return m.transmission > 0 && m.metallic < 1; }
+
 struct Mesh {
   std::string name;
   std::vector<Vec3> positions;

@@ -62,6 +62,23 @@ TEST(Agreement, GlassBallWithItsCaustic) {
   expectAgreement(room.b.build(), {.bias = 0.015, .frames = 48});
 }
 
+// What a ball floating half in water throws on the floor, seen from below the ball: particles come to it
+// from above, eye paths through the water, and both must find glass where the two overlap.
+TEST(Agreement, CausticOfABallHalfInWater) {
+  for (const bool ballFirst : {true, false}) {
+    Room room;
+    SceneBuilder& b = room.b;
+    const auto addBall = [&] {
+      b.sphere(b.material(testing::glass(1.5f)), Vec3(0, -0.4f, 0), 0.3f, 32);
+    };
+    if (ballFirst) addBall();
+    b.box(b.material(testing::glass(1.33f)), Vec3(-1), Vec3(1, -0.4f, 1), false);
+    if (!ballFirst) addBall();
+    b.camera(Vec3(0, -0.75f, 0), Vec3(0, -1, 0), 1.2f, Vec3(0, 0, 1));
+    expectAgreement(b.build(), {.bias = 0.015, .frames = 48});
+  }
+}
+
 TEST(Agreement, MirrorWallAndItsReflectedLight) {
   Room room;
   const int silver = room.b.material(testing::mirror(Vec3(0.9f)));

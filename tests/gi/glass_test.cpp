@@ -63,6 +63,16 @@ TEST(Glass, DoesNotCountAsAPathVertex) {
     }
 }
 
+// A bubble: the index of air, but a solid.
+TEST(Glass, BubblesInWaterAreInvisibleInAFurnace) {
+  expectUnchanged(
+      [](SceneBuilder& b) {
+        b.sphere(b.material(testing::glass(1.33f)), Vec3(0, -0.3f, 0), 0.5f, 32);
+        b.sphere(b.material(testing::glass(1.0f)), Vec3(0.05f, -0.3f, 0), 0.25f, 32);
+      },
+      kBall);
+}
+
 TEST(Glass, NestedBallsAreInvisibleInAFurnace) {
   expectUnchanged(
       [](SceneBuilder& b) {
@@ -72,7 +82,7 @@ TEST(Glass, NestedBallsAreInvisibleInAFurnace) {
       kBall);
 }
 
-// Two blocks that share a face, and two that overlap: where both are, the one entered last counts.
+// Two blocks that share a face, and two that overlap.
 TEST(Glass, TouchingAndOverlappingBlocksAreInvisibleInAFurnace) {
   for (const float end : {0.0f, 0.1f})
     expectUnchanged(
@@ -194,6 +204,35 @@ TEST(Glass, TouchingLayersBendAsOneStack) {
          Vec3(0, 0, 2 * w));
   for (const auto& e : testing::estimators(4))
     EXPECT_NEAR(seen(b, Vec3(0), t0, e.settings), direct, 0.015) << e.name;
+}
+
+// A layer of n1, 1 m thick, and one of n2, 2 m thick, overlap by half a metre. The thinner one is whole, so
+// light meets 1 m of n1 and 1.5 m of n2 as if they touched, whichever comes first on the way or in the
+// file.
+TEST(Glass, WhereTwoOverlapTheSmallerCounts) {
+  const double t0 = 0.9, n1 = 1.5, n2 = 1.2;
+  const double t1 = std::asin(std::sin(t0) / n1), t2 = std::asin(std::sin(t0) / n2);
+  const double x = std::tan(t0) + std::tan(t1) + 1.5 * std::tan(t2) + std::tan(t0);
+  const double direct =
+      transmittance(1, n1, t0) * transmittance(n1, n2, t1) * transmittance(n2, 1, t2);
+  for (const bool thinBelow : {true, false})
+    for (const bool thinFirst : {true, false}) {
+      SceneBuilder b;
+      const float thin = thinBelow ? 1.0f : 2.5f, thick = thinBelow ? 1.5f : 1.0f;
+      const auto layer = [&](double n, float y, float depth) {
+        b.box(b.material(testing::glass(static_cast<float>(n))), Vec3(-50, y, -50),
+              Vec3(50, y + depth, 50), false);
+      };
+      if (thinFirst) layer(n1, thin, 1);
+      layer(n2, thick, 2);
+      if (!thinFirst) layer(n1, thin, 1);
+      const float w = 0.01f;
+      b.quad(b.material(testing::matte(Vec3(0), Vec3(1))), Vec3(float(x) - w, 4.5f, -w),
+             Vec3(2 * w, 0, 0), Vec3(0, 0, 2 * w));
+      for (const auto& e : testing::estimators(4))
+        EXPECT_NEAR(seen(b, Vec3(0), t0, e.settings), direct, 0.015)
+            << e.name << (thinBelow ? ", thin below" : ", thin above");
+    }
 }
 
 }  // namespace
