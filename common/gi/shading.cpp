@@ -155,6 +155,7 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   if (prepared.transmits) {
     const int outside = before(p, media), inside = pass(p, media).innermost();
     if (m.solid && inside == outside) {  // within another solid that counts
+      p.ns = p.ng, p.frame = Basis(p.ng);
       p.bsdf.passThrough = 1;
       return p;
     }

@@ -71,8 +71,8 @@ class Patch {
     const TaskRect& rect = inner(p);
     for (int j = 0; j < rect.height; ++j)
       for (int i = 0; i < rect.width; ++i)
-        visit(static_cast<size_t>((j + 1) * kSide + i + 1), grid().pixelX(p, rect.i0 + i),
-              grid().pixelY(p, rect.j0 + j));
+        visit(static_cast<size_t>(j + 1) * kSide + static_cast<size_t>(i + 1),
+              grid().pixelX(p, rect.i0 + i), grid().pixelY(p, rect.j0 + j));
   }
 
   const TileGrid& grid() const { return frame_.grid; }

@@ -10,7 +10,7 @@ TexturePeaks::TexturePeaks(const TextureImage& image)
       peaks_(static_cast<size_t>(x_.cells) * static_cast<size_t>(y_.cells), 0.0f) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
-      float& peak = peaks_[static_cast<size_t>(y_.cellOf(y) * x_.cells + x_.cellOf(x))];
+      float& peak = peaks_[cell(x_.cellOf(x), y_.cellOf(y))];
       peak = std::max(peak, maxComponent(Vec3(texelOf(image, x, y))));
     }
 }
@@ -36,8 +36,7 @@ float TexturePeaks::largest(const TextureUse& use, Vec2 low, Vec2 high) const {
   const std::vector<int> columns = x_.cellsBetween(low.x, high.x, use.wrapS);
   float largest = 0;
   for (const int y : y_.cellsBetween(low.y, high.y, use.wrapT))
-    for (const int x : columns)
-      largest = std::max(largest, peaks_[static_cast<size_t>(y * x_.cells + x)]);
+    for (const int x : columns) largest = std::max(largest, peaks_[cell(x, y)]);
   return largest;
 }
 

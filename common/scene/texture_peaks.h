@@ -26,6 +26,10 @@ class TexturePeaks {
     std::vector<int> cellsBetween(float low, float high, Wrap wrap) const;
   };
 
+  size_t cell(int column, int row) const {
+    return static_cast<size_t>(row) * static_cast<size_t>(x_.cells) + static_cast<size_t>(column);
+  }
+
   Axis x_, y_;
   std::vector<float> peaks_;
 };
