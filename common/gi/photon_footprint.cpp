@@ -25,7 +25,7 @@ RayPacket raysThrough(const ShadingPoint& at, Metres r, float turn) {
     const Vec2 d = r * diskPoint(i, turn);
     const Vec3 above =
         at.surface.position + d.x * basis.tangent + d.y * basis.bitangent + r * at.ng;
-    rays.set(i, above, -at.ng, 0, 2 * r);
+    rays.set(static_cast<size_t>(i), above, -at.ng, 0, 2 * r);
   }
   return rays;
 }

@@ -125,7 +125,7 @@ void checkSize(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits
 }
 
 // OpenImageIO's messages may have several lines.
-std::string firstLine(std::string text) {
+std::string firstLine(const std::string& text) {
   if (text.empty()) return "unreadable";
   return text.substr(0, text.find('\n'));
 }

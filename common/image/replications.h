@@ -34,7 +34,8 @@ class Replications {
 
   // `values`: what frame `frame`, counted from 0, saw of quantities first, first + 1, ...
   void add(std::span<const T> values, size_t first, int64_t frame) {
-    const T share = T(1) / static_cast<T>(frame / kReplications + 1);
+    const int64_t before = frame / kReplications;
+    const T share = T(1) / static_cast<T>(before + 1);
     T* m = mean_.data() + static_cast<size_t>(frame % kReplications) * quantities_ + first;
     const T* x = values.data();
     const size_t n = values.size();
@@ -65,8 +66,8 @@ class Replications {
 
  private:
   static double count(size_t r, int64_t frames) {
-    return static_cast<double>((frames - static_cast<int64_t>(r) + kReplications - 1) /
-                               kReplications);
+    const int64_t whole = (frames - static_cast<int64_t>(r) + kReplications - 1) / kReplications;
+    return static_cast<double>(whole);
   }
   double at(size_t r, size_t i) const { return static_cast<double>(mean_[r * quantities_ + i]); }
 
