@@ -30,8 +30,8 @@ void LatencyLog::add(const Shown& shown) {
   const LiveFrame& frame = shown.frame;
   entries_.push_back({frame.order.key.frame, seconds(shown.completed - start_),
                       frame.moving ? seconds(shown.completed - frame.changed) : -1,
-                      seconds(shown.completed - frame.opened), frame.moving, shown.image.width,
-                      shown.image.height,
+                      seconds(shown.completed - frame.opened), frame.moving, shown.image->width(),
+                      shown.image->height(),
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
 }
 

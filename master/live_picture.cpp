@@ -1,84 +1,118 @@
 #include "master/live_picture.h"
 
+#include <algorithm>
+#include <limits>
+
+#include "common/sampling/whole_tile.h"
 #include "master/picture.h"
 
 namespace ninefold {
+namespace {
+
+constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
+
+// Old values may stay: every pixel will be written.
+void reshape(int width, int height, RgbImage& image) {
+  image.width = width, image.height = height;
+  for (auto* plane : {&image.pixels.r, &image.pixels.g, &image.pixels.b})
+    plane->resize(image.count());
+}
+
+}  // namespace
 
 LivePicture::LivePicture(SurfaceTest test, int workers, float depthScale)
     : depthScale_(depthScale) {
   for (int i = 0; i < workers; ++i) desks_.push_back(std::make_unique<Desk>(test));
 }
 
-void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, PictureView view) {
+void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look) {
   const std::lock_guard lock(begin_);
   if (current_ == frame.view.key.frame) return;
   current_ = frame.view.key.frame;
-  view_ = view;
+  look_ = look;
   const TileGrid& grid = frame.view.shape.grid;
   rested_ = !plan.moving;
-  const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height();
+  const bool wantsError = look.view == PictureView::error;  // views change at a rest's beginning
+  const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height() &&
+                    keepsError_ == wantsError;
   if (rested_ && !fits)
-    film_ = std::make_unique<Film>(grid.width(), grid.height());
+    film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError);
   else if (rested_ && plan.rested == 0)
     film_->clear();
-  if (frame_.width != grid.width() || frame_.height != grid.height())
-    frame_.reset(grid.width(), grid.height());
-  constexpr uint8_t kPick = kObjectPlane | kDepthPlane;
-  const bool picks = (frame.view.shape.extraMask & kPick) == kPick;
-  objects_.resize(picks ? frame_.count() : 0);
-  depth_.resize(objects_.size());
+  takeImage(frame.view.shape);
+}
+
+void LivePicture::takeImage(const FrameShape& shape) {
+  const auto isFree = [](const auto& image) { return image.use_count() == 1; };
+  image_.reset();
+  const auto found = std::ranges::find_if(images_, isFree);
+  image_ = found != images_.end() ? *found : images_.emplace_back(std::make_shared<LiveImage>());
+  std::atomic_thread_fence(std::memory_order_acquire);  // whoever held it has done with it
+  const int width = shape.grid.width(), height = shape.grid.height();
+  reshape(width, height, image_->radiance);
+  image_->exposure = look_.exposure.value_or(0);
+  image_->display.reshape(look_.exposure ? width : 0, look_.exposure ? height : 0);
+  const bool picks = (shape.extraMask & kPickPlanes) == kPickPlanes;
+  image_->objects.resize(picks ? image_->count() : 0);
+  image_->depth.resize(image_->objects.size());
 }
 
 void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
-                             PictureView view, const std::vector<uint32_t>& owners, int tile) {
-  begin(frame, plan, view);
+                             const LiveLook& look, const std::vector<uint32_t>& owners, int tile) {
+  begin(frame, plan, look);
   Desk& desk = *desks_[static_cast<size_t>(worker)];
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
   const size_t sets = static_cast<size_t>(desk.patch.phases());
-  paint(view_, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
+  paint(look_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
         depthScale_, owners.data() + static_cast<size_t>(tile) * sets, desk.beauty);
   keepPickPlanes(desk.patch);
-  if (rested_)
-    film_->addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
-  else
-    keepTile(desk);
+  const TaskRect rect = pixelsOf(frame.view.shape.grid, tile);
+  rested_ ? sumUp(rect, desk.beauty) : copyTile(rect, desk.beauty);
+  if (look_.exposure) toneMap(rect);
 }
 
-void LivePicture::keepTile(const Desk& desk) {
-  const RgbPlane& from = desk.beauty.pixels;
-  for (int y = 0; y < desk.beauty.height; ++y) {
-    const size_t source = desk.beauty.at(0, y);
-    const size_t to = frame_.at(desk.patch.x0(), desk.patch.y0() + y);
-    const auto width = static_cast<size_t>(desk.beauty.width);
-    std::copy_n(&from.r[source], width, &frame_.pixels.r[to]);
-    std::copy_n(&from.g[source], width, &frame_.pixels.g[to]);
-    std::copy_n(&from.b[source], width, &frame_.pixels.b[to]);
+void LivePicture::sumUp(const TaskRect& tile, const RgbImage& beauty) {
+  film_->addTile(tile.i0, tile.j0, beauty);
+  film_->meanOfTile(tile, image_->radiance);
+  if (look_.view == PictureView::error)
+    paintError(*film_, film_->frames() + 1, tile, image_->radiance);
+}
+
+void LivePicture::copyTile(const TaskRect& tile, const RgbImage& beauty) {
+  const RgbPlane& from = beauty.pixels;
+  RgbPlane& to = image_->radiance.pixels;
+  const auto width = static_cast<size_t>(tile.width);
+  for (int y = 0; y < tile.height; ++y) {
+    const size_t source = beauty.at(0, y), target = image_->at(tile.i0, tile.j0 + y);
+    std::copy_n(&from.r[source], width, &to.r[target]);
+    std::copy_n(&from.g[source], width, &to.g[target]);
+    std::copy_n(&from.b[source], width, &to.b[target]);
+  }
+}
+
+void LivePicture::toneMap(const TaskRect& tile) {
+  const ToneMap map(*look_.exposure);
+  for (int y = tile.j0; y < tile.j0 + tile.height; ++y) {
+    const size_t first = image_->at(tile.i0, y);
+    map.apply(image_->radiance.pixels, first, static_cast<size_t>(tile.width),
+              &image_->display.rgb[3 * first]);
   }
 }
 
 void LivePicture::keepPickPlanes(const Patch& patch) {
-  if (objects_.empty()) return;
+  if (image_->objects.empty()) return;
   for (int phase = 0; phase < patch.phases(); ++phase) {
     const ExtraPlanes& extras = patch.phase(phase).extras;
     patch.forEachPixel(phase, [&](size_t from, int x, int y) {
-      objects_[frame_.at(x, y)] = extras.object[from];
-      depth_[frame_.at(x, y)] = extras.depth[from];
+      image_->objects[image_->at(x, y)] = extras.object[from];
+      image_->depth[image_->at(x, y)] = extras.depth[from];
     });
   }
 }
 
 void LivePicture::frameDone() {
   if (rested_) film_->frameDone();
-}
-
-void LivePicture::image(RgbImage& out) const {
-  if (!rested_) {
-    out = frame_;
-    return;
-  }
-  film_->mean(out);
-  if (view_ == PictureView::error) paintError(*film_, out);
 }
 
 double LivePicture::relativeError() const {

@@ -1,8 +1,10 @@
 // live_picture.h: what a live session shows: tiles of a frame become a picture, in motion the frame
-// itself, at rest the mean of all frames since the rest began.
+// itself, at rest the mean of all frames since the rest began. A tile is filtered, summed up and tone
+// mapped in one go, while it is in the cache: after a frame's last tile nothing is left to be done.
 //
 // Threads: finishTile for different tiles and workers at once, all of one frame before the next's;
-// everything else between frames. Memory: a film, a frame, and a patch for each worker.
+// everything else between frames. Memory: a film, a patch for each worker, and as many images as
+// somebody holds, and one: those that nobody holds any more are filled again.
 #pragma once
 
 #include <memory>
@@ -12,24 +14,28 @@
 #include "common/image/film.h"
 #include "common/image/patch_filter.h"
 #include "master/assembly.h"
+#include "master/live_image.h"
 #include "master/live_plan.h"
 #include "master/view.h"
 
 namespace ninefold {
+
+// How a frame is to be looked at.
+struct LiveLook {
+  PictureView view = PictureView::beauty;
+  std::optional<float> exposure;  // [EV] of the tone map; none: nobody looks at codes
+};
 
 class LivePicture {
  public:
   LivePicture(SurfaceTest test, int workers, float depthScale);
 
   // `owners`: by task, the client that it came from.
-  void finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan, PictureView view,
-                  const std::vector<uint32_t>& owners, int tile);
+  void finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
+                  const LiveLook& look, const std::vector<uint32_t>& owners, int tile);
   void frameDone();
 
-  void image(RgbImage& out) const;  // of the frames that are done
-  // As kObjectPlane and kDepthPlane, if the last frame carried both; else empty.
-  const std::vector<uint32_t>& objects() const { return objects_; }
-  const std::vector<float>& depth() const { return depth_; }
+  std::shared_ptr<const LiveImage> image() const { return image_; }  // of the frames that are done
   int64_t frames() const { return rested_ ? film_->frames() : 1; }
   double relativeError() const;
 
@@ -40,20 +46,23 @@ class LivePicture {
     PatchFilter filter;
     RgbImage beauty;
   };
-  void begin(const GatheredFrame& frame, const LiveFrame& plan, PictureView view);
-  void keepTile(const Desk& desk);
+  void begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look);
+  void takeImage(const FrameShape& shape);
+  void sumUp(const TaskRect& tile, const RgbImage& beauty);
+  void copyTile(const TaskRect& tile, const RgbImage& beauty);
+  void toneMap(const TaskRect& tile);
   void keepPickPlanes(const Patch& patch);
 
   const float depthScale_;
   std::vector<std::unique_ptr<Desk>> desks_;
   std::mutex begin_;
   std::optional<uint32_t> current_;  // the frame whose tiles come; guarded by begin_
-  PictureView view_ = PictureView::beauty;
+  LiveLook look_;
   bool rested_ = false;
   std::unique_ptr<Film> film_;
-  RgbImage frame_;
-  std::vector<uint32_t> objects_;
-  std::vector<float> depth_;
+  bool keepsError_ = false;                         // film_ does
+  std::shared_ptr<LiveImage> image_;                // that tiles come into
+  std::vector<std::shared_ptr<LiveImage>> images_;  // all that there are
 };
 
 }  // namespace ninefold

@@ -31,6 +31,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
+      exposure_(pace.exposure),
       cluster_(clusterSetup(options, keys), *job.offer,
                {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); }}),
       assembly_(
@@ -110,6 +111,11 @@ void LiveRun::setTarget(Duration target) {
   plan_.setTarget(target);
 }
 
+void LiveRun::setExposure(float exposure) {
+  const std::lock_guard lock(mutex_);
+  exposure_ = exposure;
+}
+
 LiveState LiveRun::newest() const {
   LiveState state;
   state.settings = settingsFor(view_, wanted_);
@@ -144,6 +150,10 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
   return shown_;
 }
 
+LiveLook LiveRun::look() const {
+  return {view_, exposure_ && isFalseColor(view_) ? std::optional(0.0f) : exposure_};
+}
+
 // On the network thread.
 std::optional<FrameOrder> LiveRun::nextFrame() {
   const std::lock_guard lock(mutex_);
@@ -159,7 +169,7 @@ std::optional<FrameOrder> LiveRun::nextFrame() {
   view.camera = order.settings.camera;
   view.neighbourWeight = frame->neighbourWeight;
   open_[order.key.frame] = std::make_shared<Open>(
-      Open{*frame, plan_.state(), view_,
+      Open{*frame, plan_.state(), look(),
            std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});
   assembly_.open(view);
   return order;
@@ -187,7 +197,7 @@ void LiveRun::finishTile(int worker, const GatheredFrame& frame, int tile) {
     if (found == open_.end()) return;  // superseded meanwhile
     open = found->second;
   }
-  picture_.finishTile(worker, frame, open->frame, open->view, open->owners, tile);
+  picture_.finishTile(worker, frame, open->frame, open->look, open->owners, tile);
 }
 
 void LiveRun::gatherFrames() {
@@ -211,9 +221,7 @@ void LiveRun::gatherFrames() {
 
 void LiveRun::publish(const LiveFrame& frame, Time completed) {
   auto shown = std::make_shared<Shown>();
-  picture_.image(shown->image);
-  shown->objects = picture_.objects();
-  shown->depth = picture_.depth();
+  shown->image = picture_.image();
   shown->frame = frame;
   shown->completed = completed;
   shown->frames = picture_.frames();
@@ -221,7 +229,8 @@ void LiveRun::publish(const LiveFrame& frame, Time completed) {
   shown->rays = cluster_.tally().rays;
   const std::lock_guard lock(mutex_);
   const auto open = open_.find(frame.order.key.frame);
-  if (open != open_.end()) shown->state = open->second->state, shown->view = open->second->view;
+  if (open != open_.end())
+    shown->state = open->second->state, shown->view = open->second->look.view;
   open_.erase(open_.begin(), open_.upper_bound(frame.order.key.frame));
   shown_ = std::move(shown);
 }

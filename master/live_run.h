@@ -25,9 +25,7 @@ namespace ninefold {
 
 // What is to be seen after a frame; constant once published.
 struct Shown {
-  RgbImage image;
-  std::vector<uint32_t> objects;  // as kObjectPlane, if the frame carried it
-  std::vector<float> depth;       // as kDepthPlane, likewise
+  std::shared_ptr<const LiveImage> image;
   LiveFrame frame;
   LiveState state;  // full size and light, whatever the frame had
   PictureView view = PictureView::beauty;
@@ -43,6 +41,7 @@ class LiveRun {
   struct Pace {
     Duration target = milliseconds(100);  // of frames in motion
     bool motion = true;                   // false: every state is rendered as if it rested
+    std::optional<float> exposure = {};   // [EV]: somebody looks at codes; none: at radiance only
   };
   using OnPicture = std::function<void(const std::shared_ptr<const Shown>&)>;
   LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
@@ -55,8 +54,9 @@ class LiveRun {
   void setSettings(const Settings& settings);
   void setCamera(const Camera& camera);
   void setView(PictureView view);
-  void wantObjects(bool on);        // with every frame from now on
-  void setTarget(Duration target);  // of frames in motion
+  void wantObjects(bool on);         // with every frame from now on
+  void setTarget(Duration target);   // of frames in motion
+  void setExposure(float exposure);  // [EV] of the codes of frames from now on
   // Needs checkEdit.
   void edit(const SceneEdit& edit);
 
@@ -75,6 +75,7 @@ class LiveRun {
   void gatherFrames();
   void change(const std::function<void()>& apply);
   LiveState newest() const;
+  LiveLook look() const;  // of a frame that opens now
   void publish(const LiveFrame& frame, Time completed);
 
   Job& job_;
@@ -90,10 +91,11 @@ class LiveRun {
   uint32_t edits_ = 0;
   PictureView view_ = PictureView::beauty;
   bool objects_ = false;
+  std::optional<float> exposure_;
   struct Open {
     LiveFrame frame;
     LiveState state;
-    PictureView view;
+    LiveLook look;
     std::vector<uint32_t> owners;  // by task
   };
   std::map<uint32_t, std::shared_ptr<Open>> open_;

@@ -73,7 +73,8 @@ std::vector<Channel> PictureMaker::extraChannels() const {
 void PictureMaker::write(const std::string& path, const Metadata& metadata) const {
   RgbImage mean;
   film_.mean(mean);
-  if (setup_.view == PictureView::error) paintError(film_, mean);
+  if (setup_.view == PictureView::error)
+    paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
   const float exposure = isFalseColor(setup_.view) ? 0 : setup_.exposure;
   writeImage(path, {mean, extraChannels(), metadata}, ToneMap(exposure));
 }

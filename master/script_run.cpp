@@ -115,7 +115,7 @@ class ScriptRun {
 
   void write(const std::string& path, const Shown& shown) const {
     const float exposure = isFalseColor(options_.view) ? 0 : options_.exposure;
-    writeImage(path, {shown.image, {}, {}}, ToneMap(exposure));
+    writeImage(path, {shown.image->radiance, {}, {}}, ToneMap(exposure));
   }
 
   const Options& options_;

@@ -109,12 +109,14 @@ void paint(PictureView view, const Patch& patch, const PatchFilter& filter, floa
   }
 }
 
-void paintError(const Film& film, RgbImage& mean) {
-  const std::vector<float> error = film.standardError();
-  for (size_t i = 0; i < mean.count(); ++i) {
-    const float relative = error[i] / std::max(1e-6f, luminance(mean.rgb(i)));
-    mean.pixels.r[i] = mean.pixels.g[i] = mean.pixels.b[i] = relative;
-  }
+void paintError(const Film& film, int64_t frames, const TaskRect& tile, RgbImage& mean) {
+  for (int y = tile.j0; y < tile.j0 + tile.height; ++y)
+    for (int x = tile.i0; x < tile.i0 + tile.width; ++x) {
+      const size_t i = mean.at(x, y);
+      const float relative =
+          film.standardError(i, frames) / std::max(1e-6f, luminance(mean.rgb(i)));
+      mean.pixels.r[i] = mean.pixels.g[i] = mean.pixels.b[i] = relative;
+    }
 }
 
 }  // namespace ninefold

@@ -63,8 +63,8 @@ bool isFalseColor(PictureView view);
 void paint(PictureView view, const Patch& patch, const PatchFilter& filter, float neighbourWeight,
            uint32_t rotation, float depthScale, const uint32_t* owners, RgbImage& beauty);
 
-// The film's error over its mean, in place of the mean.
-void paintError(const Film& film, RgbImage& mean);
+// The film's error after `frames` frames over its mean, in place of the mean, within a tile.
+void paintError(const Film& film, int64_t frames, const TaskRect& tile, RgbImage& mean);
 
 // A colour for a number, far from its neighbours'.
 Vec3 colorOf(uint32_t number);

@@ -94,20 +94,29 @@ void Film::frameDone() {
 
 void Film::mean(RgbImage& out) const {
   out.reset(width_, height_);
-  for (size_t i = 0; i < out.count(); ++i) {
-    out.pixels.r[i] = static_cast<float>(r_[i]);
-    out.pixels.g[i] = static_cast<float>(g_[i]);
-    out.pixels.b[i] = static_cast<float>(b_[i]);
+  meanOfTile({0, 0, width_, height_}, out);
+}
+
+void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
+  NINEFOLD_CHECK(out.width == width_ && out.height == height_);
+  for (int y = tile.j0; y < tile.j0 + tile.height; ++y) {
+    const size_t begin = out.at(tile.i0, y), end = begin + static_cast<size_t>(tile.width);
+    for (size_t i = begin; i < end; ++i) out.pixels.r[i] = static_cast<float>(r_[i]);
+    for (size_t i = begin; i < end; ++i) out.pixels.g[i] = static_cast<float>(g_[i]);
+    for (size_t i = begin; i < end; ++i) out.pixels.b[i] = static_cast<float>(b_[i]);
   }
 }
 
 std::vector<float> Film::standardError() const {
-  NINEFOLD_CHECK(keepsError_);
-  std::vector<float> error(pixelCount(width_, height_), 0);
-  if (frames_ < 2) return error;
-  for (size_t i = 0; i < error.size(); ++i)
-    error[i] = static_cast<float>(std::sqrt(pixels_.estimate(i, frames_).squaredError));
+  std::vector<float> error(pixelCount(width_, height_));
+  for (size_t i = 0; i < error.size(); ++i) error[i] = standardError(i, frames_);
   return error;
+}
+
+float Film::standardError(size_t pixel, int64_t frames) const {
+  NINEFOLD_CHECK(keepsError_);
+  if (frames < 2) return 0;
+  return static_cast<float>(std::sqrt(pixels_.estimate(pixel, frames).squaredError));
 }
 
 double Film::relativeError() const {

@@ -26,6 +26,7 @@
 
 #include "common/image/image.h"
 #include "common/image/replications.h"
+#include "common/sampling/interleave.h"
 
 namespace ninefold {
 
@@ -45,8 +46,13 @@ class Film {
   int width() const { return width_; }
   int height() const { return height_; }
   int64_t frames() const { return frames_; }
-  void mean(RgbImage& out) const;            // black without frames
+  void mean(RgbImage& out) const;  // black without frames
+  // Of the pixels of a tile, the frame included that it was last added of; into the same place of a
+  // picture of the film's size.
+  void meanOfTile(const TaskRect& tile, RgbImage& out) const;
   std::vector<float> standardError() const;  // row-major; zero for N < 2
+  // Of one pixel after `frames` frames: frames(), or one more if the next one was added to it.
+  float standardError(size_t pixel, int64_t frames) const;
   double relativeError() const;
   double imageRelativeError() const;
 

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <span>
 
 #include "common/base/error.h"
 
@@ -74,20 +75,20 @@ Planes planesOf(const Picture& picture, bool withExtras) {
   return planes;
 }
 
-OIIO::ImageSpec specOf(const Picture& picture, bool isExr) {
-  const int channels = 3 + (isExr ? static_cast<int>(picture.extras.size()) : 0);
-  OIIO::ImageSpec spec(picture.beauty.width, picture.beauty.height, channels,
-                       OIIO::TypeDesc::FLOAT);
+// `extras`: those that the file gets.
+OIIO::ImageSpec specOf(int width, int height, std::span<const Channel> extras,
+                       const Metadata& metadata, bool isExr) {
+  OIIO::ImageSpec spec(width, height, 3 + static_cast<int>(extras.size()), OIIO::TypeDesc::FLOAT);
   spec.channelnames = {"R", "G", "B"};
+  for (const Channel& channel : extras) spec.channelnames.push_back(channel.name);
   if (isExr) {
-    for (const Channel& channel : picture.extras) spec.channelnames.push_back(channel.name);
     const float rec709[8] = {0.64f, 0.33f, 0.30f, 0.60f, 0.15f, 0.06f, 0.3127f, 0.3290f};
     spec.attribute("chromaticities", OIIO::TypeDesc(OIIO::TypeDesc::FLOAT, 8), rec709);
     spec.attribute("compression", "zip");
   }
   spec.attribute("oiio:ColorSpace", "Linear");
   spec.attribute("Software", "Ninefold");
-  for (const auto& [key, value] : picture.metadata) spec.attribute("ninefold:" + key, value);
+  for (const auto& [key, value] : metadata) spec.attribute("ninefold:" + key, value);
   return spec;
 }
 
@@ -105,10 +106,24 @@ bool writeFloats(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const P
   return true;
 }
 
-bool writeCodes(OIIO::ImageOutput& output, const RgbImage& image, const ToneMap& toneMap) {
-  std::vector<uint8_t> rgb;
-  toneMap.apply(image, rgb);
-  return output.write_image(OIIO::TypeDesc::UINT8, rgb.data());
+// Calls write(output) for the open file.
+template <typename Write>
+void writeFile(const std::string& path, const OIIO::ImageSpec& spec, const Write& write) {
+  TemporaryFile file(fs::absolute(path));
+  const auto output = OIIO::ImageOutput::create(extensionOf(path).substr(1));
+  if (!output) fail("cannot write {}: {}", path, oneLine(OIIO::geterror()));
+  const bool written = output->open(file.path(), spec) && write(*output) && output->close();
+  if (!written) fail("cannot write {}: {}", path, oneLine(output->geterror()));
+  file.publish();
+}
+
+void writeCodes(const std::string& path, const DisplayImage& picture, const Metadata& metadata) {
+  OIIO::ImageSpec spec = specOf(picture.width, picture.height, {}, metadata, false);
+  spec.set_format(OIIO::TypeDesc::UINT8);
+  spec.attribute("oiio:ColorSpace", "sRGB");
+  writeFile(path, spec, [&](OIIO::ImageOutput& output) {
+    return output.write_image(OIIO::TypeDesc::UINT8, picture.rgb.data());
+  });
 }
 
 // Indices of R, G and B in the file.
@@ -147,21 +162,24 @@ void checkOutputPath(const std::string& path) {
 void writeImage(const std::string& path, const Picture& picture, const ToneMap& toneMap) {
   checkOutputPath(path);
   const std::string extension = extensionOf(path);
-  const bool isExr = extension == ".exr", isPng = extension == ".png";
-  OIIO::ImageSpec spec = specOf(picture, isExr);
-  if (isPng) {
-    spec.set_format(OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:ColorSpace", "sRGB");
+  if (extension == ".png") {
+    DisplayImage codes;
+    toneMap.apply(picture.beauty, codes);
+    return writeCodes(path, codes, picture.metadata);
   }
-  TemporaryFile file(fs::absolute(path));
-  const auto output = OIIO::ImageOutput::create(extension.substr(1));
-  if (!output) fail("cannot write {}: {}", path, oneLine(OIIO::geterror()));
-  const bool written = output->open(file.path(), spec) &&
-                       (isPng ? writeCodes(*output, picture.beauty, toneMap)
-                              : writeFloats(*output, spec, planesOf(picture, isExr))) &&
-                       output->close();
-  if (!written) fail("cannot write {}: {}", path, oneLine(output->geterror()));
-  file.publish();
+  const bool isExr = extension == ".exr";
+  const OIIO::ImageSpec spec = specOf(
+      picture.beauty.width, picture.beauty.height,
+      isExr ? std::span(picture.extras) : std::span<const Channel>(), picture.metadata, isExr);
+  writeFile(path, spec, [&](OIIO::ImageOutput& output) {
+    return writeFloats(output, spec, planesOf(picture, isExr));
+  });
+}
+
+void writePng(const std::string& path, const DisplayImage& picture) {
+  checkOutputPath(path);
+  NINEFOLD_CHECK(extensionOf(path) == ".png");
+  writeCodes(path, picture, {});
 }
 
 RgbImage readImage(const std::string& path) {

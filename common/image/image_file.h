@@ -33,6 +33,8 @@ void checkOutputPath(const std::string& path);
 
 void writeImage(const std::string& path, const Picture& picture,
                 const ToneMap& toneMap = ToneMap());
+// A .png of a picture that was tone mapped already: the bytes that writeImage makes of its radiance.
+void writePng(const std::string& path, const DisplayImage& picture);
 
 // The channels R, G, B (the first three if none are named so; one channel is spread to all) as
 // linear floats; integer files are decoded from sRGB.

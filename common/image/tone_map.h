@@ -6,7 +6,8 @@
 //
 // per channel, no dithering: the same radiance always gives the same code. Negative values are
 // black. A pixel with a NaN becomes magenta, so that it is seen. The curve is tabulated over the
-// exponent and 10 bits of the mantissa, which costs at most one code.
+// exponent and 10 bits of the mantissa, which costs at most one code; the table is the same on every
+// machine, as no entry lies nearer to the next code than what mathematical libraries may differ by.
 //
 // Proved:  tests/image/tone_map_test.cpp.   Threads: const, reentrant.
 #pragma once
@@ -18,6 +19,20 @@
 
 namespace ninefold {
 
+// A picture as a screen or a PNG takes it: codes R, G, B of each pixel, row-major.
+struct DisplayImage {
+  int width = 0, height = 0;
+  std::vector<uint8_t> rgb;
+
+  // Sets the shape; old values may stay.
+  void reshape(int w, int h) {
+    width = w, height = h;
+    rgb.resize(3 * pixelCount(w, h));
+  }
+  bool empty() const { return rgb.empty(); }
+  bool operator==(const DisplayImage&) const = default;
+};
+
 // sRGB transfer curve and its inverse, on [0, 1].
 float srgbFromLinear(float y);
 float linearFromSrgb(float code);
@@ -27,12 +42,14 @@ class ToneMap {
   explicit ToneMap(float exposureEv = 0);
 
   uint8_t code(float radiance) const;
-  // Interleaved R, G, B, row-major; sets the size of `rgb`.
-  void apply(const RgbImage& image, std::vector<uint8_t>& rgb) const;
+  // Pixels from `first` on, as they lie in the image.
+  void apply(const RgbPlane& radiance, size_t first, size_t pixels, uint8_t* rgb) const;
+  // Sets the shape of `out`.
+  void apply(const RgbImage& image, DisplayImage& out) const;
 
  private:
   float scale_;
-  std::vector<uint8_t> codes_;
+  const uint8_t* codes_;  // of all tone maps
 };
 
 }  // namespace ninefold

@@ -10,8 +10,8 @@ Vec2 filmPosition(Vec2 place, int width, int height) {
   return place * Vec2(static_cast<float>(width), static_cast<float>(height));
 }
 
-Vec2 filmPosition(Vec2 place, const RgbImage& image) {
-  return filmPosition(place, image.width, image.height);
+Vec2 filmPosition(Vec2 place, const LiveImage& image) {
+  return filmPosition(place, image.width(), image.height());
 }
 
 }  // namespace
@@ -23,8 +23,8 @@ void Editor::pick(Vec2 place, const Shown& shown) {
 }
 
 void Editor::look(const Shown& shown) {
-  if (!pick_ || shown.objects.empty()) return;
-  const Vec2 film = filmPosition(*pick_, shown.image);
+  if (!pick_ || shown.image->objects.empty()) return;
+  const Vec2 film = filmPosition(*pick_, *shown.image);
   pick_.reset();
   const std::optional<uint32_t> instance = instanceAt(shown, film);
   if (!instance) return deselect();
@@ -55,8 +55,8 @@ Bounds Editor::boundsOfSelection() const {
 }
 
 void Editor::beginDrag(DragMode mode, Vec2 place, const Shown& shown) {
-  if (!selection_ || selection_->light || shown.objects.empty()) return;
-  const auto point = pointAt(shown, filmPosition(place, shown.image));
+  if (!selection_ || selection_->light || shown.image->objects.empty()) return;
+  const auto point = pointAt(shown, filmPosition(place, *shown.image));
   if (!point) return;
   SceneEdit thing;
   thing.objects.push_back({selection_->node, DMat4(1)});

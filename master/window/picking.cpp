@@ -8,43 +8,44 @@ namespace ninefold {
 namespace {
 
 // The pixel of a film position, and the nearest one for a position outside.
-size_t pixelAt(const RgbImage& image, Vec2 film) {
-  return image.at(std::clamp(static_cast<int>(film.x), 0, image.width - 1),
-                  std::clamp(static_cast<int>(film.y), 0, image.height - 1));
+size_t pixelAt(const LiveImage& image, Vec2 film) {
+  return image.at(std::clamp(static_cast<int>(film.x), 0, image.width() - 1),
+                  std::clamp(static_cast<int>(film.y), 0, image.height() - 1));
 }
 
 }  // namespace
 
 std::optional<uint32_t> instanceAt(const Shown& shown, Vec2 film) {
-  const uint32_t object = shown.objects[pixelAt(shown.image, film)];
+  const uint32_t object = shown.image->objects[pixelAt(*shown.image, film)];
   if (object == 0) return std::nullopt;
   return object - 1;
 }
 
 std::optional<Vec3> pointAt(const Shown& shown, Vec2 film) {
-  if (shown.depth.empty()) return std::nullopt;
-  const float depth = shown.depth[pixelAt(shown.image, film)];
+  const LiveImage& image = *shown.image;
+  if (image.depth.empty()) return std::nullopt;
+  const float depth = image.depth[pixelAt(image, film)];
   if (!(depth > 0)) return std::nullopt;
   const Camera& camera = shown.frame.order.settings.camera;
-  const CameraRays rays(camera, shown.image.width, shown.image.height);
+  const CameraRays rays(camera, image.width(), image.height());
   const Vec3 direction = rays.direction(film.x, film.y);
   return camera.eye + depth / glm::dot(direction, camera.forward) * direction;
 }
 
 void drawOutline(const Shown& shown, const Scene& scene, const Selection& selection,
                  std::vector<uint8_t>& rgb) {
-  if (shown.objects.empty()) return;
-  const RgbImage& image = shown.image;
+  const LiveImage& image = *shown.image;
+  if (image.objects.empty()) return;
   const auto isSelected = [&](int x, int y) {
-    const uint32_t object = shown.objects[image.at(x, y)];
+    const uint32_t object = image.objects[image.at(x, y)];
     return object != 0 && scene.instances[object - 1].node == selection.node;
   };
   const auto touchesSelected = [&](int x, int y) {
     return isSelected(x - 1, y) || isSelected(x + 1, y) || isSelected(x, y - 1) ||
            isSelected(x, y + 1);
   };
-  for (int y = 1; y + 1 < image.height; ++y)
-    for (int x = 1; x + 1 < image.width; ++x) {
+  for (int y = 1; y + 1 < image.height(); ++y)
+    for (int x = 1; x + 1 < image.width(); ++x) {
       if (isSelected(x, y) || !touchesSelected(x, y)) continue;
       const size_t at = 3 * image.at(x, y);
       rgb[at] = 255, rgb[at + 1] = 160, rgb[at + 2] = 0;

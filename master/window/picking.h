@@ -13,7 +13,7 @@
 
 namespace ninefold {
 
-// The instance seen at a film position; none where nothing was hit. shown.objects is not empty.
+// The instance seen at a film position; none where nothing was hit. shown.image->objects is not empty.
 std::optional<uint32_t> instanceAt(const Shown& shown, Vec2 film);
 
 // The first hit there, in world space [m].

@@ -41,11 +41,20 @@ void PictureBoard::draw(const Scene& scene, const std::optional<Selection>& sele
   if (!shown_) return;
   Drawn now{shown_.get(), exposureShown(), selection};
   if (now == drawn_) return;
-  if (!toneMap_ || now.exposure != drawn_.exposure) toneMap_.emplace(now.exposure);
   drawn_ = std::move(now);
-  toneMap_->apply(shown_->image, rgb_);
-  if (selection) drawOutline(*shown_, scene, *selection, rgb_);
-  window.setPicture(rgb_, shown_->image.width, shown_->image.height);
+  const DisplayImage& codes = display();
+  if (!selection) return window.setPicture(codes);
+  outlined_ = codes;
+  drawOutline(*shown_, scene, *selection, outlined_.rgb);
+  window.setPicture(outlined_);
+}
+
+// The workers made it with the picture; anew only after the exposure has changed.
+const DisplayImage& PictureBoard::display() {
+  const LiveImage& image = *shown_->image;
+  if (image.exposure == exposureShown()) return image.display;
+  ToneMap(exposureShown()).apply(image.radiance, exposed_);
+  return exposed_;
 }
 
 void PictureBoard::save(const std::string& extension) {
@@ -62,7 +71,7 @@ void PictureBoard::save(const std::string& extension) {
 }
 
 void PictureBoard::write(const std::string& path) const {
-  writeImage(path, {shown_->image, {}, {}}, ToneMap(exposureShown()));
+  writeImage(path, {shown_->image->radiance, {}, {}}, ToneMap(exposureShown()));
 }
 
 void PictureBoard::tell(PanelView& view) const {

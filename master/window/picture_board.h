@@ -1,7 +1,6 @@
 // picture_board.h: the latest picture of a session: on the window, in files, and in the panel's numbers.
 //
-// It is tone mapped anew only when something about it is different: the picture, the exposure, the
-// outlined thing. Files are ninefold.NNNN and, while it records, record.NNNN in the working folder.
+// Pictures come tone mapped; only when the exposure changes while one is shown it is mapped anew. Files are ninefold.NNNN and, while it records, record.NNNN in the working folder.
 // Threads: the main thread. Errors: what cannot be written is told in one line, and ends a recording.
 #pragma once
 
@@ -10,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/image/tone_map.h"
 #include "master/live_run.h"
 #include "master/window/panel.h"
 #include "master/window/window.h"
@@ -38,6 +36,7 @@ class PictureBoard {
  private:
   void count(uint64_t tasks);
   float exposureShown() const;
+  const DisplayImage& display();
 
   std::shared_ptr<const Shown> shown_;
   float exposure_;
@@ -48,8 +47,7 @@ class PictureBoard {
     bool operator==(const Drawn&) const = default;
   };
   Drawn drawn_;
-  std::optional<ToneMap> toneMap_;  // of drawn_.exposure
-  std::vector<uint8_t> rgb_;
+  DisplayImage exposed_, outlined_;  // kept for their memory
   bool recording_ = false;
   int saved_ = 0, recorded_ = 0;  // files
 

@@ -59,7 +59,7 @@ bool WindowSession::load() {
 void WindowSession::start() {
   cameras_ = job_->scene->cameras;
   camera_ = std::make_unique<CameraControl>(job_->settings.camera, job_->scene->bounds);
-  const LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true};
+  const LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure()};
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
                                     [this](const std::shared_ptr<const Shown>& shown) {
                                       const std::lock_guard lock(latencyMutex_);
@@ -142,7 +142,7 @@ void WindowSession::carryOut(const Command& command) {
     case Kind::view:
       return show(command.view);
     case Kind::exposure:
-      return board_.expose(board_.exposure() + command.amount);
+      return expose(board_.exposure() + command.amount);
     case Kind::reset:
       return camera_->reset();
     case Kind::nextCamera:
@@ -194,7 +194,7 @@ void WindowSession::apply(const PanelChanges& changes) {
   editor_->take(changes);
   if (changes.settings) live_->setSettings(*changes.settings);
   if (changes.view) show(*changes.view);
-  if (changes.exposure) board_.expose(*changes.exposure);
+  if (changes.exposure) expose(*changes.exposure);
   if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
   if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
   if (changes.camera) camera_->go(cameras_[*changes.camera]);
@@ -204,6 +204,11 @@ void WindowSession::apply(const PanelChanges& changes) {
   if (changes.saveExr) board_.save("exr");
   if (changes.saveScene) saveScene();
   if (changes.record) board_.toggleRecording();
+}
+
+void WindowSession::expose(float exposure) {
+  board_.expose(exposure);
+  live_->setExposure(exposure);
 }
 
 // One more camera, in the panel, under C, and in scenes that are saved.

@@ -39,6 +39,7 @@ class WindowSession {
   void apply(const PanelChanges& changes);
   PanelView panelView() const;
   void show(PictureView view) { live_->setView(view_ = view); }
+  void expose(float exposure);
   void keepView();
   void saveScene();
 

@@ -128,15 +128,16 @@ void Window::onFocus(GLFWwindow* window, int focused) {
   if (focused == GLFW_FALSE) of(window).push(event, 0);
 }
 
-void Window::setPicture(const std::vector<uint8_t>& rgb, int width, int height) {
+void Window::setPicture(const DisplayImage& picture) {
   glBindTexture(GL_TEXTURE_2D, texture_);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, width, height, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
-  width_ = width, height_ = height;
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, picture.width, picture.height, 0, GL_RGB,
+               GL_UNSIGNED_BYTE, picture.rgb.data());
+  width_ = picture.width, height_ = picture.height;
 }
 
 WindowArea Window::pictureArea() const {

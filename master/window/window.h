@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/base/error.h"
+#include "common/image/tone_map.h"
 #include "master/window_events.h"
 
 struct GLFWwindow;
@@ -50,8 +51,7 @@ class Window {
   static void wake();  // from any thread
   std::vector<WindowEvent> takeEvents();
 
-  // The picture from now on: interleaved R, G, B codes, row-major.
-  void setPicture(const std::vector<uint8_t>& rgb, int width, int height);
+  void setPicture(const DisplayImage& picture);  // from now on
   WindowArea pictureArea() const;
 
   // What is drawn with ImGui between the two is in the window afterwards.

@@ -7,6 +7,7 @@
 
 #include "common/image/film.h"
 #include "common/image/patch_filter.h"
+#include "common/image/tone_map.h"
 #include "proto/tile_codec.h"
 
 namespace ninefold {
@@ -135,6 +136,22 @@ void FilmTile(benchmark::State& state) {
   perPixel(state);
 }
 BENCHMARK(FilmTile);
+
+void ToneMapTile(benchmark::State& state) {
+  RgbImage tile;
+  tile.reset(96, 96);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> uniform(0, 1.5f);
+  for (auto* plane : {&tile.pixels.r, &tile.pixels.g, &tile.pixels.b})
+    for (float& value : *plane) value = uniform(random);
+  DisplayImage codes;
+  for (auto _ : state) {
+    ToneMap().apply(tile, codes);
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(ToneMapTile);
 
 }  // namespace
 }  // namespace ninefold

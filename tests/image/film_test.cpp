@@ -62,6 +62,32 @@ TEST(Film, TakesTheErrorFromReplications) {
   EXPECT_NEAR(film.imageRelativeError(), error / (31.0 / 8), 1e-6);
 }
 
+// A tile's mean and error are there as soon as the tile is, and are those of the whole frame later.
+TEST(Film, KnowsATileBeforeItsFrameIsDone) {
+  Film film(40, 20);
+  RgbImage partly, whole;
+  partly.reset(40, 20);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(0, 2);
+  for (int n = 0; n < 3; ++n) {
+    RgbImage tile = constantImage(8, 4, 0);
+    for (size_t i = 0; i < tile.count(); ++i) setPixel(tile, i, uniform(random));
+    film.addTile(0, 0, constantImage(40, 16, 1));
+    film.addTile(32, 16, tile);
+    film.meanOfTile({32, 16, 8, 4}, partly);
+    const float error = film.standardError(17 * 40 + 35, n + 1);
+    film.addTile(0, 16, constantImage(32, 4, 1));
+    film.frameDone();
+    film.mean(whole);
+    for (int y = 16; y < 20; ++y)
+      for (int x = 32; x < 40; ++x)
+        ASSERT_EQ(partly.rgb(partly.at(x, y)), whole.rgb(whole.at(x, y)));
+    EXPECT_EQ(partly.rgb(0), Vec3(0)) << "another tile's place";
+    EXPECT_EQ(error, film.standardError()[17 * 40 + 35]);
+    EXPECT_EQ(error > 0, n > 0);
+  }
+}
+
 TEST(Film, GivesTheClosedFormErrorOfTwoFrames) {
   Film film(40, 20);
   EXPECT_TRUE(std::isinf(film.relativeError()));

@@ -115,6 +115,20 @@ TEST_F(ImageFile, PngHoldsTheToneMappedCodes) {
       ASSERT_EQ(std::lround(255 * srgbFromLinear(back.rgb(i)[c])), toneMap.code(image.rgb(i)[c]));
 }
 
+TEST_F(ImageFile, PngOfCodesIsThePngOfTheirRadiance) {
+  const ToneMap toneMap(1);
+  DisplayImage codes;
+  toneMap.apply(sample(), codes);
+  writeImage(path("a.png"), {sample(), {}, {}}, toneMap);
+  writePng(path("b.png"), codes);
+  const auto bytes = [&](const char* name) {
+    std::ifstream file(path(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_GT(bytes("a.png").size(), 60u);
+  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+}
+
 TEST_F(ImageFile, ReplacesTheOldFileOrLeavesIt) {
   writeImage(path("a.exr"), {sample(), {}, {}});
   writeImage(path("a.exr"), {sample(3, 3), {}, {}});

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace ninefold {
 namespace {
@@ -36,15 +37,45 @@ TEST(ToneMap, ExposureIsAFactorOfTwoPerStop) {
   }
 }
 
+// Clients and master each make their own table: logarithms and powers of all libraries must lead to it.
+// The curve rises, so that no cell's middle is a code's edge but by chance.
+TEST(ToneMap, HasNoCellOnTheEdgeBetweenTwoCodes) {
+  for (int exponent = -14; exponent < 3; ++exponent)
+    for (int cell = 0; cell < 1024; ++cell) {
+      const double code = exactCode(std::ldexp(1 + (cell + 0.5) / 1024, exponent));
+      ASSERT_GT(std::abs(code - std::floor(code) - 0.5), 1e-5) << exponent << " " << cell;
+    }
+}
+
+// As an image and pixel by pixel, wherever the run of pixels begins and ends.
+TEST(ToneMap, MapsPartsAsTheWhole) {
+  RgbImage image;
+  image.reset(37, 5);
+  std::mt19937 random(4);
+  std::lognormal_distribution<float> any(0, 4);
+  for (auto* plane : {&image.pixels.r, &image.pixels.g, &image.pixels.b})
+    for (float& value : *plane) value = any(random);
+  const ToneMap toneMap(-1.25f);
+  DisplayImage codes;
+  toneMap.apply(image, codes);
+  ASSERT_EQ(codes.rgb.size(), 3 * image.count());
+  for (size_t i = 0; i < image.count(); ++i)
+    for (size_t c = 0; c < 3; ++c)
+      ASSERT_EQ(codes.rgb[3 * i + c], toneMap.code(image.rgb(i)[static_cast<int>(c)]));
+  std::vector<uint8_t> part(3 * 83);
+  toneMap.apply(image.pixels, 101, 83, part.data());
+  EXPECT_TRUE(std::equal(part.begin(), part.end(), codes.rgb.begin() + 3 * 101));
+}
+
 TEST(ToneMap, ShowsWhatIsNoColour) {
   const float nan = std::numeric_limits<float>::quiet_NaN(),
               inf = std::numeric_limits<float>::infinity();
   RgbImage image;
   image.reset(4, 1);
   image.pixels = {{0, -1, inf, 0.5f}, {0, -inf, inf, nan}, {0, -0.0f, inf, 0.5f}};
-  std::vector<uint8_t> rgb;
-  ToneMap().apply(image, rgb);
-  EXPECT_EQ(rgb, (std::vector<uint8_t>{0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 0, 255}));
+  DisplayImage codes;
+  ToneMap().apply(image, codes);
+  EXPECT_EQ(codes.rgb, (std::vector<uint8_t>{0, 0, 0, 0, 0, 0, 255, 255, 255, 255, 0, 255}));
 }
 
 TEST(SrgbCurve, IsInvertedByItsInverse) {

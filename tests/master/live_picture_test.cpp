@@ -1,0 +1,163 @@
+// What a session shows of frames that come in tile by tile. Expected pictures are made the long way: the
+// same frames filtered into a film of their own, its mean tone mapped as a whole.
+#include "master/live_picture.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+#include <span>
+
+#include "common/image/tone_map.h"
+#include "master/picture.h"
+
+namespace ninefold {
+namespace {
+
+constexpr SurfaceTest kTest = SurfaceTest::surface;
+
+// Light of all sizes on a wall, another for each frame.
+GatheredFrame frameOf(uint32_t number, int width, int height) {
+  const TileGrid grid(width, height, {3, 2});
+  GatheredFrame frame;
+  frame.view.key.frame = number;
+  frame.view.shape = {grid, kDiffuseBit, 0};
+  frame.view.camera = {"", Vec3(0), Vec3(0, 0, -1), Vec3(0, 1, 0), 0.8f};
+  frame.tasks.resize(static_cast<size_t>(grid.tasks()));
+  std::mt19937 random(number);
+  std::lognormal_distribution<float> light(0, 2);
+  for (int tile = 0; tile < grid.tiles(); ++tile)
+    for (int phase = 0; phase < grid.interleave().sets(); ++phase) {
+      const TaskRect rect = grid.rect(tile, phase);
+      TileResult task;
+      task.reset(rect.width, rect.height, kDiffuseBit, 0);
+      LayerPlanes& layer = task.layers[kDiffuse];
+      for (size_t i = 0; i < layer.distance.size(); ++i) {
+        layer.distance[i] = 3, layer.normal.b[i] = 1;
+        layer.reflectance.r[i] = layer.reflectance.g[i] = layer.reflectance.b[i] = 0.2f;
+        layer.irradiance.r[i] = light(random), layer.irradiance.b[i] = light(random);
+      }
+      frame.tasks[static_cast<size_t>(tile * grid.interleave().sets() + phase)] =
+          TileDecoder().unpack(TileEncoder().encode(task, random(), 0).bytes,
+                               {rect.width, rect.height, kDiffuseBit, 0});
+    }
+  return frame;
+}
+
+class LivePictureTest : public testing::Test {
+ protected:
+  // Tiles last first, as two workers might do them.
+  std::shared_ptr<const LiveImage> shown(const GatheredFrame& frame, const LiveFrame& plan,
+                                         const LiveLook& look) {
+    const TileGrid& grid = frame.view.shape.grid;
+    const std::vector<uint32_t> owners(frame.tasks.size());
+    for (int tile = grid.tiles() - 1; tile >= 0; --tile)
+      picture.finishTile(tile % 2, frame, plan, look, owners, tile);
+    picture.frameDone();
+    return picture.image();
+  }
+  std::shared_ptr<const LiveImage> inMotion(const GatheredFrame& frame, const LiveLook& look) {
+    LiveFrame plan;
+    plan.moving = true;
+    return shown(frame, plan, look);
+  }
+  std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
+                                          const LiveLook& look) {
+    LiveFrame plan;
+    plan.rested = rested;
+    return shown(frame, plan, look);
+  }
+
+  // The same as PictureMaker and a file would make of the frames.
+  static RgbImage expectedMean(std::span<const GatheredFrame> frames) {
+    const TileGrid& grid = frames[0].view.shape.grid;
+    Film film(grid.width(), grid.height());
+    Patch patch;
+    PatchFilter filter(kTest);
+    RgbImage tile, mean;
+    for (const GatheredFrame& frame : frames) {
+      for (int t = 0; t < grid.tiles(); ++t) {
+        gather(frame, t, patch);
+        filter.compose(patch, frame.view.camera, frame.view.neighbourWeight, tile);
+        film.addTile(patch.x0(), patch.y0(), tile);
+      }
+      film.frameDone();
+    }
+    film.mean(mean);
+    return mean;
+  }
+  static DisplayImage codesOf(const RgbImage& image, float exposure) {
+    DisplayImage codes;
+    ToneMap(exposure).apply(image, codes);
+    return codes;
+  }
+
+  LivePicture picture{kTest, 2, 1};
+};
+
+constexpr PictureView kBeauty = PictureView::beauty;
+
+TEST_F(LivePictureTest, InMotionShowsTheFrameAndItsCodes) {
+  for (const auto& [number, width] : {std::pair{0u, 200}, {1u, 100}, {2u, 200}}) {
+    const GatheredFrame frame = frameOf(number, width, 130);
+    const auto image = inMotion(frame, {kBeauty, -2.0f});
+    EXPECT_TRUE(image->radiance == expectedMean({&frame, 1}));
+    EXPECT_TRUE(image->display == codesOf(image->radiance, -2));
+    EXPECT_EQ(image->exposure, -2);
+  }
+}
+
+TEST_F(LivePictureTest, AtRestShowsTheMeanAndItsCodes) {
+  std::vector<GatheredFrame> frames;
+  for (uint32_t i = 0; i < 4; ++i) {
+    frames.push_back(frameOf(i, 200, 130));
+    const float exposure = 0.5f * static_cast<float>(i);  // changes while the picture rests
+    const auto image = atRest(frames.back(), i, {kBeauty, exposure});
+    EXPECT_TRUE(image->radiance == expectedMean(frames));
+    EXPECT_TRUE(image->display == codesOf(image->radiance, exposure));
+  }
+  EXPECT_EQ(picture.frames(), 4);
+  const GatheredFrame next = frameOf(9, 200, 130);
+  EXPECT_TRUE(atRest(next, 0, {kBeauty, 0.0f})->radiance == expectedMean({&next, 1}));
+}
+
+TEST_F(LivePictureTest, WithoutAnOnlookerThereAreNoCodes) {
+  EXPECT_TRUE(inMotion(frameOf(0, 100, 60), {kBeauty, {}})->display.empty());
+  EXPECT_FALSE(inMotion(frameOf(1, 100, 60), {kBeauty, 0.0f})->display.empty());
+  EXPECT_TRUE(inMotion(frameOf(2, 100, 60), {kBeauty, {}})->display.empty());
+}
+
+TEST_F(LivePictureTest, WhatSomebodyHoldsStaysAndWhatNobodyHoldsIsUsedAgain) {
+  const auto held = inMotion(frameOf(0, 100, 60), {kBeauty, 0.0f});
+  const LiveImage before = *held;
+  std::set<const LiveImage*> others;
+  for (uint32_t i = 1; i < 6; ++i) {
+    const auto image = i % 2 == 0 ? inMotion(frameOf(i, 100, 60), {kBeauty, 0.0f})
+                                  : atRest(frameOf(i, 100, 60), 0, {kBeauty, 0.0f});
+    EXPECT_NE(image, held);
+    others.insert(image.get());
+  }
+  EXPECT_TRUE(held->radiance == before.radiance && held->display == before.display);
+  EXPECT_EQ(others.size(), 1u);
+}
+
+TEST_F(LivePictureTest, TheErrorViewIsTheFilmsErrorOverItsMean) {
+  const LiveLook look{PictureView::error, 0.0f};
+  Film film(100, 60);
+  std::shared_ptr<const LiveImage> image;
+  for (uint32_t i = 0; i < 3; ++i) {
+    const GatheredFrame frame = frameOf(i, 100, 60);
+    film.add(expectedMean({&frame, 1}));
+    image = atRest(frame, i, look);
+  }
+  RgbImage mean;
+  film.mean(mean);
+  const std::vector<float> error = film.standardError();
+  for (size_t i = 0; i < mean.count(); ++i)
+    ASSERT_FLOAT_EQ(image->radiance.pixels.r[i],
+                    error[i] / std::max(1e-6f, luminance(mean.rgb(i))));
+  EXPECT_TRUE(image->display == codesOf(image->radiance, 0));
+}
+
+}  // namespace
+}  // namespace ninefold
