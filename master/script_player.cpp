@@ -1,6 +1,5 @@
 #include "master/script_player.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "master/edit_history.h"
@@ -8,10 +7,15 @@
 namespace ninefold {
 namespace {
 
-template <typename T>
-void keepNew(const std::vector<T>& before, const std::vector<T>& now, std::vector<T>& changes) {
-  for (const T& edit : now)
-    if (std::ranges::find(before, edit) == before.end()) changes.push_back(edit);
+// Both lists name each thing once, in ascending order.
+template <typename T, typename Key>
+void keepNew(const std::vector<T>& before, const std::vector<T>& now, Key T::*key,
+             std::vector<T>& changes) {
+  auto old = before.begin();
+  for (const T& edit : now) {
+    while (old != before.end() && *old.*key < edit.*key) ++old;
+    if (old == before.end() || !(*old == edit)) changes.push_back(edit);
+  }
 }
 
 }  // namespace
@@ -22,9 +26,9 @@ ScriptPlayer::Step ScriptPlayer::moveTo(double time) {
   if (!(shown_.camera == before.camera)) step.camera = shown_.camera;
   SceneEdit now = EditHistory(scene_).valuesNow(before.edit);  // as they were read
   merge(now, shown_.edit);
-  keepNew(before.edit.objects, now.objects, step.edit.objects);
-  keepNew(before.edit.lights, now.lights, step.edit.lights);
-  keepNew(before.edit.materials, now.materials, step.edit.materials);
+  keepNew(before.edit.objects, now.objects, &ObjectEdit::node, step.edit.objects);
+  keepNew(before.edit.lights, now.lights, &LightEdit::light, step.edit.lights);
+  keepNew(before.edit.materials, now.materials, &MaterialEdit::material, step.edit.materials);
   checkEdit(*scene_, step.edit);
   return step;
 }
