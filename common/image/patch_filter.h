@@ -18,8 +18,10 @@ class PatchFilter {
   // Writes the tile's pixels; sets the shape of `beauty`.
   void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty);
 
-  // E' of the diffuse layer after compose, in the patch's planes; only if it has extra planes, for
-  // which this is another.
+  // Whether compose keeps E' of the diffuse layer for who asks; else only if the patch has extra planes,
+  // for which it is another.
+  void keepIrradiance(bool keep) { keepsIrradiance_ = keep; }
+  // E' of the diffuse layer after compose, in the patch's planes; 0 where the layer is dark.
   const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }
 
   // After compose: into each of the tile's pixels, as grey, what share of the window the diffuse
@@ -30,6 +32,7 @@ class PatchFilter {
   void addLayer(const Patch& patch, int layer, int phase, float neighbourWeight, RgbPlane& sum);
 
   DiscontinuityBuffer buffer_;
+  bool keepsIrradiance_ = false;
   std::vector<RgbPlane> irradiance_;  // of the diffuse layer, by phase
   RgbPlane filtered_;                 // E' of one layer and phase
   std::vector<RgbPlane> radiance_;    // of the phases of one row

@@ -1,6 +1,7 @@
 // camera.h: the pinhole camera. Image x grows to the right and y downwards; pixel (0,0) is top left.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "common/math/vec.h"
@@ -21,7 +22,7 @@ struct Camera {
 // Threads: const after construction.
 class CameraRays {
  public:
-  CameraRays(const Camera& camera, int width, int height) {
+  CameraRays(const Camera& camera, int width, int height) : forward_(camera.forward) {
     const float halfHeight = std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
     const Vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
@@ -35,9 +36,17 @@ class CameraRays {
   Vec3 direction(float px, float py) const {
     return glm::normalize(corner_ + px * stepX_ + py * stepY_);
   }
+  // Where on the film, in pixels, the ray along d arrives; nothing if d does not point forwards.
+  std::optional<Vec2> filmPosition(Vec3 d) const {
+    const float depth = glm::dot(d, forward_);
+    if (!(depth > 0)) return std::nullopt;
+    const Vec3 across = d / depth - corner_;
+    return Vec2(glm::dot(across, stepX_) / glm::dot(stepX_, stepX_),
+                glm::dot(across, stepY_) / glm::dot(stepY_, stepY_));
+  }
 
  private:
-  Vec3 corner_, stepX_, stepY_;  // forward has length 1 on the image plane at distance 1
+  Vec3 forward_, corner_, stepX_, stepY_;  // the image plane is at distance 1
 };
 
 }  // namespace ninefold

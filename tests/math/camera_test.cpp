@@ -54,5 +54,18 @@ TEST(CameraRays, DirectionsAreUnitVectors) {
     ASSERT_NEAR(glm::length(rays.direction(uniform(engine), uniform(engine))), 1, 1e-6f);
 }
 
+TEST(CameraRays, FilmPositionsAreWhereTheirDirectionsCameFrom) {
+  const CameraRays rays(tilted(), 640, 480);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> uniform(0, 1);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec2 film(640 * uniform(random), 480 * uniform(random));
+    const auto found = rays.filmPosition((0.1f + uniform(random)) * rays.direction(film.x, film.y));
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(glm::length(*found - film), 0, 2e-3f);
+  }
+  EXPECT_FALSE(rays.filmPosition(-tilted().forward));
+}
+
 }  // namespace
 }  // namespace ninefold

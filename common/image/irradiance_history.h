@@ -1,0 +1,68 @@
+// irradiance_history.h: temporal reuse while only the camera moves. E' of the diffuse layer belongs to a
+// place, not to the eye: the place x that a pixel shows is looked up in the frame before, and
+//
+//   H(x) = H_before + (E'(x) - H_before)/n,   n = min(frames that H is the mean of, kMost)
+//   L(p) = beauty + reflectance (H - E')
+//
+// H_before is interpolated between the four pixels around x's place in the frame before, of those alone
+// that show the same surface: normals within 25 degrees, and within kOffPlane of the distance from the
+// plane through x. Where too few do, x was hidden, and n = 1. At rest (`before` has the same camera and size)
+// each pixel goes on with itself, without bound on n, and the picture stays what the film says; what it
+// has learned is there when the camera moves on.
+//
+// What it costs: E' of moving shadows would lag, so that whoever edits the scene calls forget(). Light in
+// mirrors and glass is not reused. Repeated interpolation blurs by about a pixel.
+//
+// Source:  Walter, Drettakis and Parker 1999 (render cache); Scherzer et al. 2007 (reverse reprojection).
+// Proved:  tests/image/irradiance_history_test.cpp.
+// Threads: blend for different tiles at once, between two calls of begin. Memory: 40 bytes a pixel.
+// Errors:  none.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "common/image/patch_filter.h"
+#include "common/math/camera.h"
+
+namespace ninefold {
+
+class IrradianceHistory {
+ public:
+  static constexpr int kMost = 8;
+  static constexpr float kOffPlane = 0.005f;  // of the distance to x
+  static constexpr float kSameNormal = 0.9f;  // cosine
+  static constexpr float kEnough = 0.25f;     // weight of those that show the same surface
+
+  // A frame begins, which looks back at the one before.
+  void begin(const Camera& camera, int width, int height);
+  // Nothing of the past counts for the next frame.
+  void forget() { isForgotten_ = true; }
+
+  // After filter.compose with filter.keepIrradiance(true). moving: changes the tile's pixels in `beauty`.
+  void blend(const Patch& patch, const PatchFilter& filter, bool moving, RgbImage& beauty);
+
+ private:
+  struct Pixel {  // 20 bytes
+    Vec3 irradiance{0};
+    float distance = 0;  // from the eye; 0: nothing diffuse is there
+    int8_t normal[3] = {};
+    uint8_t frames = 0;  // that irradiance is the mean of
+  };
+  struct Frame {
+    Camera camera;
+    int width = 0, height = 0;
+    std::vector<Pixel> pixels;
+  };
+  struct Past {
+    Vec3 irradiance{0};
+    float frames = 0;
+  };
+  Past pastOf(Vec3 x, Vec3 normal, float distance) const;
+
+  Frame now_, before_;
+  bool isForgotten_ = true;
+  bool isStill_ = false;  // before_ has the same camera and size
+};
+
+}  // namespace ninefold
