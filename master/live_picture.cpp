@@ -39,6 +39,9 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
     film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError);
   else if (rested_ && plan.rested == 0)
     film_->clear();
+  if (plan.world != world_) history_.forget();
+  world_ = plan.world;
+  history_.begin(frame.view.camera, grid.width(), grid.height());
   takeImage(frame.view.shape);
 }
 
@@ -63,6 +66,7 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
   Desk& desk = *desks_[static_cast<size_t>(worker)];
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
+  history_.blend(desk.patch, desk.filter, plan.moving, desk.beauty);
   const size_t sets = static_cast<size_t>(desk.patch.phases());
   paint(look_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
         depthScale_, owners.data() + static_cast<size_t>(tile) * sets, desk.beauty);
@@ -113,6 +117,7 @@ void LivePicture::keepPickPlanes(const Patch& patch) {
 
 void LivePicture::frameDone() {
   if (rested_) film_->frameDone();
+  history_.frameDone();
 }
 
 double LivePicture::relativeError() const {

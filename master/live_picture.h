@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/image/film.h"
+#include "common/image/irradiance_history.h"
 #include "common/image/patch_filter.h"
 #include "master/assembly.h"
 #include "master/live_image.h"
@@ -41,7 +42,7 @@ class LivePicture {
 
  private:
   struct Desk {  // of one worker
-    explicit Desk(SurfaceTest test) : filter(test) {}
+    explicit Desk(SurfaceTest test) : filter(test) { filter.keepIrradiance(true); }
     Patch patch;
     PatchFilter filter;
     RgbImage beauty;
@@ -54,6 +55,8 @@ class LivePicture {
   void keepPickPlanes(const Patch& patch);
 
   const float depthScale_;
+  IrradianceHistory history_;
+  uint32_t world_ = 0;  // LiveFrame::world of the frame that history_ has seen
   std::vector<std::unique_ptr<Desk>> desks_;
   std::mutex begin_;
   std::optional<uint32_t> current_;  // the frame whose tiles come; guarded by begin_

@@ -22,6 +22,10 @@ FramePlan LivePlan::planOfRest() const {
 
 std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   if (state == state_) return std::nullopt;
+  Settings asSeenFromHere = state.settings;
+  asSeenFromHere.camera = state_.settings.camera;
+  asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
+  if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
   state_ = state;
   changed_ = now;
   if (!dirty_) firstUnshown_ = now;
@@ -85,7 +89,7 @@ LiveFrame LivePlan::open(Time now) {
   latest_ = order;
   LiveFrame frame;
   frame.order = order;
-  frame.changed = changed_, frame.opened = now;
+  frame.changed = changed_, frame.opened = now, frame.world = world_;
   return frame;
 }
 

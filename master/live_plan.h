@@ -35,6 +35,7 @@ struct LiveState {
 struct LiveFrame {
   FrameOrder order;
   bool moving = false;
+  uint32_t world = 0;         // counts changes of anything but the camera and the size
   int64_t rested = 0;         // frames at rest before this one: 0 begins the film anew
   float neighbourWeight = 1;  // of the filter
   Quality quality;
@@ -82,6 +83,7 @@ class LivePlan {
   MotionQuality quality_;
   FramePlan plan_;
   bool moving_ = false, dirty_ = false;
+  uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
   bool unsettled_ = false;  // it was announced as moving
   Time changed_{};          // the latest change

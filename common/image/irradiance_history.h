@@ -24,6 +24,7 @@
 
 #include "common/image/patch_filter.h"
 #include "common/math/camera.h"
+#include "common/math/units.h"
 
 namespace ninefold {
 
@@ -34,8 +35,9 @@ class IrradianceHistory {
   static constexpr float kSameNormal = 0.9f;  // cosine
   static constexpr float kEnough = 0.25f;     // weight of those that show the same surface
 
-  // A frame begins, which looks back at the one before.
+  // A frame begins, which looks back at the last one that was done.
   void begin(const Camera& camera, int width, int height);
+  void frameDone() { isDone_ = true; }
   // Nothing of the past counts for the next frame.
   void forget() { isForgotten_ = true; }
 
@@ -45,12 +47,13 @@ class IrradianceHistory {
  private:
   struct Pixel {  // 20 bytes
     Vec3 irradiance{0};
-    float distance = 0;  // from the eye; 0: nothing diffuse is there
+    float depth = 0;  // along the camera's forward axis [m]; 0: nothing diffuse is there
     int8_t normal[3] = {};
     uint8_t frames = 0;  // that irradiance is the mean of
   };
   struct Frame {
     Camera camera;
+    CameraRays rays;
     int width = 0, height = 0;
     std::vector<Pixel> pixels;
   };
@@ -58,9 +61,10 @@ class IrradianceHistory {
     Vec3 irradiance{0};
     float frames = 0;
   };
-  Past pastOf(Vec3 x, Vec3 normal, float distance) const;
+  Past pastOf(Vec3 x, Vec3 normal, Metres distance) const;
 
   Frame now_, before_;
+  bool isDone_ = false;  // now_ is whole
   bool isForgotten_ = true;
   bool isStill_ = false;  // before_ has the same camera and size
 };

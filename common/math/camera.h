@@ -22,6 +22,7 @@ struct Camera {
 // Threads: const after construction.
 class CameraRays {
  public:
+  CameraRays() = default;
   CameraRays(const Camera& camera, int width, int height) : forward_(camera.forward) {
     const float halfHeight = std::tan(0.5f * camera.verticalFov);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
@@ -33,9 +34,9 @@ class CameraRays {
     stepY_ = -pixel * upward;
   }
   // Unit direction through film position (px, py) in pixels; a pixel's centre is at +0.5.
-  Vec3 direction(float px, float py) const {
-    return glm::normalize(corner_ + px * stepX_ + py * stepY_);
-  }
+  Vec3 direction(float px, float py) const { return glm::normalize(onImagePlane(px, py)); }
+  // From the eye to a film position on the image plane: as far along forward as 1.
+  Vec3 onImagePlane(float px, float py) const { return corner_ + px * stepX_ + py * stepY_; }
   // Where on the film, in pixels, the ray along d arrives; nothing if d does not point forwards.
   std::optional<Vec2> filmPosition(Vec3 d) const {
     const float depth = glm::dot(d, forward_);
@@ -46,7 +47,7 @@ class CameraRays {
   }
 
  private:
-  Vec3 forward_, corner_, stepX_, stepY_;  // the image plane is at distance 1
+  Vec3 forward_{0}, corner_{0}, stepX_{0}, stepY_{0};  // the image plane is at distance 1
 };
 
 }  // namespace ninefold

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "common/image/film.h"
+#include "common/image/irradiance_history.h"
 #include "common/image/patch_filter.h"
 #include "common/image/tone_map.h"
 #include "proto/tile_codec.h"
@@ -102,6 +103,30 @@ void Filter(benchmark::State& state) {
   perPixel(state);
 }
 BENCHMARK(Filter);
+
+// Reuse while the eye moves (1: by two pixels) or rests (0), without the filter that is before it.
+void Reuse(benchmark::State& state) {
+  Patch patch;
+  fill(patch, unpacked(0));
+  PatchFilter filter(SurfaceTest::surface);
+  filter.keepIrradiance(true);
+  RgbImage beauty;
+  Camera camera{"", Vec3(0), Vec3(0, 0, -1), Vec3(0, 1, 0), 0.8f};
+  filter.compose(patch, camera, 1, beauty);
+  IrradianceHistory history;
+  history.begin(camera, kGrid.width(), kGrid.height());
+  history.blend(patch, filter, true, beauty);
+  history.frameDone();
+  const bool moving = state.range(0) != 0;
+  if (moving) camera.eye.x += 0.018f;
+  history.begin(camera, kGrid.width(), kGrid.height());
+  for (auto _ : state) {
+    history.blend(patch, filter, moving, beauty);
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(Reuse)->ArgName("moving")->Arg(0)->Arg(1);
 
 // What the filter reads and writes, without its arithmetic: 17 planes in, 3 out.
 void Traffic(benchmark::State& state) {

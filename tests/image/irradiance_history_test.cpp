@@ -48,10 +48,12 @@ class Walk {
         for (int x = 0; x < tile.width; ++x)
           set(beauty.pixels, beauty.at(patch.x0() + x, patch.y0() + y), tile.rgb(tile.at(x, y)));
     }
+    if (whole) history.frameDone();
     return beauty;
   }
 
   IrradianceHistory history;
+  bool whole = true;  // frames are finished
 
  private:
   World world_;
@@ -152,6 +154,19 @@ TEST(IrradianceHistory, AfterAnEditNothingOfThePastIsLeft) {
   Noise one(9), two(9);
   const RgbImage a = walk.frame(eyeAt(5), one.light()), b = fresh.frame(eyeAt(5), two.light());
   EXPECT_EQ(a.pixels, b.pixels);
+}
+
+// A frame that was given up half-way (its light is wrong here, to be seen) is not looked back at.
+TEST(IrradianceHistory, FramesThatWereGivenUpDoNotCount) {
+  Walk walk(floorAndWall);
+  const auto lit = [](float e) { return [e](int, int, const Point&) { return e; }; };
+  walk.frame(eyeAt(0), lit(1));
+  walk.whole = false;
+  walk.frame(eyeAt(1), lit(8));
+  walk.frame(eyeAt(2), lit(8));
+  walk.whole = true;
+  const RgbImage image = walk.frame(eyeAt(3), lit(1));
+  for (const float v : image.pixels.r) ASSERT_NEAR(v, 0.25f, 1e-6f);
 }
 
 // A still picture is the film's alone; but the eye that walks on takes along what was seen.

@@ -58,7 +58,7 @@ class LivePictureTest : public testing::Test {
   }
   std::shared_ptr<const LiveImage> inMotion(const GatheredFrame& frame, const LiveLook& look) {
     LiveFrame plan;
-    plan.moving = true;
+    plan.moving = true, plan.world = frame.view.key.frame;  // somebody edits
     return shown(frame, plan, look);
   }
   std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
@@ -105,6 +105,19 @@ TEST_F(LivePictureTest, InMotionShowsTheFrameAndItsCodes) {
     EXPECT_TRUE(image->display == codesOf(image->radiance, -2));
     EXPECT_EQ(image->exposure, -2);
   }
+}
+
+// Only the camera might have moved: the mean of both frames, to rounding.
+TEST_F(LivePictureTest, InMotionOfTheCameraUsesLightAgain) {
+  std::vector<GatheredFrame> frames;
+  for (const uint32_t number : {0u, 1u}) frames.push_back(frameOf(number, 200, 130));
+  LiveFrame plan;
+  plan.moving = true;
+  shown(frames[0], plan, {kBeauty, 0.0f});
+  const RgbImage found = shown(frames[1], plan, {kBeauty, 0.0f})->radiance;
+  const RgbImage mean = expectedMean(frames);
+  for (size_t i = 0; i < mean.count(); ++i)
+    ASSERT_NEAR(found.pixels.r[i], mean.pixels.r[i], 1e-5f * (1 + mean.pixels.r[i]));
 }
 
 TEST_F(LivePictureTest, AtRestShowsTheMeanAndItsCodes) {
