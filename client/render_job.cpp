@@ -29,21 +29,25 @@ RenderJob::RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersi
       delivery_(delivery),
       grid_(settings.width, settings.height, settings.interleave),
       layerMask_(light_->layerMask),
-      renderer_(light_->renderer, settings) {}
+      renderer_(light_->renderer, settings),
+      toneMap_(delivery.exposure) {}
 
-RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings)
+RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings,
+                     const Delivery& delivery)
     : light_(lit.light_),
       jobVersion_(jobVersion),
       settings_(settings),
-      delivery_(lit.delivery_),
+      delivery_(delivery),
       grid_(settings.width, settings.height, settings.interleave),
       layerMask_(lit.layerMask_),
-      renderer_(light_->renderer, settings) {}
+      renderer_(light_->renderer, settings),
+      toneMap_(delivery.exposure) {}
 
 RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& its,
                         const Delivery& delivery, int threads, const Light* before)
     : scene(std::move(s)),
       settings(its),
+      filter(delivery.filter),
       layerMask(layerMaskOf(needsOf(*scene->scene, settings.environment), settings.method)),
       begun(!scene->begun ? nullptr
             : before != nullptr && before->scene->begun == scene->begun &&
@@ -53,13 +57,13 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
       renderer(scene->tracer, settings, begun.get()),
       sets([this](const FrameKey& frame, int set) { return renderer.lightSet(frame, set); },
            kFramesKept) {
-  const SurfaceTest test = delivery.filter.value_or(SurfaceTest::none);
-  for (int i = 0; i < threads; ++i) desks.push_back(std::make_unique<Desk>(renderer, test));
+  for (int i = 0; i < threads; ++i) desks.push_back(std::make_unique<Desk>(renderer, filter));
 }
 
 bool RenderJob::hasLightOf(const std::shared_ptr<const TracedScene>& scene,
-                           const Settings& settings) const {
-  return scene == light_->scene && differInViewOnly(settings_, settings);
+                           const Settings& settings, const Delivery& delivery) const {
+  return scene == light_->scene && delivery.filter == light_->filter &&
+         differInViewOnly(settings_, settings);
 }
 
 RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
@@ -69,14 +73,17 @@ RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
       frame, static_cast<int>(item.tile), static_cast<int>(item.phase), item.extraMask, {}};
   const Time start = now();
   Work work;
-  if (delivery_.filter)
+  if (delivery_.wholeTiles())
     traceAndFilter(task, neighbourWeight, desk, work, now);
   else
     trace(task, desk, work, now);
   const uint64_t dither = ditherKey(settings_.seed, frame, item.tile, item.phase);
   const int used = delivery_.level == Delivery::kAdaptive ? level : delivery_.level;
-  TileEncoder::Encoded encoded = delivery_.filter ? desk.encoder.encode(desk.beauty, dither, used)
-                                                  : desk.encoder.encode(desk.tile, dither, used);
+  TileEncoder::Encoded encoded = delivery_.form == Delivery::Form::layers
+                                     ? desk.encoder.encode(desk.tile, dither, used)
+                                 : delivery_.form == Delivery::Form::radiance
+                                     ? desk.encoder.encode(desk.beauty, dither, used)
+                                     : desk.encoder.encode(desk.beauty, toneMap_, used);
 
   msg::Result result;
   result.jobVersion = jobVersion_;

@@ -2,10 +2,10 @@
 //
 // A task is a phase of a tile, sent as it was traced; or, if the job's tiles are filtered here, a
 // whole tile: all its phases are traced, with the pixels around it that the filter reaches, and what
-// is sent is the radiance that the master would have made of them; but that VPL roulette chooses
-// for other packets of receivers, around the tile.
+// is sent is the radiance that the master would have made of them, or the codes that it would have
+// shown; but that VPL roulette chooses for other packets of receivers, around the tile.
 //
-// Jobs that differ in nothing but camera and size share their light: what was worked out about the
+// Jobs that differ in nothing but camera, size and form share their light: what was worked out about the
 // lamps, the light sets that were made, and the threads' working memory.
 //
 // Threads: run may be called at once for different `thread` numbers, each has its own working
@@ -51,9 +51,11 @@ class RenderJob {
   // gesture and settings.
   RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion, const Settings& settings,
             const Delivery& delivery, int threads, const RenderJob* before = nullptr);
-  // The light of `lit` under settings for which lit.hasLightOf(scene, settings).
-  RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings);
-  bool hasLightOf(const std::shared_ptr<const TracedScene>& scene, const Settings& settings) const;
+  // The light of `lit` under settings for which lit.hasLightOf(scene, settings, delivery).
+  RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings,
+            const Delivery& delivery);
+  bool hasLightOf(const std::shared_ptr<const TracedScene>& scene, const Settings& settings,
+                  const Delivery& delivery) const;
 
   struct Done {
     msg::Result result;
@@ -89,6 +91,7 @@ class RenderJob {
           const Delivery& delivery, int threads, const Light* before);
     const std::shared_ptr<const TracedScene> scene;
     const Settings settings;
+    const SurfaceTest filter;
     const uint8_t layerMask;
     const std::shared_ptr<const Renderer> begun;  // of scene->begun
     const Renderer renderer;
@@ -103,6 +106,7 @@ class RenderJob {
   const TileGrid grid_;
   const uint8_t layerMask_;
   const Renderer renderer_;
+  const ToneMap toneMap_;
 };
 
 }  // namespace ninefold

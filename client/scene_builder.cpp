@@ -104,8 +104,9 @@ void SceneBuilder::answer(const act::RestoreScene&) {
 }
 
 void SceneBuilder::answer(const act::PrepareJob& question) {
-  const bool lit = latest_ && latest_->hasLightOf(scene_, question.settings);
-  auto job = lit ? std::make_shared<RenderJob>(*latest_, question.jobVersion, question.settings)
+  const bool lit = latest_ && latest_->hasLightOf(scene_, question.settings, question.delivery);
+  auto job = lit ? std::make_shared<RenderJob>(*latest_, question.jobVersion, question.settings,
+                                               question.delivery)
                  : std::make_shared<RenderJob>(scene_, question.jobVersion, question.settings,
                                                question.delivery, threads_, latest_.get());
   latest_ = job;

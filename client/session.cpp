@@ -166,7 +166,7 @@ void Session::checkTasks(const msg::Tasks& tasks) const {
   if (job == nullptr) fail("tasks of a job that is not there");
   const Settings& s = job->settings;
   const TileGrid grid(s.width, s.height, s.interleave);
-  const int phases = job->delivery.filter ? 1 : s.interleave.sets();  // of a tile's tasks
+  const int phases = job->delivery.wholeTiles() ? 1 : s.interleave.sets();  // of a tile's tasks
   for (const msg::TaskItem& item : tasks.items)
     if (item.tile >= static_cast<uint32_t>(grid.tiles()) ||
         item.phase >= static_cast<uint32_t>(phases))

@@ -1,12 +1,13 @@
 // frame_order.h: a frame that somebody wants: its key, and the job that it is of. Plain value.
 //
-// A job is a version of the settings (camera and size included) on a version of the scene; both are
+// A job is a version of the settings (camera and size included) and of the form of results, on a version of the scene; all are
 // announced to the clients when the first frame opens that shows them. Versions and frame numbers only ever grow, and a frame's job is never older than that
 // of the frame before.
 #pragma once
 
 #include "common/scene/edit.h"
 #include "common/scene/settings.h"
+#include "proto/messages.h"
 
 namespace ninefold {
 
@@ -18,7 +19,7 @@ struct FrameOrder {
   SceneEdit edit;       // what is different from the version before
   bool moving = false;  // as in msg::Edit
   uint8_t extraMask = 0;
-  bool filtered = false;      // clients do it: a task is a whole tile
+  Delivery delivery;          // of the job, too
   float neighbourWeight = 1;  // of the filter
 
   TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }

@@ -62,7 +62,7 @@ FrameOrder orderOf(const Job& job) {
   FrameOrder order;
   order.settings = job.settings;
   order.extraMask = job.shape.extraMask;
-  order.filtered = isFiltered(job.shape);
+  order.delivery = job.delivery;
   return order;
 }
 

@@ -33,7 +33,8 @@ void tellSettings(const Options& options, const Settings& s) {
 Delivery deliveryOf(const Options& options) {
   Delivery delivery;
   delivery.level = options.wireLevel;
-  if (options.filterAtClients) delivery.filter = options.surfaceTest;
+  delivery.filter = options.surfaceTest;
+  if (filtersAtClients(options, options.view)) delivery.form = Delivery::Form::radiance;
   return delivery;
 }
 
@@ -50,15 +51,16 @@ Job makeJob(const Options& options) {
   tellSettings(options, job.settings);
   for (const std::string& line : leftOut(job.needs, job.settings)) warn("{}", line);
   const TileGrid grid(job.settings.width, job.settings.height, job.settings.interleave);
-  job.shape = options.filterAtClients
-                  ? FrameShape{grid, 0, 0}
+  job.delivery = deliveryOf(options);
+  job.shape = job.delivery.wholeTiles()
+                  ? FrameShape{grid, kRadianceMask, 0}
                   : FrameShape{grid, layerMaskOf(job.needs, job.settings.method),
                                extraPlanes(options, job.needs)};
   job.sceneRadius = scene.bounds.radius();
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
   std::vector<Blob> blobs = packScene(scene);
   job.sceneHash = hashOf(blobs);
-  job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, deliveryOf(options));
+  job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, job.delivery);
   if (isLive(options)) job.scene = std::move(read);
   return job;
 }

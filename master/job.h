@@ -17,7 +17,8 @@ namespace ninefold {
 struct Job {
   Settings settings;
   Needs needs;
-  FrameShape shape;              // of what clients send
+  Delivery delivery;             // of headless runs, and of live ones that begin at rest
+  FrameShape shape;              // of what clients send then
   Metres firstPhotonRadius = 0;  // [m]
   Metres sceneRadius = 0;        // R [m]
   std::string sceneHash;         // SHA-256 over the names of its blobs

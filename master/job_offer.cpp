@@ -11,10 +11,11 @@ JobOffer::JobOffer(std::vector<Blob> blobs, const Settings& settings, const Deli
   for (const Blob& blob : blobs_) byHash_[blob.info.hash] = &blob;
 }
 
-void JobOffer::setJob(uint32_t version, const Settings& settings) {
+void JobOffer::setJob(uint32_t version, const Settings& settings, const Delivery& delivery) {
   NINEFOLD_CHECK(version > job_);
   job_ = version;
   settings_ = settings;
+  delivery_ = delivery;
 }
 
 msg::Edit JobOffer::setEdit(uint32_t version, const SceneEdit& edit, bool moving) {

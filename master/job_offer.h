@@ -20,7 +20,7 @@ class JobOffer {
   msg::Configure configure() const { return {kScene, job_, settings_, delivery_}; }
   uint32_t job() const { return job_; }
   // The job has changed: `version` is larger than before.
-  void setJob(uint32_t version, const Settings& settings);
+  void setJob(uint32_t version, const Settings& settings, const Delivery& delivery);
   // The scene has changed: `version` is larger than before. The message for those who have all up to
   // here; and those for who comes later, none if there was no edit.
   msg::Edit setEdit(uint32_t version, const SceneEdit& edit, bool moving);
@@ -37,7 +37,7 @@ class JobOffer {
   EditsSoFar edits_;
   uint32_t job_ = 1;
   Settings settings_;
-  const Delivery delivery_;
+  Delivery delivery_;
   std::map<Sha256, const Blob*> byHash_;
 };
 

@@ -1,6 +1,7 @@
 #include "master/latency_log.h"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,11 @@ double quantile(std::vector<double> values, double q) {
   return values[std::clamp<size_t>(rank, 1, values.size()) - 1];
 }
 
+const char* nameOf(Delivery::Form form) {
+  constexpr std::array kNames{"layers", "radiance", "codes"};
+  return kNames[static_cast<size_t>(form)];
+}
+
 nlohmann::ordered_json summary(const std::vector<double>& values) {
   return {{"count", values.size()},
           {"p50", quantile(values, 0.5)},
@@ -30,8 +36,8 @@ void LatencyLog::add(const Shown& shown) {
   const LiveFrame& frame = shown.frame;
   entries_.push_back({frame.order.key.frame, seconds(shown.completed - start_),
                       frame.moving ? seconds(shown.completed - frame.changed) : -1,
-                      seconds(shown.completed - frame.opened), frame.moving, shown.image->width(),
-                      shown.image->height(),
+                      seconds(shown.completed - frame.opened), frame.moving,
+                      frame.order.delivery.form, shown.image->width, shown.image->height,
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
 }
 
@@ -41,8 +47,8 @@ void LatencyLog::write(const std::string& path, const std::string& scene) const 
   for (const Entry& e : entries_) {
     if (e.moving) latency.push_back(1e3 * e.latency), moving.push_back(1e3 * e.took);
     nlohmann::ordered_json frame{
-        {"frame", e.frame},   {"time", e.time},   {"moving", e.moving},     {"width", e.width},
-        {"height", e.height}, {"light", e.light}, {"took_ms", 1e3 * e.took}};
+        {"frame", e.frame}, {"time", e.time},     {"moving", e.moving}, {"form", nameOf(e.form)},
+        {"width", e.width}, {"height", e.height}, {"light", e.light},   {"took_ms", 1e3 * e.took}};
     if (e.moving) frame["latency_ms"] = 1e3 * e.latency;
     frames.push_back(std::move(frame));
   }

@@ -22,6 +22,7 @@ class LatencyLog {
     double time, latency;  // [s]; latency < 0: the frame shows no change
     double took;           // from opening to the last tile [s]
     bool moving;
+    Delivery::Form form;
     int width, height;
     double light;
   };

@@ -10,16 +10,14 @@
 namespace ninefold {
 
 struct LiveImage {
-  RgbImage radiance;
+  int width = 0, height = 0;
+  RgbImage radiance;              // empty if clients sent codes
   float exposure = 0;             // [EV] of `display`
-  DisplayImage display;           // of `radiance`; empty if nobody looks
+  DisplayImage display;           // of the radiance; empty if nobody looks
   std::vector<uint32_t> objects;  // as kObjectPlane, if the frame carried it and depth; else empty
   std::vector<float> depth;       // as kDepthPlane, likewise
 
-  int width() const { return radiance.width; }
-  int height() const { return radiance.height; }
-  size_t at(int x, int y) const { return radiance.at(x, y); }
-  size_t count() const { return radiance.count(); }
+  size_t at(int x, int y) const { return pixelCount(width, y) + static_cast<size_t>(x); }
 };
 
 }  // namespace ninefold

@@ -31,7 +31,7 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   current_ = frame.view.key.frame;
   look_ = look;
   const TileGrid& grid = frame.view.shape.grid;
-  rested_ = !plan.moving;
+  rested_ = !plan.moving && frame.view.shape.layerMask != kDisplayMask;
   const bool wantsError = look.view == PictureView::error;  // views change at a rest's beginning
   const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height() &&
                     keepsError_ == wantsError;
@@ -39,9 +39,12 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
     film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError);
   else if (rested_ && plan.rested == 0)
     film_->clear();
-  if (plan.world != world_) history_.forget();
-  world_ = plan.world;
-  history_.begin(frame.view.camera, grid.width(), grid.height());
+  traced_ = !isFiltered(frame.view.shape);
+  if (traced_) {
+    if (plan.world != world_) history_.forget();
+    world_ = plan.world;
+    history_.begin(frame.view.camera, grid.width(), grid.height());
+  }
   takeImage(frame.view.shape);
 }
 
@@ -52,11 +55,13 @@ void LivePicture::takeImage(const FrameShape& shape) {
   image_ = found != images_.end() ? *found : images_.emplace_back(std::make_shared<LiveImage>());
   std::atomic_thread_fence(std::memory_order_acquire);  // whoever held it has done with it
   const int width = shape.grid.width(), height = shape.grid.height();
-  reshape(width, height, image_->radiance);
+  const bool coded = shape.layerMask == kDisplayMask;
+  image_->width = width, image_->height = height;
+  reshape(coded ? 0 : width, coded ? 0 : height, image_->radiance);
   image_->exposure = look_.exposure.value_or(0);
   image_->display.reshape(look_.exposure ? width : 0, look_.exposure ? height : 0);
   const bool picks = (shape.extraMask & kPickPlanes) == kPickPlanes;
-  image_->objects.resize(picks ? image_->count() : 0);
+  image_->objects.resize(picks ? pixelCount(width, height) : 0);
   image_->depth.resize(image_->objects.size());
 }
 
@@ -64,16 +69,29 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
                              const LiveLook& look, const std::vector<uint32_t>& owners, int tile) {
   begin(frame, plan, look);
   Desk& desk = *desks_[static_cast<size_t>(worker)];
-  gather(frame, tile, desk.patch);
-  desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
-  history_.blend(desk.patch, desk.filter, plan.moving, desk.beauty);
-  const size_t sets = static_cast<size_t>(desk.patch.phases());
-  paint(look_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
-        depthScale_, owners.data() + static_cast<size_t>(tile) * sets, desk.beauty);
-  keepPickPlanes(desk.patch);
-  const TaskRect rect = pixelsOf(frame.view.shape.grid, tile);
+  const FrameShape& shape = frame.view.shape;
+  const TaskRect rect = pixelsOf(shape.grid, tile);
+  if (shape.layerMask == kDisplayMask)
+    return frame.task(tile, 0).copyDisplay(static_cast<size_t>(image_->width),
+                                           &image_->display.rgb[3 * image_->at(rect.i0, rect.j0)]);
+  if (isFiltered(shape))
+    frame.task(tile, 0).copyRadiance(desk.beauty);
+  else
+    finishLayers(desk, frame, plan.moving,
+                 &owners[static_cast<size_t>(shape.grid.interleave().sets() * tile)], tile);
   rested_ ? sumUp(rect, desk.beauty) : copyTile(rect, desk.beauty);
   if (look_.exposure) toneMap(rect);
+}
+
+void LivePicture::finishLayers(Desk& desk, const GatheredFrame& frame, bool moving,
+                               const uint32_t* owners, int tile) {
+  const FrameView& view = frame.view;
+  gather(frame, tile, desk.patch);
+  desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty);
+  history_.blend(desk.patch, desk.filter, moving, desk.beauty);
+  paint(look_.view, desk.patch, desk.filter, view.neighbourWeight, view.key.rotation, depthScale_,
+        owners, desk.beauty);
+  keepPickPlanes(desk.patch);
 }
 
 void LivePicture::sumUp(const TaskRect& tile, const RgbImage& beauty) {
@@ -117,7 +135,7 @@ void LivePicture::keepPickPlanes(const Patch& patch) {
 
 void LivePicture::frameDone() {
   if (rested_) film_->frameDone();
-  history_.frameDone();
+  if (traced_) history_.frameDone();
 }
 
 double LivePicture::relativeError() const {

@@ -49,6 +49,8 @@ class LivePicture {
   };
   void begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look);
   void takeImage(const FrameShape& shape);
+  void finishLayers(Desk& desk, const GatheredFrame& frame, bool moving, const uint32_t* owners,
+                    int tile);
   void sumUp(const TaskRect& tile, const RgbImage& beauty);
   void copyTile(const TaskRect& tile, const RgbImage& beauty);
   void toneMap(const TaskRect& tile);
@@ -56,12 +58,13 @@ class LivePicture {
 
   const float depthScale_;
   IrradianceHistory history_;
-  uint32_t world_ = 0;  // LiveFrame::world of the frame that history_ has seen
+  uint32_t world_ = 0;   // LiveFrame::world of the frame that history_ has seen
+  bool traced_ = false;  // history_ sees the frame: clients have not filtered it
   std::vector<std::unique_ptr<Desk>> desks_;
   std::mutex begin_;
   std::optional<uint32_t> current_;  // the frame whose tiles come; guarded by begin_
   LiveLook look_;
-  bool rested_ = false;
+  bool rested_ = false;  // summed up; in a still of codes nothing is
   std::unique_ptr<Film> film_;
   bool keepsError_ = false;                         // film_ does
   std::shared_ptr<LiveImage> image_;                // that tiles come into

@@ -7,12 +7,15 @@ LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
       state_(setup.state),
       quality_(setup.target),
+      atRest_(setup.delivery),
+      inMotion_(setup.delivery),
       plan_(planOfRest()),
       changed_(now),
       firstUnshown_(now) {
   latest_.settings = state_.settings;
   latest_.extraMask = state_.extraMask;
   latest_.scene = scene_ = state_.scene;
+  latest_.delivery = setup.delivery;
 }
 
 FramePlan LivePlan::planOfRest() const {
@@ -45,6 +48,7 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
 
 std::optional<LiveFrame> LivePlan::next(Time now) {
   if (moving_) return nextInMotion(now);
+  if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;
   LiveFrame frame = open(now);
   frame.rested = plan_.opened();
   const FrameKey key = plan_.next();
@@ -80,12 +84,15 @@ LiveFrame LivePlan::open(Time now) {
   order.settings = settingsAt(moving_ ? quality_.current() : Quality{});
   order.extraMask = state_.extraMask;
   order.moving = moving_;
+  order.delivery = moving_ ? inMotion_ : atRest_;
   if (state_.scene != scene_ || (unsettled_ && !moving_)) {
     scene_ = state_.scene;
     ++order.scene;
     unsettled_ = moving_;
   }
-  if (!(order.settings == latest_.settings) || order.scene != latest_.scene) ++order.job;
+  if (!(order.settings == latest_.settings) || order.scene != latest_.scene ||
+      !(order.delivery == latest_.delivery))
+    ++order.job;
   latest_ = order;
   LiveFrame frame;
   frame.order = order;

@@ -1,7 +1,8 @@
 // live_plan.h: which frames a session wants whose picture changes while it is looked at: changes and
 // the time go in, frames come out. Pure.
 //
-//   rest     frames of full quality, one after another, as FramePlan says; the film sums them up
+//   rest     frames of full quality, one after another, as FramePlan says; the film sums them up,
+//            for ever or as many as a still is to have
 //   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
 //            at motion_quality's step, with the random bits of the first frame, so that nothing
 //            flickers; at most kInMotion of them are open. An edited scene is announced as moving,
@@ -54,6 +55,8 @@ class LivePlan {
     Duration target = milliseconds(100);
     bool motion =
         true;  // false: every state is shown as at rest, for pictures that may take their time
+    std::optional<int64_t> frames;  // of a state at rest; nothing: without end
+    Delivery delivery;              // of the first job
   };
   LivePlan(const Setup& setup, Time now);
 
@@ -62,6 +65,10 @@ class LivePlan {
   // if open ones are not.
   std::optional<uint32_t> change(const LiveState& state, Time now);
   void setTarget(Duration target) { quality_.setTarget(target); }
+  // Of frames that open from now on. No change of the picture.
+  void setDelivery(const Delivery& atRest, const Delivery& inMotion) {
+    atRest_ = atRest, inMotion_ = inMotion;
+  }
 
   // The next frame to open; nothing while none is wanted.
   std::optional<LiveFrame> next(Time now);
@@ -81,6 +88,7 @@ class LivePlan {
   Setup setup_;
   LiveState state_;
   MotionQuality quality_;
+  Delivery atRest_, inMotion_;
   FramePlan plan_;
   bool moving_ = false, dirty_ = false;
   uint32_t world_ = 0;

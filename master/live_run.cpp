@@ -17,6 +17,8 @@ LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace 
   setup.converging = options.converging;
   setup.target = pace.target;
   setup.motion = pace.motion;
+  setup.frames = pace.frames;
+  setup.delivery = job.delivery;
   return setup;
 }
 
@@ -24,14 +26,16 @@ LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace 
 
 LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
                  OnPicture onPicture)
-    : job_(job),
+    : options_(options),
+      job_(job),
       workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       onPicture_(std::move(onPicture)),
       picture_(options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
-      exposure_(pace.exposure),
+      view_(options.view),
+      pace_(pace),
       cluster_(clusterSetup(options, keys), *job.offer,
                {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); }}),
       assembly_(
@@ -42,6 +46,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
           [this](int worker, const GatheredFrame& frame, int tile) {
             finishTile(worker, frame, tile);
           }) {
+  setDelivery();
   invite(options, cluster_.endpoint());
 }
 
@@ -67,6 +72,7 @@ void LiveRun::change(const std::function<void()>& apply) {
   {
     const std::lock_guard lock(mutex_);
     apply();
+    setDelivery();
     const LiveState next = newest();
     if (next == plan_.state()) return;
     firstWanted = plan_.change(next, Clock::now());
@@ -113,7 +119,8 @@ void LiveRun::setTarget(Duration target) {
 
 void LiveRun::setExposure(float exposure) {
   const std::lock_guard lock(mutex_);
-  exposure_ = exposure;
+  pace_.exposure = exposure;
+  setDelivery();
 }
 
 LiveState LiveRun::newest() const {
@@ -150,8 +157,38 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
   return shown_;
 }
 
-LiveLook LiveRun::look() const {
-  return {view_, exposure_ && isFalseColor(view_) ? std::optional(0.0f) : exposure_};
+LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
+  LiveLook look{view_, pace_.exposure};
+  if (look.exposure && isFalseColor(view_)) look.exposure = 0;
+  if (pace_.frames && frame.rested + 1 < *pace_.frames) look.exposure.reset();  // not seen
+  return look;
+}
+
+// Needs the lock. Summed up are frames that there is to be a mean of.
+Delivery LiveRun::delivery(bool summedUp) const {
+  using Form = Delivery::Form;
+  Delivery d = job_.delivery;
+  const int pixels = kTaskSide * kTaskSide * wanted_.interleave.sets();
+  const bool whole =
+      filtersAtClients(options_, view_) && newest().extraMask == 0 && pixels <= kMaxTilePixels;
+  d.form = !whole                                           ? Form::layers
+           : !summedUp && pace_.codesOnly && pace_.exposure ? Form::display
+                                                            : Form::radiance;
+  if (d.form == Form::display) d.exposure = *pace_.exposure;
+  return d;
+}
+
+void LiveRun::setDelivery() { plan_.setDelivery(delivery(pace_.frames != 1), delivery(false)); }
+
+FrameShape LiveRun::shapeOf(const FrameOrder& order) const {
+  switch (order.delivery.form) {
+    case Delivery::Form::radiance:
+      return {order.grid(), kRadianceMask, 0};
+    case Delivery::Form::display:
+      return {order.grid(), kDisplayMask, 0};
+    default:
+      return {order.grid(), layerMaskOf(needs_, order.settings.method), order.extraMask};
+  }
 }
 
 // On the network thread.
@@ -165,11 +202,11 @@ std::optional<FrameOrder> LiveRun::nextFrame() {
   order.neighbourWeight = frame->neighbourWeight;
   FrameView view;
   view.key = order.key;
-  view.shape = {order.grid(), layerMaskOf(needs_, order.settings.method), order.extraMask};
+  view.shape = shapeOf(order);
   view.camera = order.settings.camera;
   view.neighbourWeight = frame->neighbourWeight;
   open_[order.key.frame] = std::make_shared<Open>(
-      Open{*frame, plan_.state(), look(),
+      Open{*frame, plan_.state(), lookAt(*frame),
            std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});
   assembly_.open(view);
   return order;

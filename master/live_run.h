@@ -4,6 +4,10 @@
 //   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
 //   picture thread: sums frames up, publishes what is to be seen
 //
+// If clients filter, they do so for views of light (isLight) without pick planes, in tiles that are not
+// too large; other frames come as layers. A frame that is not summed up (in motion, or a still of one
+// frame) comes as codes if nobody wants its radiance.
+//
 // Threads: as said. Owner: the session; ends all its threads when destroyed.
 // Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run later.
 #pragma once
@@ -42,6 +46,8 @@ class LiveRun {
     Duration target = milliseconds(100);  // of frames in motion
     bool motion = true;                   // false: every state is rendered as if it rested
     std::optional<float> exposure = {};   // [EV]: somebody looks at codes; none: at radiance only
+    bool codesOnly = false;               // and at nothing else, unless frames are summed up
+    std::optional<int64_t> frames = {};   // of a picture at rest, at most
   };
   using OnPicture = std::function<void(const std::shared_ptr<const Shown>&)>;
   LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
@@ -75,9 +81,13 @@ class LiveRun {
   void gatherFrames();
   void change(const std::function<void()>& apply);
   LiveState newest() const;
-  LiveLook look() const;  // of a frame that opens now
+  LiveLook lookAt(const LiveFrame& frame) const;
+  Delivery delivery(bool summedUp) const;
+  FrameShape shapeOf(const FrameOrder& order) const;
+  void setDelivery();
   void publish(const LiveFrame& frame, Time completed);
 
+  const Options& options_;
   Job& job_;
   const int workers_;
   const OnPicture onPicture_;
@@ -91,7 +101,7 @@ class LiveRun {
   uint32_t edits_ = 0;
   PictureView view_ = PictureView::beauty;
   bool objects_ = false;
-  std::optional<float> exposure_;
+  Pace pace_;
   struct Open {
     LiveFrame frame;
     LiveState state;

@@ -91,7 +91,7 @@ void readPicture(const RawOptions& raw, Options& o) {
   o.camera = raw.text("camera").value_or("");
   o.environment = readEnvironment(raw);
   assign(o.surfaceTest, choice(raw, "filter", std::array{"none", "paper", "surface"}));
-  assign(o.exposure, raw.real("exposure", -50, 50));
+  assign(o.exposure, raw.real("exposure", -double{kMostExposure}, double{kMostExposure}));
   o.aovs = raw.isOn("aovs");
 }
 
@@ -166,14 +166,14 @@ void readLive(const RawOptions& raw, Options& o) {
   readAnimation(raw, o);
   assign(o.frameTime, raw.real("frame-time", 1, 10000));
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
-  if (o.filterAtClients && (isLive(o) || raw.text("view").value_or("beauty") != "beauty"))
-    failUsage("--filter-at clients goes with none of --window, --script, --animate and --view");
   if (const auto view = raw.text("view")) {
     const auto known = viewNamed(*view);
     if (!known) failUsage("--view {}: must be {}", *view, fmt::join(kViewNames, ", "));
     o.view = *known;
     if (o.view == PictureView::clients && !o.window)
       failUsage("--view clients is for --window: who rendered what changes from frame to frame");
+    if (o.filterAtClients && !isLive(o) && !isLight(o.view))
+      failUsage("--view {} needs --filter-at master: it is made of what clients traced", *view);
   }
 }
 

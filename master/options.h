@@ -66,6 +66,14 @@ inline constexpr int64_t kDefaultFrames = 64;
 // Settings and scene may change from frame to frame.
 inline bool isLive(const Options& o) { return o.window || o.script || o.animate; }
 
+// Whether a picture's tiles come filtered, as far as the command line says.
+inline bool filtersAtClients(const Options& o, PictureView view) {
+  return o.filterAtClients && isLight(view);
+}
+
+// Whether a live run has no use for radiance, unless it sums frames up.
+inline bool wantsCodesOnly(const Options& o) { return !o.output || o.output->ends_with(".png"); }
+
 // `cores`: of this machine; one local client for each is the default.
 Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores);
 

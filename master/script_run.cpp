@@ -6,7 +6,6 @@
 
 #include "common/base/log.h"
 #include "common/image/image_file.h"
-#include "common/image/tone_map.h"
 #include "master/cluster_setup.h"
 #include "master/latency_log.h"
 #include "master/live_run.h"
@@ -25,6 +24,15 @@ std::string numbered(const std::string& pattern, int number) {
   return pattern.substr(0, from) + fmt::format("{:0{}}", number, digits) + pattern.substr(end);
 }
 
+// Codes are made as for a window, so that latencies are those that a person at one would feel.
+LiveRun::Pace paceOf(const Options& options, const Script& script) {
+  LiveRun::Pace pace{fromSeconds(1e-3 * options.frameTime), !script.rate};
+  pace.codesOnly = wantsCodesOnly(options);
+  if (pace.codesOnly) pace.exposure = options.exposure;
+  if (script.rate) pace.frames = script.frames;
+  return pace;
+}
+
 class ScriptRun {
  public:
   explicit ScriptRun(const Options& options)
@@ -32,8 +40,7 @@ class ScriptRun {
         job_(makeJob(options)),
         player_(*scriptOf(options, *job_.scene), job_.scene, job_.settings.camera),
         log_(Clock::now()),
-        live_(options, job_, loadKeys(options),
-              {fromSeconds(1e-3 * options.frameTime), !script().rate},
+        live_(options, job_, loadKeys(options), paceOf(options, script()),
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
@@ -114,8 +121,10 @@ class ScriptRun {
   }
 
   void write(const std::string& path, const Shown& shown) const {
-    const float exposure = isFalseColor(options_.view) ? 0 : options_.exposure;
-    writeImage(path, {shown.image->radiance, {}, {}}, ToneMap(exposure));
+    if (path.ends_with(".png"))
+      writePng(path, shown.image->display);
+    else
+      writeImage(path, {shown.image->radiance, {}, {}});
   }
 
   const Options& options_;

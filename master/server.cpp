@@ -200,14 +200,14 @@ void Server::openFrames(Time) {
     if (!order) return;
     if (order->job != offer_.job()) announce(*order);
     open_[order->key.frame] = *order;
-    scheduler_.openFrame(order->key, order->grid(), order->filtered);
+    scheduler_.openFrame(order->key, order->grid(), order->delivery.wholeTiles());
   }
 }
 
 void Server::announce(const FrameOrder& order) {
   std::optional<msg::Edit> edit;
   if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit, order.moving);
-  offer_.setJob(order.job, order.settings);
+  offer_.setJob(order.job, order.settings, order.delivery);
   for (Handle& peer : peers_) {
     peer.second.session->jobChanged(edit ? &*edit : nullptr);
     carryOut(peer, Clock::now());

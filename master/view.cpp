@@ -78,10 +78,12 @@ Settings settingsFor(PictureView view, Settings settings) {
   return settings;
 }
 
-bool isFalseColor(PictureView view) {
-  return view != PictureView::beauty && view != PictureView::direct &&
-         view != PictureView::indirect && view != PictureView::caustics;
+bool isLight(PictureView view) {
+  return view == PictureView::beauty || view == PictureView::direct ||
+         view == PictureView::indirect;
 }
+
+bool isFalseColor(PictureView view) { return !isLight(view) && view != PictureView::caustics; }
 
 Vec3 colorOf(uint32_t number) {
   const float hue = std::fmod(0.618034f * static_cast<float>(number), 1.0f) * 6;

@@ -55,6 +55,9 @@ inline constexpr float kDepthShownWhite = 2;  // in radii of the scene
 uint8_t planesOf(PictureView view);
 Settings settingsFor(PictureView view, Settings settings);
 
+// Whether it is light, which clients can filter; else it is made at the master of what they traced.
+bool isLight(PictureView view);
+
 // Where its colours are codes and not light, so that exposure must leave them alone.
 bool isFalseColor(PictureView view);
 

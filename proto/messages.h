@@ -41,6 +41,7 @@ inline constexpr size_t kMaxEdits = 65536;  // things in one edit
 inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
+inline constexpr float kMostExposure = 50;               // [EV], and its negative
 inline constexpr uint8_t kAllExtraPlanes = 31;           // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 
@@ -80,10 +81,15 @@ enum class Phase : uint8_t { fetching = 0, building = 1 };
 // How results are to be sent.
 struct Delivery {
   static constexpr int kAdaptive = -1, kHighestLevel = 19;
+  // layers: a task is one phase of a tile. Else it is a whole tile, filtered, and sent as radiance or
+  // as a display's codes.
+  enum class Form : uint8_t { layers, radiance, display };
+
   int level = kAdaptive;  // of zstd; kAdaptive: what suits the client's line
-  // A task is a whole tile, sent as finished radiance after this filter; else one phase of a tile,
-  // sent as layers.
-  std::optional<SurfaceTest> filter;
+  Form form = Form::layers;
+  SurfaceTest filter = SurfaceTest::surface;  // of whole tiles
+  float exposure = 0;                         // [EV] of codes
+  bool wholeTiles() const { return form != Form::layers; }
   bool operator==(const Delivery&) const = default;
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "proto/edit_wire.h"
@@ -89,10 +90,15 @@ msg::Configure decode(const pb::Configure& in, Bytes&&) {
   if (in.level() < Delivery::kAdaptive || in.level() > Delivery::kHighestLevel)
     fail("level {} is out of range", in.level());
   m.delivery.level = in.level();
-  const auto filter =
-      upTo<uint8_t>("filter", in.filter(), 1 + static_cast<uint64_t>(SurfaceTest::surface));
-  if (filter > 0) m.delivery.filter = static_cast<SurfaceTest>(filter - 1);
-  if (filter > 0 && m.settings.interleave.sets() * kTaskSide * kTaskSide > kMaxTilePixels)
+  m.delivery.filter =
+      upTo<SurfaceTest>("filter", in.filter(), static_cast<uint64_t>(SurfaceTest::surface));
+  m.delivery.form =
+      upTo<Delivery::Form>("form", in.form(), static_cast<uint64_t>(Delivery::Form::display));
+  m.delivery.exposure = in.exposure();
+  if (!(std::abs(in.exposure()) <= kMostExposure))
+    fail("exposure {} is out of range", in.exposure());
+  if (m.delivery.wholeTiles() &&
+      m.settings.interleave.sets() * kTaskSide * kTaskSide > kMaxTilePixels)
     fail("tiles are too large to be filtered by clients");
   return m;
 }

@@ -71,7 +71,9 @@ pb::Configure header(const msg::Configure& m) {
   out.set_job_version(m.jobVersion);
   toWire(m.settings, *out.mutable_settings());
   out.set_level(m.delivery.level);
-  out.set_filter(m.delivery.filter ? 1 + static_cast<uint32_t>(*m.delivery.filter) : 0);
+  out.set_filter(static_cast<uint32_t>(m.delivery.filter));
+  out.set_form(static_cast<uint32_t>(m.delivery.form));
+  out.set_exposure(m.delivery.exposure);
   return out;
 }
 

@@ -115,8 +115,14 @@ TileEncoder::Encoded TileEncoder::encode(const TileResult& tile, uint64_t dither
 }
 
 TileEncoder::Encoded TileEncoder::encode(const RgbImage& radiance, uint64_t dither, int level) {
-  return impl_->encode({radiance.width, radiance.height, 0, 0}, dither, level,
+  return impl_->encode({radiance.width, radiance.height, kRadianceMask, 0}, dither, level,
                        [&](FieldWriter& writer) { writer.light(radiance.pixels); });
+}
+
+TileEncoder::Encoded TileEncoder::encode(const RgbImage& radiance, const ToneMap& toneMap,
+                                         int level) {
+  return impl_->encode({radiance.width, radiance.height, kDisplayMask, 0}, 0, level,
+                       [&](FieldWriter& writer) { writer.display(radiance.pixels, toneMap); });
 }
 
 struct TileDecoder::Impl {
@@ -160,8 +166,10 @@ UnpackedTile TileDecoder::unpack(Bytes&& bytes, const TileShape& expected) {
     tile.fields_.reserve(3 * kFieldsOfLayer + 5);
     FieldOpener opener(expected.width, static_cast<size_t>(pixels), fields, tile.fields_,
                        tile.flat_);
-    if (expected.layerMask == 0)
+    if (expected.layerMask == kRadianceMask)
       opener.light({});
+    else if (expected.layerMask == kDisplayMask)
+      opener.display();
     else
       forEachField(opener, shape);
   }
@@ -205,6 +213,11 @@ void UnpackedTile::copyRadiance(RgbImage& out) const {
   for (auto* plane : {&out.pixels.r, &out.pixels.g, &out.pixels.b}) plane->resize(out.count());
   const auto width = static_cast<size_t>(width_);
   FieldCopier(fields_.data(), {0, width, 0, width, width_, height_}).light(out.pixels);
+}
+
+void UnpackedTile::copyDisplay(size_t stride, uint8_t* out) const {
+  const auto width = static_cast<size_t>(width_);
+  FieldCopier(fields_.data(), {0, width, 0, stride, width_, height_}).display(out);
 }
 
 }  // namespace ninefold

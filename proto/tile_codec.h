@@ -26,6 +26,7 @@
 #include <memory>
 
 #include "common/image/image.h"
+#include "common/image/tone_map.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
 #include "proto/tile_fields.h"
@@ -34,8 +35,8 @@ namespace ninefold {
 
 inline constexpr int kMaxTilePixels = 1 << 14;
 
-// What a decoder must find; everything follows from the task and the scene's needs. No layers: the
-// tile is finished radiance.
+// What a decoder must find; everything follows from the task and the scene's needs. kRadianceMask
+// or kDisplayMask instead of layers: the tile's finished pixels.
 struct TileShape {
   int width = 0, height = 0;  // width * height <= kMaxTilePixels; both 0 for an empty task
   uint8_t layerMask = kDiffuseBit;
@@ -59,6 +60,9 @@ class TileEncoder {
   Encoded encode(const TileResult& tile, uint64_t dither, int level);
   // A tile's finished radiance, as one field of light.
   Encoded encode(const RgbImage& radiance, uint64_t dither, int level);
+  // The same as a display takes it: exactly the tone map's codes of what is finite and not negative.
+  // Master-mapped, the field of light above gives codes of a radiance that is off by its own bound.
+  Encoded encode(const RgbImage& radiance, const ToneMap& toneMap, int level);
 
  private:
   struct Impl;
@@ -90,6 +94,8 @@ class UnpackedTile {
   void copy(const Part& part, uint8_t layers, uint8_t glowing, int stride, TileResult& out) const;
   // All of a tile of radiance; sets the shape of `out`.
   void copyRadiance(RgbImage& out) const;
+  // All of a tile of codes, R, G, B of each pixel; rows of `out` hold `stride` pixels.
+  void copyDisplay(size_t stride, uint8_t* out) const;
 
  private:
   friend class TileDecoder;

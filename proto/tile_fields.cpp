@@ -47,7 +47,8 @@ size_t mostFieldBytes(size_t pixels, uint8_t layerMask, uint8_t extraMask) {
   shape.layerMask = layerMask, shape.extraMask = extraMask;
   FieldSizes sizes{pixels};
   forEachField(sizes, shape);
-  if (layerMask == 0) sizes.light({});  // radiance
+  if (layerMask == kRadianceMask) sizes.light({});
+  if (layerMask == kDisplayMask) sizes.planes += 3;
   return sizes.planes * (1 + pixels) + sizes.scales * 8;
 }
 
@@ -150,6 +151,16 @@ void FieldWriter::words(const std::vector<uint32_t>& values) {
     std::transform(values.begin(), values.end(), scratch_.plane[k].begin(),
                    [k](uint32_t word) { return static_cast<uint8_t>(word >> (8 * k)); });
   flush(4);
+}
+
+void FieldWriter::display(const RgbPlane& radiance, const ToneMap& toneMap) {
+  const std::array planes = {&radiance.r, &radiance.g, &radiance.b};
+  for (size_t c = 0; c < 3; ++c) {
+    std::transform(planes[c]->begin(), planes[c]->end(), scratch_.plane[c].begin(),
+                   [&](float value) { return toneMap.code(usable(value)); });
+    replaced_ += unusable(*planes[c]);
+  }
+  flush(3);
 }
 
 // --- reading ---
@@ -265,6 +276,12 @@ void FieldCopier::words(std::vector<uint32_t>& values) {
       *next_++, part_,
       [](Code c) { return uint32_t{word(c.a, c.b)} | uint32_t{word(c.c, c.d)} << 16; },
       [=](size_t i, uint32_t v) { out[i] = v; });
+}
+
+void FieldCopier::display(uint8_t* rgb) {
+  forEachPixel<3>(
+      *next_++, part_, [](Code c) { return c; },
+      [rgb](size_t i, Code c) { rgb[3 * i] = c.a, rgb[3 * i + 1] = c.b, rgb[3 * i + 2] = c.c; });
 }
 
 }  // namespace ninefold

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "common/image/layers.h"
+#include "common/image/tone_map.h"
 #include "common/math/units.h"
 #include "proto/byte_planes.h"
 #include "proto/quantize.h"
@@ -73,6 +74,7 @@ class FieldWriter {
   void normal(const RgbPlane& values);
   void words(const std::vector<uint16_t>& values);
   void words(const std::vector<uint32_t>& values);
+  void display(const RgbPlane& radiance, const ToneMap& toneMap);
 
   uint64_t replaced() const { return replaced_; }
 
@@ -118,6 +120,7 @@ class FieldOpener {
   void normal(const RgbPlane&) { open(4); }
   void words(const std::vector<uint16_t>&) { open(2); }
   void words(const std::vector<uint32_t>&) { open(4); }
+  void display() { open(3); }
 
  private:
   void open(int planes);
@@ -145,6 +148,7 @@ class FieldCopier {
   void normal(RgbPlane& values);
   void words(std::vector<uint16_t>& values);
   void words(std::vector<uint32_t>& values);
+  void display(uint8_t* rgb);  // three bytes a pixel
 
   void skip(int fields) { next_ += fields; }
   void leaveOut(const RgbPlane* light) { leftOut_ = light; }  // null: nothing

@@ -25,6 +25,9 @@ inline constexpr int kLayers = 3;
 // Bits of a layer mask: which layers a task carries. kDiffuseBit is always set.
 inline constexpr uint8_t kDiffuseBit = 1, kReflectionBit = 2, kTransmissionBit = 4;
 inline bool hasLayer(uint8_t mask, int layer) { return (mask >> layer & 1) != 0; }
+// In place of layers: finished pixels, as radiance or as codes for a display (tone_map.h).
+inline constexpr uint8_t kRadianceMask = 0, kDisplayMask = 8;
+inline bool isFinished(uint8_t mask) { return mask == kRadianceMask || mask == kDisplayMask; }
 
 // Bits of an extra-plane mask: planes that only some tasks ask for, all of the first hit.
 enum ExtraPlane : uint8_t {

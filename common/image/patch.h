@@ -25,8 +25,8 @@ struct FrameShape {
   uint8_t extraMask = 0;
 };
 
-// Tiles come filtered by the clients: as radiance, without layers, each in one task (phase 0).
-inline bool isFiltered(const FrameShape& shape) { return shape.layerMask == 0; }
+// Tiles come filtered by the clients: without layers, each in one task (phase 0).
+inline bool isFiltered(const FrameShape& shape) { return isFinished(shape.layerMask); }
 
 class Patch {
  public:

@@ -11,7 +11,7 @@ Vec2 filmPosition(Vec2 place, int width, int height) {
 }
 
 Vec2 filmPosition(Vec2 place, const LiveImage& image) {
-  return filmPosition(place, image.width(), image.height());
+  return filmPosition(place, image.width, image.height);
 }
 
 }  // namespace

@@ -26,8 +26,7 @@ void drawNumbers(const PanelView& view) {
   const Shown& shown = *view.shown;
   const std::string step = MotionQuality::describe(shown.frame.quality);
   const float last = view.frameTimes.empty() ? 0 : view.frameTimes.back();
-  line(fmt::format("{}x{}  {:.0f} ms  {}", shown.image->width(), shown.image->height(),
-                   double(last),
+  line(fmt::format("{}x{}  {:.0f} ms  {}", shown.image->width, shown.image->height, double(last),
                    shown.frame.moving ? (step.empty() ? "moving" : "moving: " + step) : "resting"));
   ImGui::PlotLines("##times", view.frameTimes.data(), static_cast<int>(view.frameTimes.size()), 0,
                    nullptr, 0, 4 * view.target, ImVec2(ImGui::GetContentRegionAvail().x, 48));

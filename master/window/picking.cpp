@@ -9,8 +9,8 @@ namespace {
 
 // The pixel of a film position, and the nearest one for a position outside.
 size_t pixelAt(const LiveImage& image, Vec2 film) {
-  return image.at(std::clamp(static_cast<int>(film.x), 0, image.width() - 1),
-                  std::clamp(static_cast<int>(film.y), 0, image.height() - 1));
+  return image.at(std::clamp(static_cast<int>(film.x), 0, image.width - 1),
+                  std::clamp(static_cast<int>(film.y), 0, image.height - 1));
 }
 
 }  // namespace
@@ -27,7 +27,7 @@ std::optional<Vec3> pointAt(const Shown& shown, Vec2 film) {
   const float depth = image.depth[pixelAt(image, film)];
   if (!(depth > 0)) return std::nullopt;
   const Camera& camera = shown.frame.order.settings.camera;
-  const CameraRays rays(camera, image.width(), image.height());
+  const CameraRays rays(camera, image.width, image.height);
   const Vec3 direction = rays.direction(film.x, film.y);
   return camera.eye + depth / glm::dot(direction, camera.forward) * direction;
 }
@@ -44,8 +44,8 @@ void drawOutline(const Shown& shown, const Scene& scene, const Selection& select
     return isSelected(x - 1, y) || isSelected(x + 1, y) || isSelected(x, y - 1) ||
            isSelected(x, y + 1);
   };
-  for (int y = 1; y + 1 < image.height(); ++y)
-    for (int x = 1; x + 1 < image.width(); ++x) {
+  for (int y = 1; y + 1 < image.height; ++y)
+    for (int x = 1; x + 1 < image.width; ++x) {
       if (isSelected(x, y) || !touchesSelected(x, y)) continue;
       const size_t at = 3 * image.at(x, y);
       rgb[at] = 255, rgb[at + 1] = 160, rgb[at + 2] = 0;

@@ -22,6 +22,7 @@ bool PictureBoard::take(const std::shared_ptr<const Shown>& latest, uint64_t tas
   if (frameTimes_.size() > kTimesShown) frameTimes_.erase(frameTimes_.begin());
   count(tasks);
   if (recording_) save("png");
+  if (waiting_ && shown_->image->radiance.count() > 0) save(*std::exchange(waiting_, {}));
   return true;
 }
 
@@ -49,16 +50,21 @@ void PictureBoard::draw(const Scene& scene, const std::optional<Selection>& sele
   window.setPicture(outlined_);
 }
 
-// The workers made it with the picture; anew only after the exposure has changed.
+// The workers made it with the picture; anew only after the exposure has changed. Codes from clients
+// stay: the next frame is at hand.
 const DisplayImage& PictureBoard::display() {
   const LiveImage& image = *shown_->image;
-  if (image.exposure == exposureShown()) return image.display;
+  if (image.exposure == exposureShown() || image.radiance.count() == 0) return image.display;
   ToneMap(exposureShown()).apply(image.radiance, exposed_);
   return exposed_;
 }
 
 void PictureBoard::save(const std::string& extension) {
   if (!shown_) return;
+  if (extension != "png" && shown_->image->radiance.count() == 0) {
+    waiting_ = extension;
+    return;
+  }
   const std::string path = recording_ ? fmt::format("record.{:04}.{}", ++recorded_, extension)
                                       : fmt::format("ninefold.{:04}.{}", ++saved_, extension);
   try {
@@ -70,8 +76,9 @@ void PictureBoard::save(const std::string& extension) {
   }
 }
 
-void PictureBoard::write(const std::string& path) const {
-  writeImage(path, {shown_->image->radiance, {}, {}}, ToneMap(exposureShown()));
+void PictureBoard::write(const std::string& path) {
+  if (path.ends_with(".png")) return writePng(path, display());
+  writeImage(path, {shown_->image->radiance, {}, {}});
 }
 
 void PictureBoard::tell(PanelView& view) const {

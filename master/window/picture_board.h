@@ -27,10 +27,10 @@ class PictureBoard {
   float exposure() const { return exposure_; }         // [EV]
   void expose(float exposure) { exposure_ = exposure; }
   void toggleRecording() { recording_ = !recording_; }
-  // Into the next file with that extension.
+  // Into the next file with that extension. Radiance waits for a picture that has it.
   void save(const std::string& extension);
   // Throws Error.
-  void write(const std::string& path) const;
+  void write(const std::string& path);
   void tell(PanelView& view) const;
 
  private:
@@ -49,7 +49,8 @@ class PictureBoard {
   Drawn drawn_;
   DisplayImage exposed_, outlined_;  // kept for their memory
   bool recording_ = false;
-  int saved_ = 0, recorded_ = 0;  // files
+  std::optional<std::string> waiting_;  // extension to be saved
+  int saved_ = 0, recorded_ = 0;        // files
 
   std::vector<float> frameTimes_;  // [ms]
   Time ratesAt_{};

@@ -59,7 +59,8 @@ bool WindowSession::load() {
 void WindowSession::start() {
   cameras_ = job_->scene->cameras;
   camera_ = std::make_unique<CameraControl>(job_->settings.camera, job_->scene->bounds);
-  const LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure()};
+  const LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure(),
+                           wantsCodesOnly(options_)};
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
                                     [this](const std::shared_ptr<const Shown>& shown) {
                                       const std::lock_guard lock(latencyMutex_);

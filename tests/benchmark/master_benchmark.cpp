@@ -178,6 +178,48 @@ void ToneMapTile(benchmark::State& state) {
 }
 BENCHMARK(ToneMapTile);
 
+// A tile that a client has filtered, from its bytes to a display of 1920 pixels a row: as radiance that is
+// tone mapped here, or as codes.
+RgbImage filteredTile() {
+  RgbImage tile;
+  tile.reset(96, 96);
+  std::mt19937 random(2);
+  std::uniform_real_distribution<float> uniform(0.4f, 0.5f);
+  for (auto* plane : {&tile.pixels.r, &tile.pixels.g, &tile.pixels.b})
+    for (float& value : *plane) value = uniform(random);
+  return tile;
+}
+
+void ShowRadiance(benchmark::State& state) {
+  const Bytes bytes =
+      TileEncoder().encode(filteredTile(), 1, static_cast<int>(state.range(0))).bytes;
+  TileDecoder decoder;
+  RgbImage tile;
+  std::vector<uint8_t> display(3 * 1920 * 96);
+  for (auto _ : state) {
+    decoder.unpack(Bytes(bytes), {96, 96, kRadianceMask, 0}).copyRadiance(tile);
+    const ToneMap toneMap;
+    for (int y = 0; y < 96; ++y)
+      toneMap.apply(tile.pixels, tile.at(0, y), 96, &display[size_t{3 * 1920} * size_t(y)]);
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(ShowRadiance)->ArgName("level")->Arg(0)->Arg(1);
+
+void ShowCodes(benchmark::State& state) {
+  const Bytes bytes =
+      TileEncoder().encode(filteredTile(), ToneMap(), static_cast<int>(state.range(0))).bytes;
+  TileDecoder decoder;
+  std::vector<uint8_t> display(3 * 1920 * 96);
+  for (auto _ : state) {
+    decoder.unpack(Bytes(bytes), {96, 96, kDisplayMask, 0}).copyDisplay(1920, display.data());
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(ShowCodes)->ArgName("level")->Arg(0)->Arg(1);
+
 }  // namespace
 }  // namespace ninefold
 

@@ -1,7 +1,9 @@
 """Filtered by the clients, a picture is the one that the master makes, to the wire's precision, at borders too."""
+import json
 import math
 import unittest
 
+import png
 from programs import BIN, SCENES, ClusterTest
 
 TILE = 96  # pixels: 32 of each of 3 x 3 phases
@@ -71,6 +73,77 @@ class FilterAtClients(ClusterTest):
         # Receivers that share a packet share their choice of lights; at a border they are in other packets.
         inside, _ = self.errors(roulette=2)
         self.assertLess(inside, 0.02)
+
+
+def code(radiance):
+    """As common/image/tone_map.h says, at exposure 0."""
+    y = radiance if radiance <= 0.8 else 0.8 + 0.2 * (1 - math.exp(-(radiance - 0.8) / 0.2))
+    return 255 * (12.92 * y if y <= 0.0031308 else 1.055 * y ** (1 / 2.4) - 0.055)
+
+
+class Sessions(ClusterTest):
+    """A frame that is not summed up comes as a display's codes, if nobody wants more."""
+    CAMERA = "0.15,1.5,2.25:0,1.5,-0.5:60"
+    SIZE = ["--size", "200x120"]
+
+    def run_master(self, *options, clients=2, filter_at="clients"):
+        master = self.start(BIN / "ninefold-master", SCENES / "table_room.glb", *self.SIZE, "--filter-at", filter_at,
+                            "--local-clients", clients, *options)
+        self.assertEqual(master.ends(), 0, master.text)
+
+    def script(self, name, **fields):
+        (self.folder / name).write_text(json.dumps(fields))
+        return name
+
+    def stills(self, name, frames, *options, **more):
+        """Three pictures, the last with the camera where it stands in the file."""
+        script = self.script(f"{name}.json", seconds=2, rate=1, frames=frames, events=[
+            {"from": 0, "to": 2, "camera": ["0.4,1.5,2.25:0,1.5,-0.5:60", self.CAMERA]}])
+        self.run_master("--script", script, "--output", f"{name}.#.png", *options, **more)
+        return [self.folder / f"{name}.{i}.png" for i in range(3)]
+
+    def test_a_still_of_one_frame_is_the_tone_mapped_radiance_to_its_bound(self):
+        stills = self.stills("s", 1)
+        self.run_master("--camera", self.CAMERA, "--frames", 1, "--output", "still.hdr")
+        codes, radiance = png.read(stills[2])[2], pixels(self.folder / "still.hdr")
+        differing = 0
+        for row, other in zip(codes, radiance):
+            for pixel, light in zip(row, other):
+                off = max(light) * (1 / 127.5 + 1 / 128) * 1.02  # the wire's step, and the file's
+                for got, wanted in zip(pixel, light):
+                    self.assertGreaterEqual(got, code(max(0, wanted - off)) - 1.2)
+                    self.assertLessEqual(got, code(wanted + off) + 1.2)
+                    differing += got != round(code(wanted))
+        self.assertGreater(differing, 0, "the codes were not made of the same rounded radiance")
+        self.assertEqual([p.read_bytes() for p in stills], [p.read_bytes() for p in self.stills("t", 1, clients=1)])
+
+    def test_stills_of_more_frames_are_those_of_a_headless_run(self):
+        last = self.stills("s", 2)[2]
+        self.run_master("--camera", self.CAMERA, "--frames", 2, "--output", "still.png")
+        self.assertTrue(png.read(last) == png.read(self.folder / "still.png"))
+
+    def test_what_is_no_light_is_made_by_the_master(self):
+        clients = self.stills("s", 1, "--view", "normal")
+        master = self.stills("m", 1, "--view", "normal", filter_at="master")
+        self.assertEqual([p.read_bytes() for p in clients], [p.read_bytes() for p in master])
+
+    def forms(self, output):
+        """Of the frames of a session in real time: in motion, at rest."""
+        script = self.script("live.json", seconds=1.5, frames=3, events=[
+            {"from": 0, "to": 1.5, "camera": ["0.4,1.5,2.25:0,1.5,-0.5:60", self.CAMERA]}])
+        self.run_master("--script", script, "--output", output, "--stats", "live.stats")
+        frames = json.loads((self.folder / "live.stats").read_text())["frames"]
+        return [{f["form"] for f in frames if f["moving"] == moving} for moving in (True, False)]
+
+    def test_motion_comes_as_codes_and_rest_as_radiance(self):
+        self.assertEqual(self.forms("end.png"), [{"codes"}, {"radiance"}])
+        self.run_master("--camera", self.CAMERA, "--frames", 3, "--output", "still.png")
+        end, still = (png.read(self.folder / name)[2] for name in ("end.png", "still.png"))
+        off = [abs(p - q) for row, other in zip(end, still) for a, b in zip(row, other) for p, q in zip(a, b)]
+        self.assertLess(sum(off) / len(off), 3, "the rest's frames, and no code from before it")
+
+    def test_who_wants_radiance_gets_it_in_motion_too(self):
+        self.assertEqual(self.forms("end.exr"), [{"radiance"}, {"radiance"}])
 
 
 if __name__ == "__main__":

@@ -25,6 +25,21 @@ void check(const TileResult& tile) {
                  usable(tile.extras.depth));
 }
 
+void tryFinished(ByteView bytes, const TileShape& shape) {
+  try {
+    const UnpackedTile tile = TileDecoder().unpack(Bytes(bytes.begin(), bytes.end()), shape);
+    if (tile.width() == 0) return;
+    if (shape.layerMask == kDisplayMask) {
+      std::vector<uint8_t> rgb(3 * static_cast<size_t>(tile.width() * tile.height()));
+      return tile.copyDisplay(static_cast<size_t>(tile.width()), rgb.data());
+    }
+    RgbImage radiance;
+    tile.copyRadiance(radiance);
+    NINEFOLD_CHECK(usable(radiance.pixels));
+  } catch (const Error&) {
+  }
+}
+
 }  // namespace
 }  // namespace ninefold
 
@@ -39,6 +54,15 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
       for (const std::byte b : TileEncoder().encode(tile, 1, level).bytes)
         seed.push_back(static_cast<uint8_t>(b));
     }
+  RgbImage image;
+  image.reset(6, 4);
+  image.pixels.g.assign(24, 0.5f), image.pixels.r[5] = 3;
+  const Bytes finished[] = {TileEncoder().encode(image, 1, 1).bytes,
+                            TileEncoder().encode(image, ToneMap(), 1).bytes};
+  for (const uint8_t kind : {uint8_t{8}, uint8_t{9}}) {
+    auto& seed = seeds.emplace_back(std::vector<uint8_t>{5, 3, kind, 0});
+    for (const std::byte b : finished[kind - 8]) seed.push_back(static_cast<uint8_t>(b));
+  }
   return seeds;
 }
 
@@ -49,6 +73,10 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
                   static_cast<uint8_t>(kDiffuseBit | data[2] % 8),
                   static_cast<uint8_t>(data[3] & kAllExtraPlanes)};
   if (data[0] == 255) shape.width = shape.height = 0;
+  if ((data[2] & 8) != 0) {  // finished pixels
+    shape.layerMask = (data[2] & 1) != 0 ? kDisplayMask : kRadianceMask, shape.extraMask = 0;
+    return tryFinished(std::as_bytes(std::span(data + 4, size - 4)), shape), 0;
+  }
   TileResult tile;
   try {
     tile = decodeAll(std::as_bytes(std::span(data + 4, size - 4)), shape);

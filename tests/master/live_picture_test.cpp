@@ -9,6 +9,7 @@
 #include <span>
 
 #include "common/image/tone_map.h"
+#include "common/sampling/whole_tile.h"
 #include "master/picture.h"
 
 namespace ninefold {
@@ -41,6 +42,33 @@ GatheredFrame frameOf(uint32_t number, int width, int height) {
           TileDecoder().unpack(TileEncoder().encode(task, random(), 0).bytes,
                                {rect.width, rect.height, kDiffuseBit, 0});
     }
+  return frame;
+}
+
+// The same picture as clients would send it: a finished tile in each task of phase 0.
+GatheredFrame finished(uint32_t number, const RgbImage& picture, const ToneMap* codes) {
+  const TileGrid grid(picture.width, picture.height, {3, 2});
+  const uint8_t mask = codes != nullptr ? kDisplayMask : kRadianceMask;
+  GatheredFrame frame;
+  frame.view.key.frame = number;
+  frame.view.shape = {grid, mask, 0};
+  frame.tasks.resize(static_cast<size_t>(grid.tasks()));
+  for (int tile = 0; tile < grid.tiles(); ++tile) {
+    const TaskRect rect = pixelsOf(grid, tile);
+    RgbImage part;
+    part.reset(rect.width, rect.height);
+    for (int y = 0; y < rect.height; ++y)
+      for (int x = 0; x < rect.width; ++x) {
+        const Vec3 value = picture.rgb(picture.at(rect.i0 + x, rect.j0 + y));
+        const size_t i = part.at(x, y);
+        part.pixels.r[i] = value.x, part.pixels.g[i] = value.y, part.pixels.b[i] = value.z;
+      }
+    TileEncoder encoder;
+    Bytes bytes = codes != nullptr ? encoder.encode(part, *codes, 1).bytes
+                                   : encoder.encode(part, number, 1).bytes;
+    frame.tasks[static_cast<size_t>(tile * grid.interleave().sets())] =
+        TileDecoder().unpack(std::move(bytes), {rect.width, rect.height, mask, 0});
+  }
   return frame;
 }
 
@@ -152,6 +180,42 @@ TEST_F(LivePictureTest, WhatSomebodyHoldsStaysAndWhatNobodyHoldsIsUsedAgain) {
   }
   EXPECT_TRUE(held->radiance == before.radiance && held->display == before.display);
   EXPECT_EQ(others.size(), 1u);
+}
+
+TEST_F(LivePictureTest, CodesOfClientsAreShownAsTheyAre) {
+  const GatheredFrame frame = frameOf(0, 200, 130);
+  const RgbImage radiance = expectedMean({&frame, 1});
+  const ToneMap toneMap(1);
+  const auto image = inMotion(finished(1, radiance, &toneMap), {kBeauty, 1.0f});
+  EXPECT_TRUE(image->display == codesOf(radiance, 1));
+  EXPECT_EQ(image->radiance.count(), 0u);
+  EXPECT_EQ(image->width, 200);
+  const auto still = atRest(finished(2, radiance, &toneMap), 0, {kBeauty, 1.0f});
+  EXPECT_TRUE(still->display == image->display);
+  EXPECT_EQ(picture.frames(), 1);
+}
+
+// Layers, codes and radiance in turn: a rest that begins after codes starts from its own frames.
+TEST_F(LivePictureTest, RadianceOfClientsIsSummedUp) {
+  const GatheredFrame frame = frameOf(0, 200, 130);
+  const RgbImage sent = expectedMean({&frame, 1});
+  const ToneMap toneMap(0);
+  Film film(200, 130);
+  for (uint32_t i = 0; i < 3; ++i) {
+    if (i == 0) inMotion(finished(9, sent, &toneMap), {kBeauty, 0.0f});
+    const GatheredFrame next = finished(i, sent, nullptr);
+    RgbImage tile, mean;
+    for (int t = 0; t < next.view.shape.grid.tiles(); ++t) {
+      const TaskRect rect = pixelsOf(next.view.shape.grid, t);
+      next.task(t, 0).copyRadiance(tile);
+      film.addTile(rect.i0, rect.j0, tile);
+    }
+    film.frameDone();
+    film.mean(mean);
+    const auto image = atRest(next, i, {kBeauty, 0.0f});
+    EXPECT_TRUE(image->radiance == mean);
+    EXPECT_TRUE(image->display == codesOf(mean, 0));
+  }
 }
 
 TEST_F(LivePictureTest, TheErrorViewIsTheFilmsErrorOverItsMean) {

@@ -201,6 +201,41 @@ TEST_F(LivePlanTest, AnEditedSceneIsAnnouncedAsMovingAndOnceMoreWhenItRests) {
   EXPECT_EQ(done().order.scene, 4u);
 }
 
+// The form of results goes with the job; what it is at rest and in motion may change at any time.
+TEST_F(LivePlanTest, FramesInMotionAndAtRestMayComeInDifferentForms) {
+  Delivery codes;
+  codes.form = Delivery::Form::display;
+  Delivery radiance;
+  radiance.form = Delivery::Form::radiance;
+  EXPECT_EQ(done().order.job, 1u);
+  plan.setDelivery(radiance, codes);
+  const LiveFrame rest = done();
+  EXPECT_EQ(rest.order.delivery, radiance);
+  EXPECT_EQ(rest.order.job, 2u);
+  EXPECT_EQ(rest.rested, 1) << "the picture is the same";
+  moveTo(3);
+  const LiveFrame moving = done();
+  EXPECT_EQ(moving.order.delivery, codes);
+  EXPECT_EQ(moving.order.job, 3u);
+  codes.exposure = 1;
+  plan.setDelivery(radiance, codes);
+  pass(LivePlan::kSettle);
+  EXPECT_EQ(done().order.delivery, radiance);
+  EXPECT_EQ(done().order.job, 4u) << "the exposure in motion is nothing to a picture at rest";
+}
+
+TEST_F(LivePlanTest, AStillHasAsManyFramesAsItShallHave) {
+  LivePlan::Setup still = setup();
+  still.motion = false, still.frames = 2;
+  plan = LivePlan(still, now);
+  for (const float x : {0.0f, 3.0f}) {
+    if (x > 0) moveTo(x);
+    EXPECT_EQ(done().rested, 0);
+    EXPECT_EQ(done().rested, 1);
+    EXPECT_FALSE(plan.next(now));
+  }
+}
+
 TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
   const uint32_t before = done().order.job;
   LiveState state = plan.state();

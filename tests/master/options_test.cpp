@@ -111,6 +111,10 @@ TEST(Options, ClientsFilterWhatTheyCan) {
   EXPECT_NE(complaint("room.glb --filter-at clients --interleave 5x4").find("--interleave"),
             std::string::npos);
   EXPECT_NE(complaint("room.glb --filter-at clients --aovs").find("--aovs"), std::string::npos);
+  EXPECT_TRUE(parse("room.glb --filter-at clients --window --view normal").filterAtClients);
+  EXPECT_TRUE(parse("room.glb --filter-at clients --view direct").filterAtClients);
+  EXPECT_NE(complaint("room.glb --filter-at clients --view normal").find("--filter-at master"),
+            std::string::npos);
   EXPECT_EQ(parse("room.glb --wire-level auto").wireLevel, Delivery::kAdaptive);
   EXPECT_NE(complaint("room.glb --wire-level 20"), "");
 }

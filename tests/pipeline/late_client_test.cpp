@@ -158,7 +158,7 @@ class LateClient : public ::testing::Test {
   void edits(int count, bool moving, const std::vector<Client*>& there) {
     for (int i = 0; i < count; ++i) {
       const msg::Edit edit = offer_.setEdit(offer_.edits() + 1, random_.next(), moving);
-      offer_.setJob(offer_.job() + 1, settings());
+      offer_.setJob(offer_.job() + 1, settings(), {});
       for (Client* client : there) client->tell(edit), client->tell(offer_.configure());
     }
   }

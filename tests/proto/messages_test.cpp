@@ -53,7 +53,7 @@ std::vector<Message> oneOfEach() {
       msg::SceneOffer{3, {{someHash(1), 10, BlobKind::image}, {someHash(2), 20, BlobKind::rest}}},
       msg::BlobRequest{someHash(3), 1 << 20},
       msg::BlobChunk{someHash(4), 100, 103, Bytes(3, std::byte{9})},
-      msg::Configure{3, 4, oddSettings(), {9, SurfaceTest::none}},
+      msg::Configure{3, 4, oddSettings(), {9, Delivery::Form::display, SurfaceTest::none, -1.5f}},
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
       msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f},
@@ -185,6 +185,27 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
     const std::string text = refusal(spoil);
     EXPECT_NE(text.find(field), std::string::npos) << field << ": " << text;
     EXPECT_NE(text.find("Configure"), std::string::npos) << text;
+  }
+}
+
+TEST(Messages, DeliveriesOutOfRangeAreNamed) {
+  const std::pair<const char*, std::function<void(msg::Configure&)>> cases[] = {
+      {"level", [](msg::Configure& m) { m.delivery.level = 20; }},
+      {"form", [](msg::Configure& m) { m.delivery.form = static_cast<Delivery::Form>(3); }},
+      {"filter", [](msg::Configure& m) { m.delivery.filter = static_cast<SurfaceTest>(9); }},
+      {"exposure", [](msg::Configure& m) { m.delivery.exposure = 51; }},
+      {"exposure", [](msg::Configure& m) { m.delivery.exposure = NAN; }},
+      {"too large",
+       [](msg::Configure& m) {
+         m.delivery.form = Delivery::Form::display, m.settings.interleave = {5, 4};
+       }},
+  };
+  for (const auto& [field, spoil] : cases) {
+    msg::Configure configure;
+    EXPECT_EQ(refusal(Message(configure)), "");
+    spoil(configure);
+    const std::string text = refusal(Message(configure));
+    EXPECT_NE(text.find(field), std::string::npos) << field << ": " << text;
   }
 }
 

@@ -227,6 +227,66 @@ TEST(TileCodec, RadianceComesBackWithinTheBoundOfLight) {
   }
 }
 
+TEST(TileCodec, CodesComeBackAsTheToneMapMadeThem) {
+  const TileResult random = TileMaker(15).make(96, 64, kDiffuseBit, 0);
+  const RgbImage sent{96, 64, random.layers[kDiffuse].unfiltered};
+  const ToneMap toneMap(-1.5f);
+  DisplayImage expected;
+  toneMap.apply(sent, expected);
+  const size_t stride = 100;
+  for (const int level : {0, 1, 5}) {
+    const TileEncoder::Encoded encoded = TileEncoder().encode(sent, toneMap, level);
+    EXPECT_EQ(encoded.replaced, 0u);
+    EXPECT_LE(encoded.bytes.size(), 96u * 64 * 3 + 64);
+    const UnpackedTile tile = TileDecoder().unpack(Bytes(encoded.bytes), {96, 64, kDisplayMask, 0});
+    std::vector<uint8_t> got(3 * stride * 64, 77);
+    tile.copyDisplay(stride, got.data());
+    for (size_t y = 0; y < 64; ++y)
+      for (size_t x = 0; x < 3 * stride; ++x)
+        ASSERT_EQ(got[3 * stride * y + x], x < 3 * 96 ? expected.rgb[3 * 96 * y + x] : 77);
+    EXPECT_THROW(TileDecoder().unpack(Bytes(encoded.bytes), {96, 64, kRadianceMask, 0}), Error);
+    EXPECT_THROW(TileDecoder().unpack(Bytes(encoded.bytes), {96, 64, kDiffuseBit, 0}), Error);
+  }
+}
+
+// Off from the radiance of the other form by at most its bound, largest channel / 127.5.
+TEST(TileCodec, CodesAreThoseOfTheRadianceThatTheOtherFormSendsWithinItsBound) {
+  const TileResult random = TileMaker(16).make(96, 96, kDiffuseBit, 0);
+  const RgbImage sent{96, 96, random.layers[kDiffuse].unfiltered};
+  const ToneMap toneMap;
+  DisplayImage codes;
+  codes.reshape(96, 96);
+  TileDecoder()
+      .unpack(TileEncoder().encode(sent, toneMap, 1).bytes, {96, 96, kDisplayMask, 0})
+      .copyDisplay(96, codes.rgb.data());
+  RgbImage radiance;
+  TileDecoder()
+      .unpack(TileEncoder().encode(sent, 3, 1).bytes, {96, 96, kRadianceMask, 0})
+      .copyRadiance(radiance);
+  int differing = 0;
+  for (size_t i = 0; i < sent.count(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const float value = radiance.rgb(i)[c], off = maxComponent(sent.rgb(i)) / 127.5f;
+      const int code = codes.rgb[3 * i + static_cast<size_t>(c)];
+      ASSERT_GE(code, toneMap.code(value - off));
+      ASSERT_LE(code, toneMap.code(value + off));
+      differing += code != toneMap.code(value) ? 1 : 0;
+    }
+  EXPECT_GT(differing, 0);
+}
+
+TEST(TileCodec, CodesOfWhatIsNoLightAreBlackAndCounted) {
+  RgbImage sent;
+  sent.reset(3, 1);
+  sent.pixels.r = {NAN, 1, -1}, sent.pixels.g = {1, INFINITY, 1};
+  const TileEncoder::Encoded encoded = TileEncoder().encode(sent, ToneMap(), 0);
+  EXPECT_EQ(encoded.replaced, 3u);
+  std::vector<uint8_t> got(9);
+  TileDecoder().unpack(Bytes(encoded.bytes), {3, 1, kDisplayMask, 0}).copyDisplay(3, got.data());
+  const uint8_t one = ToneMap().code(1);
+  EXPECT_EQ(got, (std::vector<uint8_t>{0, one, 0, one, 0, 0, 0, one, 0}));
+}
+
 TEST(TileCodec, PartsAreThoseOfTheWhole) {
   const TileResult tile = TileMaker(12).make(13, 9, kAllLayers, kAllExtraPlanes);
   const TileShape shape = shapeOf(tile);

@@ -162,7 +162,7 @@ class WindowTest(unittest.TestCase):
         script.write_text(json.dumps({"seconds": 3, "events": [
             {"from": 0, "to": 2.9, "object": "glass sphere", "by": [0.3, 0, 0]},
             {"at": 3, "material": "lamp", "emission": [0, 0, 0]}]}))
-        self.start("--script", script, "--stats", times)
+        self.start("--script", script, "--stats", times, "--filter-at", "clients")  # motion comes as codes
         bright = self.until(lambda p: p.mean() > LIT, "the beginning: light", "script")
         self.screen.key("Tab")
         self.until(lambda p: p.mean() < 0.5 * LIT, "the end: darkness")
