@@ -16,6 +16,8 @@ namespace ninefold {
 namespace {
 
 constexpr SurfaceTest kTest = SurfaceTest::surface;
+// A level of its code, so that it comes back as it is.
+const float kReflectance = SquareCode::level(200, kInvPi);
 
 // Light of all sizes on a wall, another for each frame.
 GatheredFrame frameOf(uint32_t number, int width, int height) {
@@ -35,7 +37,7 @@ GatheredFrame frameOf(uint32_t number, int width, int height) {
       LayerPlanes& layer = task.layers[kDiffuse];
       for (size_t i = 0; i < layer.distance.size(); ++i) {
         layer.distance[i] = 3, layer.normal.b[i] = 1;
-        layer.reflectance.r[i] = layer.reflectance.g[i] = layer.reflectance.b[i] = 0.2f;
+        layer.reflectance.r[i] = layer.reflectance.g[i] = layer.reflectance.b[i] = kReflectance;
         layer.irradiance.r[i] = light(random), layer.irradiance.b[i] = light(random);
       }
       frame.tasks[static_cast<size_t>(tile * grid.interleave().sets() + phase)] =
