@@ -151,12 +151,14 @@ std::optional<Assembly::Complete> Assembly::next(Time deadline) {
     return front && books_.isDone(*front);
   };
   if (!complete_.wait_until(lock, deadline, isReady)) return std::nullopt;
-  const Slot& slot = *slots_.at(*books_.front());
+  held_ = books_.front();
+  const Slot& slot = *slots_.at(*held_);
   return Complete{slot.frame.view.key, slot.lastResult, slot.finished};
 }
 
 void Assembly::release(const Complete& frame) {
   const std::lock_guard lock(mutex_);
+  held_.reset();
   closeFrame(frame.key.frame);
 }
 
@@ -170,7 +172,10 @@ void Assembly::closeFrame(uint32_t number) {
 void Assembly::supersede(uint32_t firstWanted) {
   std::unique_lock lock(mutex_);
   idle_.wait(lock, [this] { return finishing_ == 0; });
-  while (!slots_.empty() && slots_.begin()->first < firstWanted) closeFrame(slots_.begin()->first);
+  for (auto slot = slots_.begin(); slot != slots_.end() && slot->first < firstWanted;) {
+    const uint32_t number = slot++->first;
+    if (number != held_) closeFrame(number);
+  }
 }
 
 Assembly::Busy Assembly::busy() const {

@@ -74,7 +74,8 @@ class Assembly {
   bool hasRoom() const;              // for one more frame
   void open(const FrameView& view);  // needs room
   bool take(ReceivedTile& tile);     // false when the queue is full
-  // No frame before `firstWanted` is wanted any more. Waits for tiles that are being finished.
+  // No frame before `firstWanted` is wanted any more. Waits for tiles that are being finished; a frame
+  // that was given out stays until its release, and none is finished before.
   void supersede(uint32_t firstWanted);
 
   struct Complete {
@@ -113,9 +114,10 @@ class Assembly {
   AssemblyBooks books_;
   std::map<uint32_t, std::unique_ptr<Slot>> slots_;
   std::deque<ReceivedTile> queue_;
-  size_t queueLimit_ = 0;  // what the open frames may have on their way
-  size_t bytes_ = 0;       // of results that wait
-  int finishing_ = 0;      // tiles
+  size_t queueLimit_ = 0;         // what the open frames may have on their way
+  size_t bytes_ = 0;              // of results that wait
+  int finishing_ = 0;             // tiles
+  std::optional<uint32_t> held_;  // between next and release
   bool closing_ = false;
   Busy busy_;
 

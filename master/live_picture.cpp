@@ -20,9 +20,12 @@ void reshape(int width, int height, RgbImage& image) {
 
 }  // namespace
 
-LivePicture::LivePicture(SurfaceTest test, int workers, float depthScale)
-    : depthScale_(depthScale) {
-  for (int i = 0; i < workers; ++i) desks_.push_back(std::make_unique<Desk>(test));
+LivePicture::LivePicture(SurfaceTest test, int workers, float depthScale, bool reuses)
+    : depthScale_(depthScale), reuses_(reuses) {
+  for (int i = 0; i < workers; ++i) {
+    desks_.push_back(std::make_unique<Desk>(test));
+    desks_.back()->filter.keepIrradiance(reuses);
+  }
 }
 
 void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look) {
@@ -39,7 +42,7 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
     film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError);
   else if (rested_ && plan.rested == 0)
     film_->clear();
-  traced_ = !isFiltered(frame.view.shape);
+  traced_ = reuses_ && !isFiltered(frame.view.shape);
   if (traced_) {
     if (plan.world != world_) history_.forget();
     world_ = plan.world;
@@ -88,7 +91,7 @@ void LivePicture::finishLayers(Desk& desk, const GatheredFrame& frame, bool movi
   const FrameView& view = frame.view;
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty);
-  history_.blend(desk.patch, desk.filter, moving, desk.beauty);
+  if (traced_) history_.blend(desk.patch, desk.filter, moving, desk.beauty);
   paint(look_.view, desk.patch, desk.filter, view.neighbourWeight, view.key.rotation, depthScale_,
         owners, desk.beauty);
   keepPickPlanes(desk.patch);

@@ -3,7 +3,7 @@
 // mapped in one go, while it is in the cache: after a frame's last tile nothing is left to be done.
 //
 // Threads: finishTile for different tiles and workers at once, all of one frame before the next's;
-// everything else between frames. Memory: a film, a patch for each worker, and as many images as
+// everything else between frames. Memory: a film, a history, a patch for each worker, and as many images as
 // somebody holds, and one: those that nobody holds any more are filled again.
 #pragma once
 
@@ -29,7 +29,8 @@ struct LiveLook {
 
 class LivePicture {
  public:
-  LivePicture(SurfaceTest test, int workers, float depthScale);
+  // reuses: light of one frame in the next, while only the camera moves.
+  LivePicture(SurfaceTest test, int workers, float depthScale, bool reuses);
 
   // `owners`: by task, the client that it came from.
   void finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
@@ -42,7 +43,7 @@ class LivePicture {
 
  private:
   struct Desk {  // of one worker
-    explicit Desk(SurfaceTest test) : filter(test) { filter.keepIrradiance(true); }
+    explicit Desk(SurfaceTest test) : filter(test) {}
     Patch patch;
     PatchFilter filter;
     RgbImage beauty;
@@ -58,7 +59,8 @@ class LivePicture {
 
   const float depthScale_;
   IrradianceHistory history_;
-  uint32_t world_ = 0;   // LiveFrame::world of the frame that history_ has seen
+  uint32_t world_ = 0;  // LiveFrame::world of the frame that history_ has seen
+  const bool reuses_;
   bool traced_ = false;  // history_ sees the frame: clients have not filtered it
   std::vector<std::unique_ptr<Desk>> desks_;
   std::mutex begin_;

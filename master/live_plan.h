@@ -53,8 +53,7 @@ class LivePlan {
     Metres sceneRadius = 0;  // frozen: a photon radius must not change while a thing is dragged
     bool converging = true;
     Duration target = milliseconds(100);
-    bool motion =
-        true;  // false: every state is shown as at rest, for pictures that may take their time
+    bool motion = true;  // false: every state is shown as at rest, however long that takes
     std::optional<int64_t> frames;  // of a state at rest; nothing: without end
     Delivery delivery;              // of the first job
   };
@@ -83,7 +82,6 @@ class LivePlan {
   FramePlan planOfRest() const;
   Settings settingsAt(const Quality& quality) const;
   std::optional<LiveFrame> nextInMotion(Time now);
-  void rest();
 
   Setup setup_;
   LiveState state_;

@@ -30,7 +30,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       onPicture_(std::move(onPicture)),
-      picture_(options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius),
+      picture_(options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius, pace.motion),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
@@ -160,7 +160,8 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
 LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
   LiveLook look{view_, pace_.exposure};
   if (look.exposure && isFalseColor(view_)) look.exposure = 0;
-  if (pace_.frames && frame.rested + 1 < *pace_.frames) look.exposure.reset();  // not seen
+  const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
+  if (!isSeen) look.exposure.reset();
   return look;
 }
 
@@ -241,10 +242,10 @@ void LiveRun::gatherFrames() {
   while (!ending_) {
     const auto frame = assembly_.next(Clock::now() + kLook);
     if (!frame) continue;
-    std::optional<LiveFrame> done;
+    std::shared_ptr<const Open> done;
     {
       const std::lock_guard lock(mutex_);
-      done = plan_.completed(frame->key.frame, frame->finished);
+      if (plan_.completed(frame->key.frame, frame->finished)) done = open_.at(frame->key.frame);
     }
     if (done) {
       picture_.frameDone();
@@ -256,19 +257,17 @@ void LiveRun::gatherFrames() {
   }
 }
 
-void LiveRun::publish(const LiveFrame& frame, Time completed) {
+void LiveRun::publish(const Open& done, Time completed) {
   auto shown = std::make_shared<Shown>();
   shown->image = picture_.image();
-  shown->frame = frame;
+  shown->frame = done.frame;
+  shown->state = done.state, shown->view = done.look.view;
   shown->completed = completed;
   shown->frames = picture_.frames();
   shown->relativeError = picture_.relativeError();
   shown->rays = cluster_.tally().rays;
   const std::lock_guard lock(mutex_);
-  const auto open = open_.find(frame.order.key.frame);
-  if (open != open_.end())
-    shown->state = open->second->state, shown->view = open->second->look.view;
-  open_.erase(open_.begin(), open_.upper_bound(frame.order.key.frame));
+  open_.erase(open_.begin(), open_.upper_bound(done.frame.order.key.frame));
   shown_ = std::move(shown);
 }
 

@@ -76,6 +76,12 @@ class LiveRun {
   void stop(const std::string& reason);
 
  private:
+  struct Open {
+    LiveFrame frame;
+    LiveState state;
+    LiveLook look;
+    std::vector<uint32_t> owners;  // by task
+  };
   std::optional<FrameOrder> nextFrame();
   bool take(ReceivedTile& tile);
   void finishTile(int worker, const GatheredFrame& frame, int tile);
@@ -86,7 +92,7 @@ class LiveRun {
   Delivery delivery(bool summedUp) const;
   FrameShape shapeOf(const FrameOrder& order) const;
   void setDelivery();
-  void publish(const LiveFrame& frame, Time completed);
+  void publish(const Open& done, Time completed);
 
   const Options& options_;
   Job& job_;
@@ -103,12 +109,6 @@ class LiveRun {
   PictureView view_ = PictureView::beauty;
   bool objects_ = false;
   Pace pace_;
-  struct Open {
-    LiveFrame frame;
-    LiveState state;
-    LiveLook look;
-    std::vector<uint32_t> owners;  // by task
-  };
   std::map<uint32_t, std::shared_ptr<Open>> open_;
   std::shared_ptr<const Shown> shown_;
 

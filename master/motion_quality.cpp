@@ -13,8 +13,10 @@ constexpr std::array kLadder{Quality{0, 0}, Quality{1, 0}, Quality{2, 0},
                              Quality{4, 2}, Quality{5, 2}, Quality{6, 2}};
 constexpr double kLearn = 0.4;    // weight of the latest frame
 constexpr double kMargin = 0.85;  // a better step must be predicted to need no more of the target
-constexpr double kTooLate = 1.1;  // of the target: a frame that took longer calls for a smaller one
-constexpr int kPatience = 3;      // frames that must agree before the size grows
+// Of the target. A frame that took longer calls for a smaller one; so does one that took long if frames
+// do in the mean.
+constexpr double kTooLate = 1.1, kTooLong = 0.95;
+constexpr int kPatience = 3;  // frames that must agree before the size grows
 
 }  // namespace
 
@@ -48,7 +50,9 @@ void MotionQuality::took(Quality quality, Duration time) {
   full_ = full_ ? (1 - kLearn) * *full_ + kLearn * full : full;
   if (!(quality == current_)) return;  // of another gesture, or at rest
   const Quality better{std::max(0, current_.size - 1), current_.light};
-  if (seconds(time) > kTooLate * seconds(target_)) {
+  const double mean = *full_ * cost(current_);
+  if (seconds(time) > kTooLate * seconds(target_) ||
+      std::min(seconds(time), mean) > kTooLong * seconds(target_)) {
     couldBeBetter_ = 0;
     current_.size = std::min(current_.size + 1, static_cast<int>(kSizes.size()) - 1);
   } else if (current_.size > 0 && fits(better)) {

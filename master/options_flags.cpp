@@ -88,8 +88,7 @@ constexpr Flag kCluster[] = {
     {"wait-clients", "N", "do not start before N clients are ready (default 1)"},
     {"filter-at", "master|clients",
      "who filters: clients then send finished tiles, a third of the bytes or, while something "
-     "moves "
-     "in a window, a quarter, and trace a border twice (default master)"},
+     "moves in a window, a quarter, and trace a border twice (default master)"},
     {"wire-level", "auto|N",
      "lossless compression of results, zstd's levels 1 to 19, 0 = none; auto: what suits each "
      "client's line (default auto)"},

@@ -197,7 +197,10 @@ bool Shader::neverEntered(const ShadingPoint& p, const MediumStack& media) const
 }
 
 int Shader::before(const ShadingPoint& p, const MediumStack& media) const {
-  return neverEntered(p, media) ? p.surface.material : media.innermost();
+  if (!neverEntered(p, media)) return media.innermost();
+  MediumStack all = media;
+  enter(all, p.surface.material);
+  return all.innermost();
 }
 
 void Shader::enter(MediumStack& media, int material) const {

@@ -31,7 +31,7 @@ struct VplGatherScratch {
   RayPacket rays;
 
   VplGatherScratch() {
-    for (int lane = 0; lane < kPacket; ++lane) rays.set(lane, Vec3(0), Vec3(0), 0, 0);
+    for (size_t lane = 0; lane < kPacket; ++lane) rays.set(lane, Vec3(0), Vec3(0), 0, 0);
   }
 };
 

@@ -85,7 +85,7 @@ void IrradianceHistory::blend(const Patch& patch, const PatchFilter& filter, boo
       pixel.irradiance = past.irradiance + (fresh - past.irradiance) / n;
       for (int axis = 0; axis < 3; ++axis)
         pixel.normal[axis] = static_cast<int8_t>(std::rint(kUnitNormal * normal[axis]));
-      pixel.frames = static_cast<uint8_t>(n);
+      pixel.frames = static_cast<uint8_t>(n + 0.5f);
       if (!moving) return;
       const size_t to = beauty.at(x - patch.x0(), y - patch.y0());
       const Vec3 rho(layer.reflectance.r[from], layer.reflectance.g[from],

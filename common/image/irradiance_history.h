@@ -1,16 +1,17 @@
 // irradiance_history.h: temporal reuse while only the camera moves. E' of the diffuse layer belongs to a
 // place, not to the eye: the place x that a pixel shows is looked up in the frame before, and
 //
-//   H(x) = H_before + (E'(x) - H_before)/n,   n = min(frames that H is the mean of, kMost)
+//   H(x) = H_before + (E'(x) - H_before)/n,   n = min(frames that H is the mean of, this one included, kMost)
 //   L(p) = beauty + reflectance (H - E')
 //
 // H_before is interpolated between the four pixels around x's place in the frame before, of those alone
 // that show the same surface: normals within 25 degrees, and within kOffPlane of the distance from the
 // plane through x. Where too few do, x was hidden, and n = 1. At rest (`before` has the same camera and size)
-// each pixel goes on with itself, without bound on n, and the picture stays what the film says; what it
+// each pixel goes on with itself, with n up to 255, and the picture stays what the film says; what it
 // has learned is there when the camera moves on.
 //
-// What it costs: E' of moving shadows would lag, so that whoever edits the scene calls forget(). Light in
+// What it costs: E' of moving shadows would lag, so that whoever changes anything but camera and size calls
+// forget(). Light in
 // mirrors and glass is not reused. Repeated interpolation blurs by about a pixel.
 //
 // Source:  Walter, Drettakis and Parker 1999 (render cache); Scherzer et al. 2007 (reverse reprojection).

@@ -1,5 +1,7 @@
 #include "master/window/session.h"
 
+#include <algorithm>
+
 #include "common/base/log.h"
 #include "common/image/image_file.h"
 #include "common/scene/camera_choice.h"
@@ -207,7 +209,8 @@ void WindowSession::apply(const PanelChanges& changes) {
   if (changes.record) board_.toggleRecording();
 }
 
-void WindowSession::expose(float exposure) {
+void WindowSession::expose(float wanted) {
+  const float exposure = std::clamp(wanted, -kMostExposure, kMostExposure);
   board_.expose(exposure);
   live_->setExposure(exposure);
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/gi/shading.h"
 #include "common/gi/solid_ranks.h"
 #include "tests/gi/make_scene.h"
 
@@ -53,6 +54,28 @@ TEST(MediumStack, TooManySolidsForgetTheLowestRank) {
     EXPECT_FALSE(media.contains(0));
     EXPECT_EQ(media.innermost(), 4);
   }
+}
+
+// A lamp in the pool: its light was never seen to enter the water, and goes through the ball that floats
+// in it. Where the water's surface is inside the ball it is not there; beside the ball it refracts.
+TEST(Shader, AHiddenSurfaceIsHiddenFromLightThatStartedInsideToo) {
+  SceneBuilder b;
+  const int water = b.material(testing::glass(1.33f)), ball = b.material(testing::glass(1.5f));
+  b.box(water, Vec3(-4, -2, -4), Vec3(4, 0, 4), false).sphere(ball, Vec3(0), 0.5f, 16);
+  const Scene scene = b.build();
+  const Shader shader(scene);
+  SurfacePoint surface;
+  surface.material = water;
+  surface.geometricNormal = surface.shadingNormal = Vec3(0, 1, 0);
+  const Vec3 fromBelow(0, -1, 0);
+  MediumStack inBall;
+  shader.enter(inBall, ball);
+  const ShadingPoint hidden = shader.shade(surface, fromBelow, inBall);
+  EXPECT_EQ(hidden.bsdf.passThrough, 1);
+  EXPECT_FALSE(hidden.bsdf.dielectric);
+  const ShadingPoint there = shader.shade(surface, fromBelow, {});
+  EXPECT_TRUE(there.bsdf.dielectric);
+  EXPECT_FLOAT_EQ(there.bsdf.eta, 1 / 1.33f);
 }
 
 // Volumes 1, 8 and 4 pi/3 0.125 m^3.

@@ -142,6 +142,22 @@ TEST_P(AssemblyTest, ASupersededFrameIsNotWaitedFor) {
   expectWhole(*frame);
 }
 
+// Somebody looks at a frame while it is superseded: it stays, and the next one waits.
+TEST_P(AssemblyTest, AFrameThatIsLookedAtStaysUntilItIsReleased) {
+  for (uint32_t i = 0; i < 3; ++i) assembly.open(viewOf(i));
+  for (ReceivedTile& tile : tilesOf(0)) ASSERT_TRUE(assembly.take(tile));
+  const auto held = assembly.next(soon());
+  ASSERT_TRUE(held);
+  assembly.supersede(2);
+  for (ReceivedTile& tile : tilesOf(2)) ASSERT_TRUE(assembly.take(tile));
+  expectWhole(*held);
+  assembly.release(*held);
+  const auto frame = assembly.next(soon());
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->key.frame, 2u);
+  expectWhole(*frame);
+}
+
 TEST_P(AssemblyTest, AMalformedTileIsAnsweredAndDoesNotKeepAGoodCopyOut) {
   assembly.open(viewOf(0));
   std::vector<ReceivedTile> tiles = tilesOf(0);

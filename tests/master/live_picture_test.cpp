@@ -122,7 +122,7 @@ class LivePictureTest : public testing::Test {
     return codes;
   }
 
-  LivePicture picture{kTest, 2, 1};
+  LivePicture picture{kTest, 2, 1, true};
 };
 
 constexpr PictureView kBeauty = PictureView::beauty;

@@ -73,6 +73,28 @@ TEST(MotionQuality, FollowsAClusterThatSlowsDownAndRecovers) {
   EXPECT_LE(quality.current().size, before.size + 1) << "what no step saves counts, too";
 }
 
+// None is so late that it alone calls for a smaller one, but half of them are late.
+TEST(MotionQuality, FramesThatNeedAllOfTheTargetGetSmaller) {
+  MotionQuality quality(kTarget);
+  quality.took({}, milliseconds(84));
+  quality.begin();
+  EXPECT_EQ(quality.current(), Quality{});
+  for (int i = 0; i < 10 && quality.current().size == 0; ++i)
+    quality.took(Quality{}, milliseconds(i % 2 == 0 ? 90 : 108));
+  EXPECT_EQ(quality.current().size, 1);
+}
+
+TEST(MotionQuality, OneStallCostsOneStep) {
+  MotionQuality quality(kTarget);
+  quality.took({}, milliseconds(80));
+  quality.begin();
+  quality.took({}, milliseconds(400));
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_LE(quality.current().size, 1);
+    quality.took(quality.current(), timeOf(quality.current(), 0.08));
+  }
+}
+
 TEST(MotionQuality, DoesNotSwingBetweenTwoSizes) {
   for (double full = 0.05; full < 5; full *= 1.07) {
     MotionQuality quality(kTarget);
