@@ -1,22 +1,19 @@
-// irradiance_history.h: temporal reuse while only the camera moves. E' of the diffuse layer belongs to a
-// place, not to the eye: the place x that a pixel shows is looked up in the frame before, and
+// irradiance_history.h: temporal reuse while only the camera moves. E' of the diffuse layer [W/m^2] belongs to
+// a place, not to the eye: the place x that a pixel shows is looked up in the frame before, and
 //
-//   H(x) = H_before + (E'(x) - H_before)/n,   n = min(frames that H is the mean of, this one included, kMost)
+//   H(x) = H_before + (E'(x) - H_before)/n    n = min(frames that H is the mean of, this one included, kMost)
 //   L(p) = beauty + reflectance (H - E')
 //
-// H_before is interpolated between the four pixels around x's place in the frame before, of those alone
-// that show the same surface: normals within 25 degrees, and within kOffPlane of the distance from the
-// plane through x. Where too few do, x was hidden, and n = 1. At rest (`before` has the same camera and size)
-// each pixel goes on with itself, with n up to 255, and the picture stays what the film says; what it
-// has learned is there when the camera moves on.
+// H_before is interpolated between the four pixels around x's place in the frame before, of those alone that
+// show the same surface: normals within 25 degrees, and within kOffPlane of the distance from the plane
+// through x. Where too few do, x was hidden, and n = 1. At rest each pixel goes on with itself, with n up to
+// kMostKept, and the picture stays what the film says; what was learned is there when the camera moves on.
 //
-// What it costs: E' of moving shadows would lag, so that whoever changes anything but camera and size calls
-// forget(). Light in
-// mirrors and glass is not reused. Repeated interpolation blurs by about a pixel.
-//
+// Fails:   where E' changes, old light would lag: whoever changes anything but camera and size calls forget().
+//          Light in mirrors and glass is not reused. Repeated interpolation blurs by about a pixel.
 // Source:  Walter, Drettakis and Parker 1999 (render cache); Scherzer et al. 2007 (reverse reprojection).
 // Proved:  tests/image/irradiance_history_test.cpp.
-// Threads: blend for different tiles at once, between two calls of begin. Memory: 40 bytes a pixel.
+// Threads: blend for different tiles at once, between begin and frameDone. Memory: 40 bytes a pixel.
 // Errors:  none.
 #pragma once
 
@@ -31,7 +28,8 @@ namespace ninefold {
 
 class IrradianceHistory {
  public:
-  static constexpr int kMost = 8;
+  static constexpr int kMost = 8;             // while something moves
+  static constexpr int kMostKept = 255;       // at rest
   static constexpr float kOffPlane = 0.005f;  // of the distance to x
   static constexpr float kSameNormal = 0.9f;  // cosine
   static constexpr float kEnough = 0.25f;     // weight of those that show the same surface
@@ -57,12 +55,15 @@ class IrradianceHistory {
     CameraRays rays;
     int width = 0, height = 0;
     std::vector<Pixel> pixels;
+    size_t at(int x, int y) const { return pixelCount(width, y) + static_cast<size_t>(x); }
   };
   struct Past {
     Vec3 irradiance{0};
     float frames = 0;
   };
   Past pastOf(Vec3 x, Vec3 normal, Metres distance) const;
+  // What pixel (x, y) of now_ shows, seen from `distance`; its mean with the past, of `most` frames at most.
+  Pixel remembered(int x, int y, Vec3 fresh, Vec3 normal, Metres distance, int most) const;
 
   Frame now_, before_;
   bool isDone_ = false;  // now_ is whole

@@ -162,13 +162,18 @@ void FilmTile(benchmark::State& state) {
 }
 BENCHMARK(FilmTile);
 
-void ToneMapTile(benchmark::State& state) {
+RgbImage randomTile(float least, float most) {
   RgbImage tile;
   tile.reset(96, 96);
   std::mt19937 random(1);
-  std::uniform_real_distribution<float> uniform(0, 1.5f);
+  std::uniform_real_distribution<float> uniform(least, most);
   for (auto* plane : {&tile.pixels.r, &tile.pixels.g, &tile.pixels.b})
     for (float& value : *plane) value = uniform(random);
+  return tile;
+}
+
+void ToneMapTile(benchmark::State& state) {
+  const RgbImage tile = randomTile(0, 1.5f);
   DisplayImage codes;
   for (auto _ : state) {
     ToneMap().apply(tile, codes);
@@ -180,15 +185,7 @@ BENCHMARK(ToneMapTile);
 
 // A tile that a client has filtered, from its bytes to a display of 1920 pixels a row: as radiance that is
 // tone mapped here, or as codes.
-RgbImage filteredTile() {
-  RgbImage tile;
-  tile.reset(96, 96);
-  std::mt19937 random(2);
-  std::uniform_real_distribution<float> uniform(0.4f, 0.5f);
-  for (auto* plane : {&tile.pixels.r, &tile.pixels.g, &tile.pixels.b})
-    for (float& value : *plane) value = uniform(random);
-  return tile;
-}
+RgbImage filteredTile() { return randomTile(0.4f, 0.5f); }
 
 void ShowRadiance(benchmark::State& state) {
   const Bytes bytes =
