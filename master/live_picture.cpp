@@ -11,13 +11,6 @@ namespace {
 
 constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
 
-// Old values may stay: every pixel will be written.
-void reshape(int width, int height, RgbImage& image) {
-  image.width = width, image.height = height;
-  for (auto* plane : {&image.pixels.r, &image.pixels.g, &image.pixels.b})
-    plane->resize(image.count());
-}
-
 }  // namespace
 
 LivePicture::LivePicture(SurfaceTest test, int workers, float depthScale, bool reuses)
@@ -60,7 +53,7 @@ void LivePicture::takeImage(const FrameShape& shape) {
   const int width = shape.grid.width(), height = shape.grid.height();
   const bool coded = shape.layerMask == kDisplayMask;
   image_->width = width, image_->height = height;
-  reshape(coded ? 0 : width, coded ? 0 : height, image_->radiance);
+  image_->radiance.reshape(coded ? 0 : width, coded ? 0 : height);
   image_->exposure = look_.exposure.value_or(0);
   image_->display.reshape(look_.exposure ? width : 0, look_.exposure ? height : 0);
   const bool picks = (shape.extraMask & kPickPlanes) == kPickPlanes;

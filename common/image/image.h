@@ -24,6 +24,11 @@ struct RgbImage {
     width = w, height = h;
     pixels.resize(pixelCount(w, h));
   }
+  // Old values may stay: for who writes all of them.
+  void reshape(int w, int h) {
+    width = w, height = h;
+    pixels.reshape(pixelCount(w, h));
+  }
   size_t count() const { return pixelCount(width, height); }
   size_t at(int x, int y) const { return pixelCount(width, y) + static_cast<size_t>(x); }
   Vec3 rgb(size_t i) const { return {pixels.r[i], pixels.g[i], pixels.b[i]}; }

@@ -41,6 +41,8 @@ enum ExtraPlane : uint8_t {
 struct RgbPlane {
   std::vector<float> r, g, b;
   void resize(size_t n) { r.assign(n, 0), g.assign(n, 0), b.assign(n, 0); }
+  // Old values may stay: for who writes all of them.
+  void reshape(size_t n) { r.resize(n), g.resize(n), b.resize(n); }
   bool operator==(const RgbPlane&) const = default;
 };
 

@@ -5,11 +5,6 @@
 namespace ninefold {
 namespace {
 
-// Old values may stay.
-void reshape(size_t pixels, RgbPlane& plane) {
-  for (auto* values : {&plane.r, &plane.g, &plane.b}) values->resize(pixels);
-}
-
 // sum += reflectance E' [+ U] of one channel.
 void addLight(const Patch& patch, const std::vector<float>& reflectance,
               const std::vector<float>& irradiance, const std::vector<float>* unfiltered,
@@ -47,11 +42,10 @@ void interleave(const std::vector<const float*>& rows, int width, float* out) {
 void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighbourWeight,
                           RgbImage& beauty) {
   const auto [n, m] = patch.grid().interleave();
-  beauty.width = patch.width(), beauty.height = patch.height();
-  reshape(beauty.count(), beauty.pixels);
+  beauty.reshape(patch.width(), patch.height());
   irradiance_.resize(static_cast<size_t>(patch.phases()));
   radiance_.resize(static_cast<size_t>(n));
-  reshape(Patch::kPixels, filtered_);
+  filtered_.reshape(Patch::kPixels);
   buffer_.prepare(patch, camera);
   std::vector<const float*> rows(static_cast<size_t>(n));
   for (int py = 0; py < m; ++py) {
