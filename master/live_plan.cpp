@@ -1,7 +1,5 @@
 #include "master/live_plan.h"
 
-#include <utility>
-
 namespace ninefold {
 LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
@@ -118,8 +116,8 @@ std::optional<LiveFrame> LivePlan::completed(uint32_t frame, Time now) {
   if (found == open_.end()) return std::nullopt;
   const LiveFrame done = found->second;
   open_.erase(found);
-  // Frames overlap: before, the cluster was busy with the one before.
-  quality_.took(done.quality, now - std::max(done.opened, std::exchange(lastCompleted_, now)));
+  // All of the time that somebody waited for it, the end of the frame before included.
+  quality_.took(done.quality, now - done.opened);
   return done;
 }
 

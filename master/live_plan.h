@@ -97,7 +97,6 @@ class LivePlan {
   uint32_t nextFrame_ = 0;
   FrameOrder latest_;  // whose job is current
   std::map<uint32_t, LiveFrame> open_;
-  Time lastCompleted_{};
 };
 
 }  // namespace ninefold

@@ -8,14 +8,14 @@
 namespace ninefold {
 namespace {
 
-constexpr std::array kLadder{Quality{0, 0}, Quality{1, 0}, Quality{2, 0},
-                             Quality{2, 1}, Quality{3, 1}, Quality{3, 2},
-                             Quality{4, 2}, Quality{5, 2}, Quality{6, 2}};
-constexpr double kLearn = 0.4;    // weight of the latest frame
-constexpr double kMargin = 0.85;  // a better step must be predicted to need no more of the target
+constexpr std::array kLadder{Quality{0, 0}, Quality{1, 0}, Quality{2, 0}, Quality{3, 0},
+                             Quality{4, 0}, Quality{5, 0}, Quality{5, 1}, Quality{6, 1},
+                             Quality{7, 1}, Quality{7, 2}, Quality{8, 2}, Quality{9, 2}};
+constexpr double kLearn = 0.4;   // weight of the latest frame
+constexpr double kMargin = 0.8;  // a better step must be predicted to need no more of the target
 // Of the target. A frame that took longer calls for a smaller one; so does one that took long if frames
 // do in the mean.
-constexpr double kTooLate = 1.1, kTooLong = 0.95;
+constexpr double kTooLate = 1.1, kTooLong = 0.9;
 constexpr int kPatience = 3;  // frames that must agree before the size grows
 
 }  // namespace
@@ -23,12 +23,12 @@ constexpr int kPatience = 3;  // frames that must agree before the size grows
 double MotionQuality::cost(Quality q) {
   const double size = kSizes[static_cast<size_t>(q.size)];
   const double light = kLights[static_cast<size_t>(q.light)];
-  return size * size * (kEyeShare + (1 - kEyeShare) * light);
+  return kSetShare * light + size * size * (kEyeShare + (1 - kEyeShare - kSetShare) * light);
 }
 
 std::string MotionQuality::describe(Quality q) {
-  constexpr std::array kSizeNames{"",         "3/4 size",  "1/2 size", "3/8 size",
-                                  "1/4 size", "3/16 size", "1/8 size"};
+  constexpr std::array kSizeNames{"",         "3/4 size",  "5/8 size", "1/2 size",  "7/16 size",
+                                  "3/8 size", "5/16 size", "1/4 size", "3/16 size", "1/8 size"};
   constexpr std::array kLightNames{"", "1/2 light", "1/4 light"};
   const std::string size = kSizeNames[static_cast<size_t>(q.size)];
   const std::string light = kLightNames[static_cast<size_t>(q.light)];

@@ -1,15 +1,17 @@
 // motion_quality.h: how good a frame may be while something moves, so that it is done within a
 // target time. Pure: durations in, steps out.
 //
-//   cost of a frame, relative to a full one    c(size, light) = size^2 (e + (1 - e) light)
+//   cost of a frame, relative to a full one    c(size, light) = s light + size^2 (e + (1 - e - s) light)
 //   size    width and height are multiplied by it      one of kSizes
 //   light   VPLs and photons are multiplied by it      one of kLights
-//   e = kEyeShare   what eye paths and filter cost beside the light
+//   s = kSetShare   what making the light sets costs, whatever the size
+//   e = kEyeShare   what eye paths and filter cost beside the light, and shadow rays that thinning does
+//                   not save, because roulette has left them out already (gi/vpl_roulette.h)
 //
 // The time of a full frame is learned from every frame that is timed. When a gesture begins, the
-// first entry of the ladder that is predicted to keep the target is taken: size falls to a half
-// before the light is thinned. The light then stays, so that nothing flickers, until the gesture
-// ends; size may still follow the clock: down at once when a frame is late, or long as
+// first entry of the ladder that is predicted to keep the target is taken: size falls to 3/8 before
+// the light is thinned, which saves least. The light then stays, so that nothing flickers, until the
+// gesture ends; size may still follow the clock: down at once when a frame is late, or long as
 // they are in the mean; up when three frames in a row say so.
 //
 // Threads: plain value. Errors: none. Proved: tests/master/motion_quality_test.cpp.
@@ -31,9 +33,10 @@ struct Quality {
 
 class MotionQuality {
  public:
-  static constexpr std::array kSizes{1.0, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
+  static constexpr std::array kSizes{1.0,   0.75,   0.625, 0.5,    0.4375,
+                                     0.375, 0.3125, 0.25,  0.1875, 0.125};
   static constexpr std::array kLights{1.0, 0.5, 0.25};
-  static constexpr double kEyeShare = 0.3;
+  static constexpr double kSetShare = 0.1, kEyeShare = 0.6;
 
   explicit MotionQuality(Duration target) : target_(target) {}
 

@@ -162,6 +162,17 @@ TEST_F(LivePlanTest, LatencyCountsFromTheFirstChangeThatAFrameShows) {
   EXPECT_EQ(opened().changed, second);
 }
 
+// Frames overlap. Each of these keeps the cluster busy for 70 ms, but the second is waited for for 140.
+TEST_F(LivePlanTest, TheWaitForTheFrameBeforeCountsAgainstTheTarget) {
+  const LiveFrame first = opened(), second = opened();
+  pass(milliseconds(70));
+  finish(first);
+  pass(milliseconds(70));
+  finish(second);
+  moveTo(1);
+  EXPECT_GT(plan.quality().current().size, 0);
+}
+
 TEST_F(LivePlanTest, WithoutMotionEveryStateIsAStillOfItsOwn) {
   LivePlan::Setup stills = setup();
   stills.motion = false;

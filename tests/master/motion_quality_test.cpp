@@ -36,13 +36,13 @@ TEST(MotionQuality, AFastClusterLosesNothing) {
   EXPECT_EQ(MotionQuality::describe(quality.current()), "");
 }
 
-TEST(MotionQuality, SizeFallsToAHalfBeforeTheLightIsThinned) {
+TEST(MotionQuality, SizeFallsToThreeEighthsBeforeTheLightIsThinned) {
   for (double full = 0.05; full < 20; full *= 1.1) {
     MotionQuality quality(kTarget);
     quality.took({}, fromSeconds(full));
     quality.begin();
     if (quality.current().light > 0) {
-      EXPECT_GE(quality.current().size, 2);
+      EXPECT_LE(MotionQuality::kSizes.at(static_cast<size_t>(quality.current().size)), 0.375);
     }
   }
 }
@@ -76,7 +76,7 @@ TEST(MotionQuality, FollowsAClusterThatSlowsDownAndRecovers) {
 // None is so late that it alone calls for a smaller one, but half of them are late.
 TEST(MotionQuality, FramesThatNeedAllOfTheTargetGetSmaller) {
   MotionQuality quality(kTarget);
-  quality.took({}, milliseconds(84));
+  quality.took({}, milliseconds(79));
   quality.begin();
   EXPECT_EQ(quality.current(), Quality{});
   for (int i = 0; i < 10 && quality.current().size == 0; ++i)
@@ -114,7 +114,7 @@ TEST(MotionQuality, ADearerStepIsNeverCheaper) {
     for (int light = 0; light < 3; ++light)
       EXPECT_LT(MotionQuality::cost({size, light}), MotionQuality::cost({size - 1, light}));
   EXPECT_EQ(MotionQuality::cost({}), 1);
-  EXPECT_EQ(MotionQuality::describe({2, 1}), "1/2 size, 1/2 light");
+  EXPECT_EQ(MotionQuality::describe({3, 1}), "1/2 size, 1/2 light");
 }
 
 TEST(Scaled, KeepsAtLeastOneOfWhatThereIs) {

@@ -12,9 +12,11 @@ namespace ninefold::testing {
 
 class OneProcess {
  public:
-  // The scene's first camera and environment. `begun`: what a gesture began with, or null.
-  OneProcess(const Tracer& tracer, const Settings& settings, const Tracer* begun = nullptr)
-      : settings_(completed(settings, tracer.scene())),
+  // The scene's environment, and its first camera if no other is asked for. `begun`: what a gesture began
+  // with, or null.
+  OneProcess(const Tracer& tracer, const Settings& settings, const Tracer* begun = nullptr,
+             const std::optional<Camera>& camera = {})
+      : settings_(completed(settings, tracer.scene(), camera)),
         begun_(begun != nullptr ? std::make_unique<Renderer>(*begun, settings_) : nullptr),
         renderer_(tracer, settings_, begun_.get()),
         scratch_(renderer_.makeScratch()),
@@ -28,6 +30,12 @@ class OneProcess {
   }
 
   const RgbImage& nextFrame() {
+    trace();
+    for (int tile = 0; tile < frame_.view.shape.grid.tiles(); ++tile) finish(tile);
+    return beauty_;
+  }
+  // The next frame as it is before the filter.
+  GatheredFrame& trace() {
     FrameView& view = frame_.view;
     view.key = plan_.next(), view.neighbourWeight = plan_.neighbourWeight(view.key.frame);
     const int tiles = view.shape.grid.tiles(), sets = settings_.interleave.sets();
@@ -39,13 +47,12 @@ class OneProcess {
         if (view.shape.grid.rect(tile, phase).count() > 0)  // else it is nobody's task
           frame_.tasks[static_cast<size_t>(tile * sets + phase)] = result(tile, phase, *lights);
     }
-    for (int tile = 0; tile < tiles; ++tile) finish(tile);
-    return beauty_;
+    return frame_;
   }
 
  private:
-  static Settings completed(Settings s, const Scene& scene) {
-    s.camera = scene.cameras.front(), s.environment = scene.environment;
+  static Settings completed(Settings s, const Scene& scene, const std::optional<Camera>& camera) {
+    s.camera = camera.value_or(scene.cameras.front()), s.environment = scene.environment;
     return s;
   }
   UnpackedTile result(int tile, int phase, const LightSet& lights) {

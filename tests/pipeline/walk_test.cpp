@@ -1,0 +1,90 @@
+// Light that is used again while the camera walks (common/image/irradiance_history.h): what it does to the error
+// of a session's frames. The frames are those of a session, random bits fixed, and so is what makes pictures of
+// them; the reference is a mean of other frames from the last place. docs/performance.md keeps the figures.
+#include <gtest/gtest.h>
+
+#include "common/image/metrics.h"
+#include "common/scene/reader.h"
+#include "master/live_picture.h"
+#include "tests/pipeline/one_process.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kSteps = 12, kReference = 96;  // frames
+
+Settings small() {
+  Settings settings;
+  settings.width = 160, settings.height = 120;
+  return settings;
+}
+
+// A step to the side, with a turn of the head.
+Camera after(const Camera& start, int steps) {
+  const auto t = static_cast<float>(steps);
+  Camera camera = start;
+  const Vec3 right = glm::normalize(glm::cross(start.forward, start.up));
+  camera.eye += 0.03f * t * right;
+  camera.forward = glm::normalize(start.forward + 0.02f * t * right);
+  return camera;
+}
+
+class Session {
+ public:
+  explicit Session(bool reuses) : picture_(SurfaceTest::surface, 1, 10, reuses) {}
+
+  RgbImage shown(const GatheredFrame& frame) {
+    LiveFrame plan;
+    plan.moving = true;
+    const std::vector<uint32_t> owners(frame.tasks.size(), 0);
+    for (int tile = 0; tile < frame.view.shape.grid.tiles(); ++tile)
+      picture_.finishTile(0, frame, plan, {}, owners, tile);
+    picture_.frameDone();
+    return picture_.image()->radiance;
+  }
+
+ private:
+  LivePicture picture_;
+};
+
+RgbImage reference(const Tracer& tracer, const Camera& camera) {
+  Settings settings = small();
+  settings.seed = 100;
+  testing::OneProcess process(tracer, settings, nullptr, camera);
+  Film film(settings.width, settings.height, false);
+  for (int i = 0; i < kReference; ++i) {
+    film.addTile(0, 0, process.nextFrame());
+    film.frameDone();
+  }
+  RgbImage mean;
+  mean.reset(settings.width, settings.height);
+  film.meanOfTile({0, 0, settings.width, settings.height}, mean);
+  return mean;
+}
+
+class Walk : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(Walk, LightUsedAgainLowersTheError) {
+  const Scene scene = readScene(NINEFOLD_SCENES "/" + std::string(GetParam()) + ".glb");
+  const Tracer tracer(scene, Isa::automatic);
+  Session with(true), without(false);
+  RgbImage reused, alone;
+  for (int step = 0; step < kSteps; ++step) {
+    testing::OneProcess process(tracer, small(), nullptr, after(scene.cameras.front(), step));
+    GatheredFrame& frame = process.trace();
+    frame.view.key.frame = static_cast<uint32_t>(step);
+    reused = with.shown(frame), alone = without.shown(frame);
+  }
+  const RgbImage truth = reference(tracer, after(scene.cameras.front(), kSteps - 1));
+  const Metrics a = compareImages(reused, truth), b = compareImages(alone, truth);
+  std::printf("%-12s relMSE without the worst thousandth: %.4f alone, %.4f with light used again\n",
+              GetParam(), b.relMseTrimmed, a.relMseTrimmed);
+  EXPECT_LT(a.relMseTrimmed, 0.95 * b.relMseTrimmed);
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.bias[c], b.bias[c], 0.02) << "channel " << c;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, Walk, ::testing::Values("table_room", "office"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+}  // namespace
+}  // namespace ninefold
