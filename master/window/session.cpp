@@ -256,7 +256,9 @@ int runWindow(const Options& options) {
     window.emplace("ninefold", std::max(720, options.settings.width), height);
   } catch (const NoDisplay& none) {
     warn("{}; going on without a window", none.what());
-    return options.script || options.animate ? runScript(options) : runHeadless(options);
+    Options headless = options;
+    headless.window = false;
+    return isLive(headless) ? runScript(headless) : runHeadless(headless);
   }
   WindowSession session(options, *window);
   return session.run();
