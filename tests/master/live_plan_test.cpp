@@ -149,6 +149,18 @@ TEST_F(LivePlanTest, RandomBitsCountsAndRadiusAreFrozenWithinAGesture) {
   }
 }
 
+TEST_F(LivePlanTest, WhatNeedsManyFramesIsLeftOutInMotion) {
+  const Settings atRest = done().order.settings;
+  moveTo(1);
+  const Settings moving = done().order.settings;
+  EXPECT_EQ(moving.caustics, Caustics::direct);
+  EXPECT_FALSE(moving.jitter);
+  pass(LivePlan::kSettle);
+  const Settings again = done().order.settings;
+  EXPECT_EQ(again.caustics, atRest.caustics);
+  EXPECT_TRUE(again.jitter);
+}
+
 TEST_F(LivePlanTest, LatencyCountsFromTheFirstChangeThatAFrameShows) {
   moveTo(1);
   const Time first = now;

@@ -13,9 +13,10 @@ namespace {
 
 constexpr int kSteps = 12, kReference = 96;  // frames
 
-Settings small() {
+Settings small(bool moving) {
   Settings settings;
   settings.width = 160, settings.height = 120;
+  settings.jitter = !moving;
   return settings;
 }
 
@@ -48,7 +49,7 @@ class Session {
 };
 
 RgbImage reference(const Tracer& tracer, const Camera& camera) {
-  Settings settings = small();
+  Settings settings = small(false);
   settings.seed = 100;
   testing::OneProcess process(tracer, settings, nullptr, camera);
   Film film(settings.width, settings.height, false);
@@ -70,7 +71,7 @@ TEST_P(Walk, LightUsedAgainLowersTheError) {
   Session with(true), without(false);
   RgbImage reused, alone;
   for (int step = 0; step < kSteps; ++step) {
-    testing::OneProcess process(tracer, small(), nullptr, after(scene.cameras.front(), step));
+    testing::OneProcess process(tracer, small(true), nullptr, after(scene.cameras.front(), step));
     GatheredFrame& frame = process.trace();
     frame.view.key.frame = static_cast<uint32_t>(step);
     reused = with.shown(frame), alone = without.shown(frame);
