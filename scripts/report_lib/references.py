@@ -67,8 +67,9 @@ class References:
     def _add_batch(self, job, folder, state):
         number = len(state["batches"])
         picture = os.path.join(folder, f"batch_{number:03d}.exr")
-        # The first batch tells how many frames fit into its time; all others have as many.
-        stop = ("--frames", state["frames"]) if number else ("--seconds", max(1, min(20, self.budget / 16)))
+        # The first batch tells how many frames fit into its time; all others have as many. Long ones: within a
+        # batch a pixel's samples go on with one sequence, and edges of what mirrors and glass show gain by that.
+        stop = ("--frames", state["frames"]) if number else ("--seconds", max(1, self.budget / 16))
         stats = self.programs.render(job, FIRST_SEED + number, stop, picture)
         state["frames"] = stats["frames"]
         state["batches"].append(os.path.basename(picture))
