@@ -18,6 +18,7 @@ struct FrameOrder {
   uint32_t scene = 0;   // version of the scene
   SceneEdit edit;       // what is different from the version before
   bool moving = false;  // as in msg::Edit
+  bool urgent = false;  // somebody waits for it (FrameKind)
   uint8_t extraMask = 0;
   Delivery delivery;          // of the job, too
   float neighbourWeight = 1;  // of the filter

@@ -49,6 +49,7 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
   if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;
   LiveFrame frame = open(now);
   frame.rested = plan_.opened();
+  frame.order.urgent = frame.rested == 0;  // else the last picture of the motion stays for long
   const FrameKey key = plan_.next();
   frame.neighbourWeight = plan_.neighbourWeight(key.frame);
   frame.order.key = key;
@@ -66,7 +67,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   }
   if (open_.size() >= kInMotion) return std::nullopt;
   LiveFrame frame = open(now);
-  frame.moving = true;
+  frame.moving = frame.order.urgent = true;
   frame.quality = quality_.current();
   frame.changed = firstUnshown_;
   frame.order.key = planOfRest().next();  // the first frame's random bits

@@ -1,6 +1,7 @@
 #include "master/scheduler.h"
 
 #include <algorithm>
+#include <functional>
 
 #include "common/base/error.h"
 
@@ -10,6 +11,7 @@ namespace {
 constexpr size_t kRememberedFrames = 64;  // closed ones, to tell duplicate from stale
 constexpr Duration kShortestEstimate = milliseconds(5);  // below that it is jitter, not lateness
 constexpr int kLateFactor = 2;                           // late: took this many times the estimate
+constexpr int kAhead = 2;  // frames open beyond those in which each client has a set of its own
 
 }  // namespace
 
@@ -69,11 +71,27 @@ int Scheduler::waiting() const {
   return sum;
 }
 
-bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit(); }
+bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit() || wouldShare(); }
 
-void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles) {
+// More clients with credit have no set to go on with than there are sets that nobody is at work on.
+bool Scheduler::wouldShare() const {
+  if (frames_.empty() || frames_.rbegin()->second.isUrgent()) return false;
+  const int needed =
+      (clients() + frames_.rbegin()->second.sets() - 1) / frames_.rbegin()->second.sets();
+  if (openFrames() >= needed + kAhead) return false;
+  int untouched = 0;
+  for (const auto& [number, frame] : frames_) untouched += frame.untouchedSets();
+  const auto goesOn = [this](const auto& ready) {
+    return std::ranges::any_of(frames_, [&](const auto& frame) {
+      return frame.second.setToGoOnWith(ready.second).has_value();
+    });
+  };
+  return std::ranges::count_if(pool_.ready(), std::not_fn(goesOn)) > untouched;
+}
+
+void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind) {
   NINEFOLD_CHECK(key.frame >= nextFrame_);
-  frames_.emplace(key.frame, SchedulerFrame(key, grid, wholeTiles));
+  frames_.emplace(key.frame, SchedulerFrame(key, grid, kind));
   nextFrame_ = key.frame + 1;
 }
 
@@ -167,13 +185,23 @@ void Scheduler::suspectSilentClients(Time now) {
 
 // Task by task to whoever would finish it first, so that a short supply is spread over all.
 void Scheduler::handOutWaiting(Actions& actions, Time now) {
-  for (auto& [number, frame] : frames_) {
-    while (frame.waiting() > 0 && !pool_.ready().empty()) {
-      SchedulerClient& client = *pool_.find(pool_.ready().begin()->second);
-      const int task = frame.nextWaiting(frame.chooseSet(client));
-      assign(client, frame, task, actions, now);
-    }
+  for (int left = waiting(); left > 0 && !pool_.ready().empty(); --left) {
+    SchedulerClient& client = *pool_.find(pool_.ready().begin()->second);
+    const auto [frame, set] = placeFor(client);
+    assign(client, *frame, frame->nextWaiting(set), actions, now);
   }
+}
+
+Scheduler::Place Scheduler::placeFor(const SchedulerClient& client) {
+  SchedulerFrame* oldest = nullptr;
+  for (auto& [number, frame] : frames_) {
+    if (const auto set = frame.setToGoOnWith(client.id())) return {&frame, *set};
+    if (oldest == nullptr && frame.waiting() > 0) oldest = &frame;
+    if (oldest == &frame && frame.isUrgent()) return {&frame, frame.setToShare(client)};
+  }
+  for (auto& [number, frame] : frames_)
+    if (const auto set = frame.untouchedSet()) return {&frame, *set};
+  return {oldest, oldest->setToShare(client)};
 }
 
 void Scheduler::duplicateStragglers(Actions& actions, Time now) {

@@ -5,8 +5,11 @@
 // Policies, each in one small function:
 //   order       oldest open frame first; the next frame's tasks go out before this one's last are
 //               back
-//   light sets  a client goes on with light sets that it has; a new one is the set with most tasks
-//               left per client at work on it (paper: about two sets for each client and frame)
+//   light sets  a client goes on with light sets that it has. At rest the next one is of the oldest
+//               frame that has one which nobody is at work on, and frames are opened so that there is
+//               one, up to kAhead more than it takes to give each client a set of its own. Else, and in
+//               urgent frames at once, clients share: the set with most tasks left per client at work
+//               on it (paper: about two sets for each client and frame)
 //   credit      a client that holds less than `low` tasks is refilled up to `high`; both cover its
 //               round trip at its learned speed (scheduler_client.h). No queue ever grows.
 //   stragglers  nothing left to hand out: a client with credit gets a copy of a task that is late
@@ -56,7 +59,7 @@ class Scheduler {
 
   // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
   // Tasks without pixels do not exist; of whole tiles, there is phase 0 alone.
-  void openFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles = false);
+  void openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind = {});
   // All open frames before `firstWanted` are superseded.
   void viewChanged(uint32_t firstWanted);
 
@@ -67,7 +70,8 @@ class Scheduler {
 
   Actions poll(Time now);
 
-  // True while clients have credit that the open frames cannot use: time to open the next frame.
+  // True while clients have credit that the open frames cannot use, or can use only by sharing light
+  // sets that need not be shared: time to open the next frame.
   bool wantsFrame() const;
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
   int openFrames() const { return static_cast<int>(frames_.size()); }
@@ -87,6 +91,12 @@ class Scheduler {
   const SchedulerFrame* findFrame(uint32_t frame) const;
   Verdict verdictOnClosed(uint32_t frame) const;
   int waiting() const;  // tasks to hand out, over all open frames
+  bool wouldShare() const;
+  struct Place {
+    SchedulerFrame* frame;
+    int set;
+  };
+  Place placeFor(const SchedulerClient& client);  // needs waiting() > 0
 
   void suspectSilentClients(Time now);
   void trustAgain(SchedulerClient& client);

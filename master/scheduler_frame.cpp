@@ -7,14 +7,16 @@
 
 namespace ninefold {
 
-SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles)
+SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind)
     : key_(key),
+      urgent_(kind.urgent),
+      wholeTiles_(kind.wholeTiles),
       sets_(grid.interleave().sets()),
       tasks_(static_cast<size_t>(grid.tasks())),
       queues_(static_cast<size_t>(sets_)) {
   for (int task = 0; task < tasks(); ++task) {
     if (grid.rect(task / sets_, task % sets_).count() == 0) continue;
-    if (wholeTiles && task % sets_ != 0) continue;
+    if (wholeTiles_ && task % sets_ != 0) continue;
     at(task).state = TaskState::waiting;
     queueOf(task).order.push_back(task);
     ++queueOf(task).waiting;
@@ -35,8 +37,28 @@ TaskId SchedulerFrame::idOf(int task) const {
   return {.frame = key_.frame, .tile = task / sets_, .phase = task % sets_};
 }
 
-int SchedulerFrame::chooseSet(const SchedulerClient& client) const {
-  // Most waiting tasks for each client at work on the set, the newcomer included.
+std::optional<int> SchedulerFrame::setToGoOnWith(ClientId client) const {
+  const auto used = setsOfClient_.find(client);
+  if (used == setsOfClient_.end()) return std::nullopt;
+  const auto latest = std::find_if(used->second.rbegin(), used->second.rend(),
+                                   [this](int set) { return waitingOf(set) > 0; });
+  if (latest == used->second.rend()) return std::nullopt;
+  return *latest;
+}
+
+std::optional<int> SchedulerFrame::untouchedSet() const {
+  const auto found = std::ranges::find_if(queues_, &SetQueue::isUntouched);
+  if (found == queues_.end()) return std::nullopt;
+  return static_cast<int>(found - queues_.begin());
+}
+
+int SchedulerFrame::untouchedSets() const {
+  return static_cast<int>(std::ranges::count_if(queues_, &SetQueue::isUntouched));
+}
+
+// The one with most waiting tasks for each client at work on it, the newcomer included; in motion, of
+// those that it remembers from the frame before.
+int SchedulerFrame::setToShare(const SchedulerClient& client) const {
   std::optional<int> best;
   const auto consider = [&](int set) {
     const SetQueue& a = queues_[static_cast<size_t>(set)];
@@ -45,13 +67,8 @@ int SchedulerFrame::chooseSet(const SchedulerClient& client) const {
     const SetQueue& b = queues_[static_cast<size_t>(*best)];
     if (int64_t{a.waiting} * (b.clients + 1) > int64_t{b.waiting} * (a.clients + 1)) best = set;
   };
-  if (const auto used = setsOfClient_.find(client.id()); used != setsOfClient_.end()) {
-    if (waitingOf(used->second.back()) > 0) return used->second.back();
-    for (const int set : used->second) consider(set);
-  }
-  if (!best)
-    for (int set = 0; set < sets_; ++set)
-      if (client.remembersSet(key_.randomization, set)) consider(set);
+  for (int set = 0; set < sets_; ++set)
+    if (client.remembersSet(key_.randomization, set)) consider(set);
   if (!best)
     for (int set = 0; set < sets_; ++set) consider(set);
   NINEFOLD_CHECK(best.has_value());

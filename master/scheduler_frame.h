@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -35,9 +36,11 @@ class SchedulerFrame {
   using Stragglers =
       std::set<std::pair<Time, int>>;  // (late, task) of tasks with one active holder
 
-  SchedulerFrame(const FrameKey& key, const TileGrid& grid, bool wholeTiles);
+  SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind);
 
   const FrameKey& key() const { return key_; }
+  bool isUrgent() const { return urgent_; }
+  int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of
   int tasks() const { return static_cast<int>(tasks_.size()); }
   // Index of a task of this frame, -1 if there is no such task.
   int indexOf(const TaskId& task) const;
@@ -54,8 +57,12 @@ class SchedulerFrame {
   int waiting() const { return waiting_; }  // to hand out
   int waitingOf(int set) const { return queues_[static_cast<size_t>(set)].waiting; }
 
-  // The light set that this client should go on with. Needs waiting() > 0.
-  int chooseSet(const SchedulerClient& client) const;
+  // A light set with waiting tasks: that the client has; that nobody is at work on.
+  std::optional<int> setToGoOnWith(ClientId client) const;
+  std::optional<int> untouchedSet() const;
+  int untouchedSets() const;
+  // The set to be shared by one client more. Needs waiting() > 0.
+  int setToShare(const SchedulerClient& client) const;
   // The set's next waiting task; stays waiting until addHolder.
   int nextWaiting(int set);
 
@@ -85,6 +92,7 @@ class SchedulerFrame {
     std::deque<int> order;  // may hold tasks that wait no more; skipped when met
     int waiting = 0;
     int clients = 0;  // that work on this set
+    bool isUntouched() const { return waiting > 0 && clients == 0; }
   };
 
   Task& at(int task) { return tasks_[static_cast<size_t>(task)]; }
@@ -95,6 +103,7 @@ class SchedulerFrame {
   bool settle(int task);
 
   FrameKey key_;
+  bool urgent_, wholeTiles_;
   int sets_;  // = phases
   int left_ = 0, waiting_ = 0;
   std::vector<Task> tasks_;       // tile * sets + phase

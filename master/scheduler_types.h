@@ -19,6 +19,12 @@ struct TaskId {
   bool operator==(const TaskId&) const = default;
 };
 
+// How a frame is to be rendered.
+struct FrameKind {
+  bool wholeTiles = false;  // of each tile there is phase 0 alone, which stands for all
+  bool urgent = false;      // soon, whatever that costs in light sets
+};
+
 // Send this task to this client.
 struct Assignment {
   ClientId client = 0;

@@ -167,7 +167,8 @@ class SimulatedCluster {
     while (scheduler_.openFrames() < job_.framesInFlight && scheduler_.wantsFrame()) {
       const uint32_t frame = nextFrame_++;
       opened_[frame] = now_;
-      scheduler_.openFrame({.frame = frame, .randomization = job_.moving ? 0 : frame}, job_.grid);
+      scheduler_.openFrame({.frame = frame, .randomization = job_.moving ? 0 : frame}, job_.grid,
+                           {.urgent = job_.moving});
     }
     const Actions actions = scheduler_.poll(at(now_));
     for (const Cancellation& cancel : actions.cancel) {

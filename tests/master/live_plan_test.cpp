@@ -149,6 +149,16 @@ TEST_F(LivePlanTest, RandomBitsCountsAndRadiusAreFrozenWithinAGesture) {
   }
 }
 
+TEST_F(LivePlanTest, SomebodyWaitsForFramesInMotionAndForTheFirstAtRest) {
+  EXPECT_TRUE(done().order.urgent);
+  EXPECT_FALSE(done().order.urgent);
+  moveTo(1);
+  EXPECT_TRUE(done().order.urgent);
+  pass(LivePlan::kSettle);
+  EXPECT_TRUE(done().order.urgent);
+  EXPECT_FALSE(done().order.urgent);
+}
+
 TEST_F(LivePlanTest, WhatNeedsManyFramesIsLeftOutInMotion) {
   const Settings atRest = done().order.settings;
   moveTo(1);

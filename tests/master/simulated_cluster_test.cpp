@@ -55,6 +55,36 @@ TEST(SimulatedCluster, ClientsMakeFewLightSets) {
   }
 }
 
+// A set of table_room at 640x480 takes four milliseconds, a task of it 1.4.
+SimulatedJob tableRoom(int frames) {
+  return {.frames = frames, .taskSeconds = 1.4e-3, .setSeconds = 4e-3, .checkEvery = 1000};
+}
+
+TEST(SimulatedCluster, AtRestEachLightSetIsMadeOnce) {
+  constexpr int kFrames = 100;
+  const double alone = play(tableRoom(kFrames), alike(1)).elapsed();
+  for (const auto& [count, least] : {std::pair(2, 0.98), {16, 0.95}, {64, 0.9}}) {
+    SCOPED_TRACE(count);
+    const SimulatedCluster cluster = play(tableRoom(kFrames), alike(count));
+    uint64_t sets = 0;
+    for (const ClientReport& report : cluster.reports()) sets += report.lightSets;
+    // Those of frames that were open when the last one was complete are made, too.
+    EXPECT_LE(sets, 1.2 * 9 * kFrames);
+    EXPECT_GE(alone / cluster.elapsed(), least * count);
+  }
+}
+
+TEST(SimulatedCluster, UrgentFramesAreSharedAtOnce) {
+  SimulatedJob moving = tableRoom(50);
+  moving.moving = true, moving.framesInFlight = 2;
+  const auto longest = [](const SimulatedCluster& cluster) {
+    return *std::ranges::max_element(cluster.latencies());
+  };
+  const double alone = longest(play(moving, alike(1)));
+  // Nine clients have a set each; of eighteen, two share one. Two frames overlap.
+  EXPECT_LE(longest(play(moving, alike(18))), 2 * alone / 14);
+}
+
 TEST(SimulatedCluster, MixedClientsShareBySpeed) {
   SimulatedJob job{.grid = TileGrid(1280, 960, {3, 3}), .frames = 30, .checkEvery = 1000};
   for (const auto& [count, least] : {std::pair(2, 0.99), {8, 0.97}, {32, 0.95}, {64, 0.8}}) {
