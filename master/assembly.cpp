@@ -14,6 +14,11 @@ constexpr size_t kCopies = 2;  // of a task: the first and one for a straggler
 int tileOf(const msg::Result& result) { return static_cast<int>(result.tile); }
 int phaseOf(const msg::Result& result) { return static_cast<int>(result.phase); }
 
+double pixelsOf(const GatheredFrame& frame) {
+  const TileGrid& grid = frame.view.shape.grid;
+  return static_cast<double>(grid.width()) * grid.height();
+}
+
 }  // namespace
 
 Assembly::Assembly(int workers, Answer answer, Finish finish)
@@ -32,7 +37,13 @@ Assembly::~Assembly() {
 
 bool Assembly::hasRoom() const {
   const std::lock_guard lock(mutex_);
-  return books_.openFrames() == 0 || (books_.openFrames() < kMostFrames && bytes_ < kMostBytes);
+  const int open = books_.openFrames();
+  if (open == 0) return true;
+  if (open >= kMostFrames || bytes_ >= kMostBytes) return false;
+  if (open < kLeastFrames) return true;
+  if (bytesPerPixel_ == 0) return false;  // who knows how much comes
+  const double another = bytesPerPixel_ * pixelsOf(slots_.rbegin()->second->frame);
+  return (open + 1) * another <= double{kMostBytes};
 }
 
 void Assembly::open(const FrameView& view) {
@@ -111,7 +122,7 @@ void Assembly::place(const msg::Result& result, UnpackedTile&& unpacked, Time ar
   if (!books_.isWanted(result.frame, tile, phase)) return;
   Slot& slot = *slots_.at(result.frame);
   const int sets = slot.frame.view.shape.grid.interleave().sets();
-  bytes_ += unpacked.bytes();
+  bytes_ += unpacked.bytes(), slot.bytes += unpacked.bytes();
   slot.frame.tasks[static_cast<size_t>(tile * sets + phase)] = std::move(unpacked);
   slot.lastResult = std::max(slot.lastResult, arrived);
   books_.place(result.frame, tile, phase);
@@ -139,6 +150,7 @@ void Assembly::finishOne(std::unique_lock<std::mutex>& lock, int worker) {
   if (--finishing_ == 0) idle_.notify_all();
   if (!books_.isDone(number)) return;
   slot.finished = Clock::now();
+  bytesPerPixel_ = static_cast<double>(slot.bytes) / pixelsOf(slot.frame);
   complete_.notify_all();
 }
 

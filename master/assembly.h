@@ -57,7 +57,9 @@ struct GatheredFrame {
 class Assembly {
  public:
   static constexpr int kMostFrames = 16;
-  static constexpr size_t kMostBytes = 96 << 20;  // of results that wait
+  static constexpr int kLeastFrames = 2;  // one fills while the other is finished
+  static constexpr size_t kMostBytes =
+      96 << 20;  // of results that wait, or that open frames will bring
 
   // Called on a worker's thread for each result that was taken.
   using Answer =
@@ -96,6 +98,7 @@ class Assembly {
  private:
   struct Slot {
     GatheredFrame frame;
+    size_t bytes = 0;  // of all results that came
     Time lastResult, finished;
   };
 
@@ -116,6 +119,7 @@ class Assembly {
   std::deque<ReceivedTile> queue_;
   size_t queueLimit_ = 0;         // what the open frames may have on their way
   size_t bytes_ = 0;              // of results that wait
+  double bytesPerPixel_ = 0;      // of the last frame that was finished
   int finishing_ = 0;             // tiles
   std::optional<uint32_t> held_;  // between next and release
   bool closing_ = false;

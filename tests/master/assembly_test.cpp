@@ -17,8 +17,8 @@ using std::chrono::seconds;
 const TileGrid kGrid(100, 67, {3, 2});
 
 // What a client would send for a task: E tells frame, tile and phase.
-ReceivedTile tileFor(uint32_t frame, int tile, int phase) {
-  const TaskRect rect = kGrid.rect(tile, phase);
+ReceivedTile tileFor(uint32_t frame, int tile, int phase, const TileGrid& grid = kGrid) {
+  const TaskRect rect = grid.rect(tile, phase);
   TileResult planes;
   planes.reset(rect.width, rect.height, kDiffuseBit, 0);
   const float value = static_cast<float>(1000 * (frame + 1) + 10 * static_cast<uint32_t>(tile) +
@@ -42,8 +42,8 @@ std::vector<ReceivedTile> tilesOf(uint32_t frame) {
   return tiles;
 }
 
-FrameView viewOf(uint32_t frame) {
-  FrameView view{{}, {kGrid, kDiffuseBit, 0}, {}, 1};
+FrameView viewOf(uint32_t frame, const TileGrid& grid = kGrid) {
+  FrameView view{{}, {grid, kDiffuseBit, 0}, {}, 1};
   view.key.frame = frame;
   return view;
 }
@@ -119,13 +119,60 @@ TEST_P(AssemblyTest, FramesLeaveWholeAndInOrderHoweverTheirTilesArrive) {
   EXPECT_EQ(malformed, 0);
 }
 
-TEST_P(AssemblyTest, OpensNoMoreFramesThanItHasRoomFor) {
-  for (uint32_t i = 0; i < Assembly::kMostFrames; ++i) {
-    ASSERT_TRUE(assembly.hasRoom());
-    assembly.open(viewOf(i));
+class Room {
+ public:
+  explicit Room(const TileGrid& grid) : grid_(grid) {}
+
+  int fill() {
+    int opened = 0;
+    for (; assembly_.hasRoom(); ++opened) assembly_.open(viewOf(next_++, grid_));
+    return opened;
   }
+  // Frame 0 comes whole. Gives back the bytes of its results.
+  size_t finishFirst() {
+    size_t bytes = 0;
+    for (int tile = 0; tile < grid_.tiles(); ++tile)
+      for (int phase = 0; phase < grid_.interleave().sets(); ++phase) {
+        const TaskRect rect = grid_.rect(tile, phase);
+        if (rect.count() == 0) continue;
+        ReceivedTile received = tileFor(0, tile, phase, grid_);
+        bytes +=
+            TileDecoder()
+                .unpack(Bytes(received.result.encoded), {rect.width, rect.height, kDiffuseBit, 0})
+                .bytes();
+        EXPECT_TRUE(assembly_.take(received));
+      }
+    const auto first = assembly_.next(Clock::now() + seconds(60));
+    EXPECT_TRUE(first);
+    assembly_.release(*first);
+    return bytes;
+  }
+
+ private:
+  const TileGrid grid_;
+  uint32_t next_ = 0;
+  Assembly assembly_{2, [](ReceivedTile&&, const auto&) {}, [](int, const auto&, int) {}};
+};
+
+TEST(AssemblyRoom, TwoFramesMayBeOpenBeforeItIsKnownWhatOneBrings) {
+  Room room(kGrid);
+  EXPECT_EQ(room.fill(), Assembly::kLeastFrames);
+  room.finishFirst();
+  EXPECT_EQ(room.fill(), Assembly::kMostFrames - 1);
+}
+
+TEST(AssemblyRoom, OpenFramesTogetherBringNoMoreThanMayWait) {
+  Room room(TileGrid(4000, 3000, {1, 1}));
+  room.fill();
+  const auto fit = static_cast<int>(Assembly::kMostBytes / room.finishFirst());
+  ASSERT_LT(fit, Assembly::kMostFrames);
+  EXPECT_EQ(room.fill(), fit - 1) << "one is open still";
+}
+
+TEST_P(AssemblyTest, WhatIsSupersededLeavesRoom) {
+  for (uint32_t i = 0; i < Assembly::kLeastFrames; ++i) assembly.open(viewOf(i));
   EXPECT_FALSE(assembly.hasRoom());
-  assembly.supersede(3);
+  assembly.supersede(1);
   EXPECT_TRUE(assembly.hasRoom());
 }
 
