@@ -7,9 +7,9 @@
 namespace ninefold {
 namespace {
 
-// Frames whose light sets are kept: the one that is being finished, the next, and one that
-// stragglers may still be of.
-constexpr size_t kFramesKept = 3;
+// Frames whose light sets are kept: at rest a client's sets are of one frame after another, some of
+// whose tasks its threads are still at, and one that stragglers may be of.
+constexpr size_t kFramesKept = 4;
 
 bool differInViewOnly(Settings a, const Settings& b) {
   a.camera = b.camera;

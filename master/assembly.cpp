@@ -14,6 +14,11 @@ constexpr size_t kCopies = 2;  // of a task: the first and one for a straggler
 int tileOf(const msg::Result& result) { return static_cast<int>(result.tile); }
 int phaseOf(const msg::Result& result) { return static_cast<int>(result.phase); }
 
+// Do pixels of both have the same planes?
+bool isLike(const FrameShape& a, const std::optional<FrameShape>& b) {
+  return b && a.layerMask == b->layerMask && a.extraMask == b->extraMask;
+}
+
 double pixelsOf(const GatheredFrame& frame) {
   const TileGrid& grid = frame.view.shape.grid;
   return static_cast<double>(grid.width()) * grid.height();
@@ -41,8 +46,9 @@ bool Assembly::hasRoom() const {
   if (open == 0) return true;
   if (open >= kMostFrames || bytes_ >= kMostBytes) return false;
   if (open < kLeastFrames) return true;
-  if (bytesPerPixel_ == 0) return false;  // who knows how much comes
-  const double another = bytesPerPixel_ * pixelsOf(slots_.rbegin()->second->frame);
+  const GatheredFrame& newest = slots_.rbegin()->second->frame;
+  if (!isLike(newest.view.shape, measured_)) return false;  // who knows how much comes
+  const double another = bytesPerPixel_ * pixelsOf(newest);
   return (open + 1) * another <= double{kMostBytes};
 }
 
@@ -150,6 +156,7 @@ void Assembly::finishOne(std::unique_lock<std::mutex>& lock, int worker) {
   if (--finishing_ == 0) idle_.notify_all();
   if (!books_.isDone(number)) return;
   slot.finished = Clock::now();
+  measured_ = slot.frame.view.shape;
   bytesPerPixel_ = static_cast<double>(slot.bytes) / pixelsOf(slot.frame);
   complete_.notify_all();
 }

@@ -58,8 +58,9 @@ class Assembly {
  public:
   static constexpr int kMostFrames = 16;
   static constexpr int kLeastFrames = 2;  // one fills while the other is finished
-  static constexpr size_t kMostBytes =
-      96 << 20;  // of results that wait, or that open frames will bring
+  // Of results that wait. No further frame is opened if all that are open would bring more, were they like
+  // the one that was finished last; kLeastFrames always.
+  static constexpr size_t kMostBytes = 96 << 20;
 
   // Called on a worker's thread for each result that was taken.
   using Answer =
@@ -117,11 +118,12 @@ class Assembly {
   AssemblyBooks books_;
   std::map<uint32_t, std::unique_ptr<Slot>> slots_;
   std::deque<ReceivedTile> queue_;
-  size_t queueLimit_ = 0;         // what the open frames may have on their way
-  size_t bytes_ = 0;              // of results that wait
-  double bytesPerPixel_ = 0;      // of the last frame that was finished
-  int finishing_ = 0;             // tiles
-  std::optional<uint32_t> held_;  // between next and release
+  size_t queueLimit_ = 0;               // what the open frames may have on their way
+  size_t bytes_ = 0;                    // of results that wait
+  std::optional<FrameShape> measured_;  // of the last frame that was finished
+  double bytesPerPixel_ = 0;            // of its results
+  int finishing_ = 0;                   // tiles
+  std::optional<uint32_t> held_;        // between next and release
   bool closing_ = false;
   Busy busy_;
 

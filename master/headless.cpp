@@ -140,6 +140,7 @@ void HeadlessRun::gatherFrames() {
       picture_.frameDone();
       record_.frameDone(*frame, processCpuTime());
       assembly_.release(*frame);
+      cluster_.wake();  // there may be room for another
     }
   }
   enough_ = true;

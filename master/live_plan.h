@@ -5,8 +5,9 @@
 //            for ever or as many as a still is to have
 //   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
 //            at motion_quality's step, with the random bits of the first frame, so that nothing
-//            flickers; at most kInMotion of them are open. An edited scene is announced as moving,
-//            and once more when it rests: sample streams are frozen in between (gi/transport.h)
+//            flickers, through the middle of each pixel, caustics from lights alone; at most kInMotion
+//            of them are open. An edited scene is announced as moving, and once more when it rests:
+//            sample streams are frozen in between (gi/transport.h)
 //
 // The newest state wins: what changed while a frame was rendered is in the next one, and changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in

@@ -9,7 +9,7 @@ namespace ninefold {
 namespace {
 
 constexpr std::array kLadder{Quality{0, 0}, Quality{1, 0}, Quality{2, 0}, Quality{3, 0},
-                             Quality{4, 0}, Quality{5, 0}, Quality{5, 1}, Quality{6, 1},
+                             Quality{4, 0}, Quality{5, 0}, Quality{6, 0}, Quality{6, 1},
                              Quality{7, 1}, Quality{7, 2}, Quality{8, 2}, Quality{9, 2}};
 constexpr double kLearn = 0.4;   // weight of the latest frame
 constexpr double kMargin = 0.8;  // a better step must be predicted to need no more of the target

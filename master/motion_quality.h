@@ -9,8 +9,8 @@
 //                   not save, because roulette has left them out already (gi/vpl_roulette.h)
 //
 // The time of a full frame is learned from every frame that is timed. When a gesture begins, the
-// first entry of the ladder that is predicted to keep the target is taken: size falls to 3/8 before
-// the light is thinned, which saves least. The light then stays, so that nothing flickers, until the
+// first entry of the ladder that is predicted to keep the target is taken: size falls to 5/16 before
+// the light is thinned, which saves little. The light then stays, so that nothing flickers, until the
 // gesture ends; size may still follow the clock: down at once when a frame is late, or long as
 // they are in the mean; up when three frames in a row say so.
 //
@@ -36,13 +36,13 @@ class MotionQuality {
   static constexpr std::array kSizes{1.0,   0.75,   0.625, 0.5,    0.4375,
                                      0.375, 0.3125, 0.25,  0.1875, 0.125};
   static constexpr std::array kLights{1.0, 0.5, 0.25};
-  static constexpr double kSetShare = 0.1, kEyeShare = 0.6;
+  static constexpr double kSetShare = 0.1, kEyeShare = 0.7;
 
   explicit MotionQuality(Duration target) : target_(target) {}
 
   void begin();  // of a gesture
   Quality current() const { return current_; }
-  // A frame was done in this quality; those at rest count too.
+  // A frame that somebody waited for was done in this quality; the first at rest counts, too.
   void took(Quality quality, Duration time);
 
   Duration target() const { return target_; }

@@ -1,7 +1,6 @@
 #include "master/scheduler.h"
 
 #include <algorithm>
-#include <functional>
 
 #include "common/base/error.h"
 
@@ -11,7 +10,7 @@ namespace {
 constexpr size_t kRememberedFrames = 64;  // closed ones, to tell duplicate from stale
 constexpr Duration kShortestEstimate = milliseconds(5);  // below that it is jitter, not lateness
 constexpr int kLateFactor = 2;                           // late: took this many times the estimate
-constexpr int kAhead = 2;  // frames open beyond those in which each client has a set of its own
+constexpr int kAhead = 3;  // frames beyond those in which each client has a set of its own
 
 }  // namespace
 
@@ -73,20 +72,25 @@ int Scheduler::waiting() const {
 
 bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit() || wouldShare(); }
 
+// Frames leave in their order: those that are complete behind one that is not are ahead, too.
+bool Scheduler::runsAhead() const {
+  const int sets = frames_.rbegin()->second.sets();
+  const int needed = (clients() + sets - 1) / sets;
+  return static_cast<int>(nextFrame_ - frames_.begin()->first) >= needed + kAhead;
+}
+
 // More clients with credit have no set to go on with than there are sets that nobody is at work on.
 bool Scheduler::wouldShare() const {
-  if (frames_.empty() || frames_.rbegin()->second.isUrgent()) return false;
-  const int needed =
-      (clients() + frames_.rbegin()->second.sets() - 1) / frames_.rbegin()->second.sets();
-  if (openFrames() >= needed + kAhead) return false;
+  if (frames_.empty() || frames_.rbegin()->second.isUrgent() || runsAhead()) return false;
   int untouched = 0;
   for (const auto& [number, frame] : frames_) untouched += frame.untouchedSets();
-  const auto goesOn = [this](const auto& ready) {
-    return std::ranges::any_of(frames_, [&](const auto& frame) {
-      return frame.second.setToGoOnWith(ready.second).has_value();
+  for (const auto& [time, client] : pool_.ready()) {
+    const bool goesOn = std::ranges::any_of(frames_, [client](const auto& frame) {
+      return frame.second.setToGoOnWith(client).has_value();
     });
-  };
-  return std::ranges::count_if(pool_.ready(), std::not_fn(goesOn)) > untouched;
+    if (!goesOn && --untouched < 0) return true;
+  }
+  return false;
 }
 
 void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind) {
@@ -179,6 +183,7 @@ void Scheduler::suspectSilentClients(Time now) {
     for (const TaskId& task : client.held())
       if (SchedulerFrame* frame = findFrame(task.frame))
         counts_.reissued += frame->setHolderActive(frame->indexOf(task), *id, false);
+    for (auto& [number, frame] : frames_) frame.forgetClient(*id);
     pool_.update(client);
   }
 }
@@ -199,8 +204,9 @@ Scheduler::Place Scheduler::placeFor(const SchedulerClient& client) {
     if (oldest == nullptr && frame.waiting() > 0) oldest = &frame;
     if (oldest == &frame && frame.isUrgent()) return {&frame, frame.setToShare(client)};
   }
-  for (auto& [number, frame] : frames_)
-    if (const auto set = frame.untouchedSet()) return {&frame, *set};
+  if (!runsAhead())
+    for (auto& [number, frame] : frames_)
+      if (const auto set = frame.untouchedSet()) return {&frame, *set};
   return {oldest, oldest->setToShare(client)};
 }
 

@@ -3,13 +3,13 @@
 // simulated cluster of a thousand clients all run the same code.
 //
 // Policies, each in one small function:
-//   order       oldest open frame first; the next frame's tasks go out before this one's last are
-//               back
-//   light sets  a client goes on with light sets that it has. At rest the next one is of the oldest
-//               frame that has one which nobody is at work on, and frames are opened so that there is
-//               one, up to kAhead more than it takes to give each client a set of its own. Else, and in
-//               urgent frames at once, clients share: the set with most tasks left per client at work
-//               on it (paper: about two sets for each client and frame)
+//   order       in urgent frames oldest first; the next frame's tasks go out before this one's last
+//               are back
+//   light sets  a client goes on with light sets that it has. In a frame that is not urgent the next one
+//               is of the oldest frame that has one which nobody is at work on, and frames are opened so
+//               that there is one. Else, in urgent frames, and when the newest frame is kAhead further
+//               ahead than it takes to give each client a set of its own, clients share: the set with
+//               most tasks left per client at work on it, of the oldest frame
 //   credit      a client that holds less than `low` tasks is refilled up to `high`; both cover its
 //               round trip at its learned speed (scheduler_client.h). No queue ever grows.
 //   stragglers  nothing left to hand out: a client with credit gets a copy of a task that is late
@@ -25,8 +25,9 @@
 // A result is reported after its tile was decoded; a tile that cannot be decoded ends the
 // connection (clientLost), so its task is done again.
 //
-// Cost: O(log clients + log tasks) an event; O(K) when a client changes its light set; O(clients +
-// tasks) when a frame opens or a view changes. Deterministic: equal events give equal actions.
+// Cost: an event O(log clients + log tasks), and for each task handed out O(frames log clients), or
+// O(frames K) when a client changes its light set; O(clients frames + tasks) when a frame opens or a view
+// changes. Deterministic: equal events give equal actions.
 // Threads: none; one owner calls everything.
 // Errors: only broken assumptions of the caller (CHECK); whatever a peer sends is a Verdict.
 #pragma once
@@ -90,7 +91,8 @@ class Scheduler {
   SchedulerFrame* findFrame(uint32_t frame);
   const SchedulerFrame* findFrame(uint32_t frame) const;
   Verdict verdictOnClosed(uint32_t frame) const;
-  int waiting() const;  // tasks to hand out, over all open frames
+  int waiting() const;     // tasks to hand out, over all open frames
+  bool runsAhead() const;  // needs an open frame
   bool wouldShare() const;
   struct Place {
     SchedulerFrame* frame;

@@ -21,8 +21,10 @@ struct TaskId {
 
 // How a frame is to be rendered.
 struct FrameKind {
-  bool wholeTiles = false;  // of each tile there is phase 0 alone, which stands for all
-  bool urgent = false;      // soon, whatever that costs in light sets
+  // Of each tile there is phase 0 alone, which stands for all: whoever works on the frame makes all light
+  // sets, so that the frame counts as one set.
+  bool wholeTiles = false;
+  bool urgent = false;  // soon, whatever that costs in light sets
 };
 
 // Send this task to this client.

@@ -9,7 +9,8 @@
 namespace ninefold {
 namespace {
 
-// Frames that may be open at once: 144 clients have a light set of their own at rest.
+// Frames that may be open at once: 144 clients have a light set of their own at rest, if memory is
+// enough for all of them (Assembly::hasRoom).
 constexpr int kMaxOpenFrames = 16;
 
 TaskId taskOf(const msg::Result& result) {
@@ -199,7 +200,9 @@ void Server::openFrames(Time) {
     if (!order) return;
     if (order->job != offer_.job()) announce(*order);
     open_[order->key.frame] = *order;
-    scheduler_.openFrame(order->key, order->grid(), {order->delivery.wholeTiles(), order->urgent});
+    const bool isTraced = order->settings.method == Method::pathTrace;  // sets cost nothing
+    scheduler_.openFrame(order->key, order->grid(),
+                         {order->delivery.wholeTiles(), order->urgent || isTraced});
   }
 }
 

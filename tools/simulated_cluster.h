@@ -158,13 +158,17 @@ class SimulatedCluster {
   void changeView() {
     schedule(now_ + job_.viewChangeEvery, [this] {
       scheduler_.viewChanged(nextFrame_);
-      placed_.clear();
+      placed_.clear(), opened_.clear();
       changeView();
     });
   }
 
   void carryOut() {
-    while (scheduler_.openFrames() < job_.framesInFlight && scheduler_.wantsFrame()) {
+    // Frames leave in their order: those behind one that is not complete take room, too.
+    const auto inFlight = [this] {
+      return opened_.empty() ? 0 : static_cast<int>(nextFrame_ - opened_.begin()->first);
+    };
+    while (inFlight() < job_.framesInFlight && scheduler_.wantsFrame()) {
       const uint32_t frame = nextFrame_++;
       opened_[frame] = now_;
       scheduler_.openFrame({.frame = frame, .randomization = job_.moving ? 0 : frame}, job_.grid,

@@ -186,13 +186,26 @@ TEST_F(LivePlanTest, LatencyCountsFromTheFirstChangeThatAFrameShows) {
 
 // Frames overlap. Each of these keeps the cluster busy for 70 ms, but the second is waited for for 140.
 TEST_F(LivePlanTest, TheWaitForTheFrameBeforeCountsAgainstTheTarget) {
-  const LiveFrame first = opened(), second = opened();
+  moveTo(1);
+  const LiveFrame first = opened();
+  moveTo(2);
+  const LiveFrame second = opened();
   pass(milliseconds(70));
   finish(first);
+  EXPECT_EQ(plan.quality().current().size, 0);
   pass(milliseconds(70));
   finish(second);
-  moveTo(1);
   EXPECT_GT(plan.quality().current().size, 0);
+}
+
+TEST_F(LivePlanTest, FramesAtRestThatShareTheClusterSayNothingAboutTheTimeOfOne) {
+  done();
+  std::vector<LiveFrame> frames;
+  for (int i = 0; i < 7; ++i) frames.push_back(opened());
+  pass(milliseconds(400));
+  for (const LiveFrame& frame : frames) finish(frame);
+  moveTo(1);
+  EXPECT_EQ(plan.quality().current(), Quality{});
 }
 
 TEST_F(LivePlanTest, WithoutMotionEveryStateIsAStillOfItsOwn) {

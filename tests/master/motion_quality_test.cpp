@@ -36,13 +36,13 @@ TEST(MotionQuality, AFastClusterLosesNothing) {
   EXPECT_EQ(MotionQuality::describe(quality.current()), "");
 }
 
-TEST(MotionQuality, SizeFallsToThreeEighthsBeforeTheLightIsThinned) {
+TEST(MotionQuality, SizeFallsToFiveSixteenthsBeforeTheLightIsThinned) {
   for (double full = 0.05; full < 20; full *= 1.1) {
     MotionQuality quality(kTarget);
     quality.took({}, fromSeconds(full));
     quality.begin();
     if (quality.current().light > 0) {
-      EXPECT_LE(MotionQuality::kSizes.at(static_cast<size_t>(quality.current().size)), 0.375);
+      EXPECT_LE(MotionQuality::kSizes.at(static_cast<size_t>(quality.current().size)), 0.3125);
     }
   }
 }

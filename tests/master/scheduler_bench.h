@@ -27,8 +27,8 @@ class SchedulerBench {
     scheduler.clientJoined(client, threads, now), act();
   }
   void lose(ClientId client) { scheduler.clientLost(client, now), sent.erase(client), act(); }
-  void open(uint32_t frame, const TileGrid& grid, uint32_t randomization = 0) {
-    scheduler.openFrame({.frame = frame, .randomization = randomization}, grid), act();
+  void open(uint32_t frame, const TileGrid& grid, uint32_t randomization = 0, FrameKind kind = {}) {
+    scheduler.openFrame({.frame = frame, .randomization = randomization}, grid, kind), act();
   }
   void viewChanged(uint32_t firstWanted) { scheduler.viewChanged(firstWanted), act(); }
   void pass(Duration time) { now += time, act(); }

@@ -64,7 +64,7 @@ class RandomLife {
   void open() {
     if (bench_.scheduler.openFrames() >= 4) return;
     const TileGrid grid(1 + below(400), 1 + below(200), {1 + below(3), 1 + below(3)});
-    bench_.open(nextFrame_, grid, static_cast<uint32_t>(below(2)));
+    bench_.open(nextFrame_, grid, static_cast<uint32_t>(below(2)), {below(2) == 0, below(2) == 0});
     tasks_ += static_cast<uint64_t>(bench_.scheduler.tasksLeft(nextFrame_++));
   }
   void answerOne(ClientId c) {

@@ -59,7 +59,7 @@ TEST(Scheduler, InMotionAClientKeepsItsSetsFromFrameToFrame) {
   for (ClientId c = 1; c <= 9; ++c) b.join(c);
   std::map<ClientId, std::set<int>> first, second;
   const auto play = [&](uint32_t frame, auto& sets) {
-    b.open(frame, Bench::grid(2), 7);
+    b.open(frame, Bench::grid(2), 7, {.urgent = true});
     for (ClientId c = 1; c <= 9; ++c)
       for (const TaskId& t : b.sent[c]) sets[c].insert(t.phase);
     b.drain();
@@ -67,6 +67,54 @@ TEST(Scheduler, InMotionAClientKeepsItsSetsFromFrameToFrame) {
   play(0, first);
   play(1, second);
   EXPECT_EQ(first, second);
+}
+
+// Frame 0 has one light set, client 1 is at it, client 2 has time.
+void secondComes(Bench& b, FrameKind kind) {
+  b.join(1);
+  b.open(0, Bench::grid(20, {1, 1}), 0, kind);
+  b.scheduler.openFrame({.frame = 1, .randomization = 1}, Bench::grid(20, {1, 1}), kind);
+  b.join(2);
+}
+
+TEST(Scheduler, AtRestWhoHasTimeTakesALightSetOfItsOwnInTheNextFrame) {
+  Bench b;
+  secondComes(b, {});
+  ASSERT_FALSE(b.sent[2].empty());
+  for (const TaskId& task : b.sent[1]) EXPECT_EQ(task.frame, 0u);
+  for (const TaskId& task : b.sent[2]) EXPECT_EQ(task.frame, 1u);
+}
+
+TEST(Scheduler, AnUrgentFrameIsSharedByAll) {
+  Bench b;
+  secondComes(b, {.urgent = true});
+  ASSERT_FALSE(b.sent[2].empty());
+  for (const TaskId& task : b.sent[2]) EXPECT_EQ(task.frame, 0u);
+}
+
+TEST(Scheduler, WantsANextFrameRatherThanThatALightSetIsShared) {
+  for (const bool urgent : {false, true}) {
+    Bench b;
+    b.join(1);
+    b.open(0, Bench::grid(20, {1, 1}), 0, {.urgent = urgent});
+    b.scheduler.clientJoined(2, 1, b.now);
+    EXPECT_EQ(b.scheduler.wantsFrame(), !urgent);
+  }
+}
+
+// Client 1 sits on its light set of frame 1 while the others do frame after frame: they help before they
+// are far ahead.
+TEST(Scheduler, TheSlowestIsHelpedBeforeOthersAreFarAhead) {
+  Bench b;
+  for (ClientId c = 1; c <= 3; ++c) b.join(c);
+  uint32_t frame = 0;
+  const auto isHelped = [&] { return b.scheduler.tasksLeft(0) == int(b.sent[1].size()); };
+  for (; frame < 30 && !isHelped(); ++frame) {
+    b.open(frame, Bench::grid(20, {3, 1}), frame);
+    b.drain({1});
+  }
+  EXPECT_TRUE(isHelped());
+  EXPECT_LE(frame, 5u);
 }
 
 TEST(Scheduler, RotationTurnsPhasesIntoSets) {

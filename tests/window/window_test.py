@@ -232,7 +232,7 @@ class WindowTest(unittest.TestCase):
         program.reader.join()
         self.assertEqual(program.process.returncode, 0, program.text)
         self.assertEqual(len([line for line in program.lines if "going on without a window" in line]), 1, program.text)
-        subprocess.run([*job, folder / "headless.png"], check=True, capture_output=True)
+        subprocess.run([*job, folder / "headless.png"], check=True, capture_output=True, timeout=120)
         self.assertEqual((folder / "fallback.png").read_bytes(), (folder / "headless.png").read_bytes())
 
 
