@@ -4,12 +4,12 @@
 // light set, frames have light of their own, and
 //
 //     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 1/2       photon radius [m]
-//     w(i) = min(1, (K/i)^2)                                             weight of neighbours
+//     w(i) = min(1, K / i)                                               weight of neighbours
 //
 // so that the bias of both falls faster than the noise, and the film's mean tends to the true
-// picture. The first K frames filter fully: until then a pixel has not met all K sets by itself. The
-// square, because the sum of w is finite then: what the filter has blurred goes with 1/N; with K/i
-// it goes with log(N)/N and outlasts the noise at the edge of a caustic (docs/performance.md).
+// picture. The first K frames filter fully: until then a pixel has not met all K sets by itself. What
+// falls faster is nearer to the truth at the edges of caustics, but shows the pattern of the sets' noise
+// for some hundred frames (docs/performance.md).
 // The paper's own pipeline keeps r and w = 1 fixed.
 //
 // Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011 (r).
@@ -33,8 +33,7 @@ class FramePlan {
 
   // w of a frame, by its index from 0.
   float neighbourWeight(uint32_t frame) const {
-    const float share = std::min(1.0f, sets_ / static_cast<float>(frame + 1));
-    return converging_ ? share * share : 1.0f;
+    return converging_ ? std::min(1.0f, sets_ / static_cast<float>(frame + 1)) : 1.0f;
   }
 
  private:

@@ -38,8 +38,8 @@ TEST(FramePlan, NeighboursFadeOnceEveryPixelHasMetAllSets) {
   const FramePlan plan(0.1f, 9, true);
   EXPECT_EQ(plan.neighbourWeight(0), 1.0f);
   EXPECT_EQ(plan.neighbourWeight(8), 1.0f);
-  EXPECT_EQ(plan.neighbourWeight(17), 0.25f);
-  EXPECT_EQ(plan.neighbourWeight(899), 0.0001f);
+  EXPECT_EQ(plan.neighbourWeight(17), 0.5f);
+  EXPECT_EQ(plan.neighbourWeight(899), 0.01f);
 }
 
 TEST(FramePlan, ThePapersPipelineKeepsBoth) {
