@@ -158,38 +158,39 @@ void Program::startEarly() {
 }
 
 void Program::start(const act::StartTasks& action, const std::shared_ptr<RenderJob>& job) {
-  for (const msg::TaskItem& item : action.tasks.items) {
-    const auto work = [this, job, line = action.line, frame = action.tasks.frame,
-                       weight = action.tasks.neighbourWeight,
-                       item](int thread) { runTask(*job, line, frame, weight, item, thread); };
-    if (!workers_.start(action.tasks.frame.frame, work)) return session_.tasksRefused(now());
+  const msg::Tasks& tasks = action.tasks;
+  const Order order{action.line, tasks.frame, tasks.neighbourWeight, tasks.urgent};
+  for (const msg::TaskItem& item : tasks.items) {
+    const auto work = [this, job, order, item](int thread) { runTask(*job, order, item, thread); };
+    if (!workers_.start(order.frame.frame, work)) return session_.tasksRefused(now());
   }
 }
 
 // On a worker's thread.
-void Program::runTask(RenderJob& job, uint32_t line, const FrameKey& frame, float neighbourWeight,
-                      const msg::TaskItem& item, int thread) {
+void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread) {
   try {
-    RenderJob::Done done = job.run(frame, item, neighbourWeight, level_, thread, now);
+    RenderJob::Done done = job.run(order.frame, item, order.neighbourWeight, level_, thread, now);
     if (recorder_) recorder_->add(done.result);
-    later([this, line, done = std::move(done)]() mutable {
-      adaptLevel(done);
-      session_.taskFinished(line, std::move(done.result), now());
-    });
+    const auto next = order.urgent ? std::nullopt : workers_.next();
+    if (results_.add({order.line, std::move(done)}, next, now())) later([this] { handOver(); });
   } catch (const std::exception& error) {  // no memory, most likely
-    later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", frame.frame, item.tile,
+    later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", order.frame.frame, item.tile,
                                     item.phase, error.what())] { session_.taskFailed(line); });
   }
 }
 
-void Program::adaptLevel(const RenderJob::Done& done) {
-  wireLevel_.finished(done.rawBytes, std::chrono::nanoseconds(done.result.busyNs));
+void Program::handOver() {
+  for (auto& [line, done] : results_.take(now())) {
+    wireLevel_.finished(done.rawBytes, std::chrono::nanoseconds(done.result.busyNs));
+    session_.taskFinished(line, std::move(done.result), now());
+  }
   if (connection_) level_ = wireLevel_.choose(connection_->lineRate(), threads_);
 }
 
 void Program::on(act::CancelTasks&& action) {
   const auto isVoid = [&](uint32_t frame) { return action.everything || frame < action.frame; };
   workers_.cancel(isVoid);
+  handOver();  // no task may be left whose end would do it
   std::erase_if(early_, [&](const auto& tasks) { return isVoid(tasks.tasks.frame.frame); });
   if (action.everything) jobs_.clear();  // another connection counts anew
 }

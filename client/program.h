@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "client/options.h"
+#include "client/result_group.h"
 #include "client/scene_builder.h"
 #include "client/session.h"
 #include "client/workers.h"
@@ -48,9 +49,15 @@ class Program {
   void start(const act::StartTasks& tasks, const std::shared_ptr<RenderJob>& job);
   void startEarly();
   void startConnection(std::shared_ptr<Connection> connection);
-  void runTask(RenderJob& job, uint32_t line, const FrameKey& frame, float neighbourWeight,
-               const msg::TaskItem& item, int thread);
-  void adaptLevel(const RenderJob::Done& done);
+  // What all tasks of a message have in common.
+  struct Order {
+    uint32_t line;
+    FrameKey frame;
+    float neighbourWeight;
+    bool urgent;
+  };
+  void runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread);
+  void handOver();
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.
   template <typename Event>
@@ -68,6 +75,7 @@ class Program {
   std::deque<act::StartTasks> early_;                    // tasks whose job is being prepared
   std::unique_ptr<EventLoop::Timer> timer_;
   const int threads_;
+  ResultGroup results_;
   WireLevel wireLevel_;
   std::atomic<int> level_ = WireLevel::kLight;  // of the next results
   int status_ = 0;

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -27,6 +28,10 @@ class Workers {
 
   // False when `capacity` tasks wait already.
   bool start(uint32_t frame, Job job);
+  // Frame of the task that is next, if one waits. From any thread.
+  std::optional<uint32_t> next() const {
+    return queue_.front([](const Entry& entry) { return entry.frame; });
+  }
   // Drops the waiting tasks of frames for which `drop` is true; how many those were.
   size_t cancel(const std::function<bool(uint32_t frame)>& drop);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "proto/messages.h"
 
 namespace ninefold {
 namespace {
@@ -79,16 +80,16 @@ bool Scheduler::runsAhead() const {
   return static_cast<int>(nextFrame_ - frames_.begin()->first) >= needed + kAhead;
 }
 
-// More clients with credit have no set to go on with than there are sets that nobody is at work on.
+// More clients have credit beyond the sets that they go on with than there are sets that nobody is at work on.
 bool Scheduler::wouldShare() const {
-  if (frames_.empty() || frames_.rbegin()->second.isUrgent() || runsAhead()) return false;
+  if (frames_.empty() || frames_.rbegin()->second.sharesSets() || runsAhead()) return false;
   int untouched = 0;
   for (const auto& [number, frame] : frames_) untouched += frame.untouchedSets();
   for (const auto& [time, client] : pool_.ready()) {
-    const bool goesOn = std::ranges::any_of(frames_, [client](const auto& frame) {
-      return frame.second.setToGoOnWith(client).has_value();
-    });
-    if (!goesOn && --untouched < 0) return true;
+    int credit = pool_.find(client)->credit();
+    for (const auto& [number, frame] : frames_)
+      if (const auto set = frame.setToGoOnWith(client)) credit -= frame.waitingOf(*set);
+    if (credit > 0 && --untouched < 0) return true;
   }
   return false;
 }
@@ -96,6 +97,7 @@ bool Scheduler::wouldShare() const {
 void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind) {
   NINEFOLD_CHECK(key.frame >= nextFrame_);
   frames_.emplace(key.frame, SchedulerFrame(key, grid, kind));
+  pool_.setTogether(kind.urgent ? Duration(0) : kResultsTogether);
   nextFrame_ = key.frame + 1;
 }
 
@@ -202,7 +204,7 @@ Scheduler::Place Scheduler::placeFor(const SchedulerClient& client) {
   for (auto& [number, frame] : frames_) {
     if (const auto set = frame.setToGoOnWith(client.id())) return {&frame, *set};
     if (oldest == nullptr && frame.waiting() > 0) oldest = &frame;
-    if (oldest == &frame && frame.isUrgent()) return {&frame, frame.setToShare(client)};
+    if (oldest == &frame && frame.sharesSets()) return {&frame, frame.setToShare(client)};
   }
   if (!runsAhead())
     for (auto& [number, frame] : frames_)

@@ -25,14 +25,17 @@ SchedulerClient::SchedulerClient(ClientId id, int threads, Time now)
 
 int SchedulerClient::low() const {
   if (trust_ != Trust::trusted) return trust_ == Trust::trial ? 1 : 0;
-  const auto onTheWay = (threads() * roundTrip_ + taskTime() - Duration(1)) / taskTime();
-  const int64_t bound = int64_t{kMaxPerThread - 1} * threads();
-  return static_cast<int>(std::min(threads() + onTheWay, bound));
+  return threads() + tasksIn(roundTrip_ + together_, kMaxPerThread - kMaxGroup - 1);
 }
 
 int SchedulerClient::high() const {
   if (trust_ != Trust::trusted) return low();
-  return low() + (threads() + kGroup - 1) / kGroup;
+  return low() + std::max((threads() + 1) / 2, tasksIn(together_, kMaxGroup));
+}
+
+int SchedulerClient::tasksIn(Duration time, int mostPerThread) const {
+  const auto tasks = (threads() * time + taskTime() - Duration(1)) / taskTime();
+  return static_cast<int>(std::min(tasks, int64_t{mostPerThread} * threads()));
 }
 
 Duration SchedulerClient::silenceLimit() const {
@@ -78,6 +81,11 @@ void SchedulerClient::gaveResult(Duration cost, bool accepted, Time now) {
 void SchedulerClient::measureRoundTrip(Duration roundTrip) {
   roundTrip = std::clamp(roundTrip, Duration(0), kLongestRoundTrip);
   roundTrip_ = roundTrip_ == Duration(0) ? roundTrip : average(roundTrip_, roundTrip);
+  updateRefilling();
+}
+
+void SchedulerClient::setTogether(Duration time) {
+  together_ = time;
   updateRefilling();
 }
 

@@ -1,11 +1,13 @@
 // scheduler_client.h: what the scheduler knows of one client: the tasks that it holds, its learned
 // speed and its credit.
 //
-// Credit. With T threads, task time t (moving average of what it reports) and round trip r, a
-// client works without a pause if it holds T tasks to work on and T r/t more that are on their way:
-//     low = T + ceil(T r/t)      high = low + ceil(T/kGroup)      both at most kMaxPerThread T
-// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in small
-// groups. Not more, as a frame waits for all that its slowest client holds.
+// Credit. With T threads, task time t (moving average of what it reports), round trip r, and w that a
+// result may wait for others (kResultsTogether; 0 in a hurry), a client works without a pause if it holds T tasks to
+// work on and T (r+w)/t more that are on their way:
+//     low = T + ceil(T (r+w)/t)      high = low + max(ceil(T/2), ceil(T w/t))
+// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in groups as
+// results do. At most kMaxPerThread T, kMaxGroup T of them in a group, as a frame waits for all that its
+// slowest client holds.
 //
 // Trust. trusted --no result for silenceLimit()--> suspect --any result--> trusted;
 //        suspect --heard of, and holds nothing--> trial (one task) --result--> trusted,
@@ -25,9 +27,9 @@ enum class Trust : uint8_t { trusted, trial, suspect };
 
 class SchedulerClient {
  public:
-  static constexpr int kGroup = 2;          // threads for each task that travels in a group
-  static constexpr int kMaxPerThread = 64;  // bounds what a slow line can ask for
-  static constexpr Duration kFirstGuess = milliseconds(100);       // task time before any result
+  static constexpr int kMaxPerThread = 64;                    // bounds what a slow line can ask for
+  static constexpr int kMaxGroup = 8;                         // a thread
+  static constexpr Duration kFirstGuess = milliseconds(100);  // task time before any result
   static constexpr Duration kSilenceAtLeast = milliseconds(1000);  // see silenceLimit()
   static constexpr Duration kSilenceBeforeFirst = milliseconds(5000);
   static constexpr int kSilenceFactor = 4;  // times the expected time for all that it holds
@@ -61,6 +63,7 @@ class SchedulerClient {
   // Learns its speed; trusts it from now on.
   void gaveResult(Duration cost, bool accepted, Time now);
   void measureRoundTrip(Duration roundTrip);
+  void setTogether(Duration time);
   void setTrust(Trust trust, Time now);
 
   // Light sets that it made of late, for frames that share a randomization (while the picture
@@ -73,6 +76,8 @@ class SchedulerClient {
 
  private:
   static constexpr size_t kRemembered = 4;
+  // How many tasks it does in a time, rounded up; at most mostPerThread a thread.
+  int tasksIn(Duration time, int mostPerThread) const;
   Duration workTime(int tasks) const { return taskTime() * ((tasks + threads() - 1) / threads()); }
   void updateRefilling();
 
@@ -82,7 +87,7 @@ class SchedulerClient {
   bool refilling_ = true;
   Trust trust_ = Trust::trusted;
   std::optional<Duration> taskTime_;
-  Duration roundTrip_{0};
+  Duration roundTrip_{0}, together_{0};
   Time silentSince_, lastHeard_;
   bool owesAnswer_ = false;  // tasks were withdrawn from it since its last result
   uint32_t randomization_ = 0;

@@ -9,7 +9,7 @@ namespace ninefold {
 
 SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind)
     : key_(key),
-      urgent_(kind.urgent),
+      sharesSets_(kind.urgent || kind.freeSets),
       wholeTiles_(kind.wholeTiles),
       sets_(grid.interleave().sets()),
       tasks_(static_cast<size_t>(grid.tasks())),

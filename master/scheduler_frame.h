@@ -39,7 +39,7 @@ class SchedulerFrame {
   SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind);
 
   const FrameKey& key() const { return key_; }
-  bool isUrgent() const { return urgent_; }
+  bool sharesSets() const { return sharesSets_; }       // all clients work on it at once
   int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of
   int tasks() const { return static_cast<int>(tasks_.size()); }
   // Index of a task of this frame, -1 if there is no such task.
@@ -103,7 +103,7 @@ class SchedulerFrame {
   bool settle(int task);
 
   FrameKey key_;
-  bool urgent_, wholeTiles_;
+  bool sharesSets_, wholeTiles_;
   int sets_;  // = phases
   int left_ = 0, waiting_ = 0;
   std::vector<Task> tasks_;       // tile * sets + phase

@@ -200,9 +200,11 @@ void Server::openFrames(Time) {
     if (!order) return;
     if (order->job != offer_.job()) announce(*order);
     open_[order->key.frame] = *order;
-    const bool isTraced = order->settings.method == Method::pathTrace;  // sets cost nothing
+    const bool isTraced = order->settings.method == Method::pathTrace;
     scheduler_.openFrame(order->key, order->grid(),
-                         {order->delivery.wholeTiles(), order->urgent || isTraced});
+                         {.wholeTiles = order->delivery.wholeTiles(),
+                          .urgent = order->urgent,
+                          .freeSets = isTraced});
   }
 }
 
@@ -229,7 +231,8 @@ void Server::sendTasks(const std::vector<Assignment>& assignments) {
   for (auto& [to, items] : bundles) {
     const FrameOrder& frame = open_.at(to.second);
     if (const auto& connection = peers_.at(to.first).connection)
-      connection->send(msg::Tasks{frame.job, frame.key, std::move(items), frame.neighbourWeight});
+      connection->send(
+          msg::Tasks{frame.job, frame.key, std::move(items), frame.neighbourWeight, frame.urgent});
   }
 }
 

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include "common/base/clock.h"
 #include "common/base/counters.h"
 #include "common/image/layers.h"
 #include "common/image/surface_test.h"
@@ -44,6 +45,8 @@ inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
 inline constexpr float kMostExposure = 50;               // [EV], and its negative
 inline constexpr uint8_t kAllExtraPlanes = 31;           // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
+// How long a client may let a result that is not urgent wait for others; the scheduler counts on it.
+inline constexpr Duration kResultsTogether = milliseconds(4);
 
 enum class MessageType : uint16_t {
   hello = 1,    // C -> M  first on every connection                            -> Welcome | Refuse
@@ -149,6 +152,7 @@ struct Tasks {
   FrameKey frame;
   std::vector<TaskItem> items;  // 1..kMaxTasksPerMessage
   float neighbourWeight = 1;    // of the filter, in [0, 1]; for tiles that are filtered there
+  bool urgent = false;          // no result is to wait for others
 };
 struct Cancel {
   uint32_t jobVersion = 0;  // the latest

@@ -115,6 +115,7 @@ msg::Tasks decode(const pb::Tasks& in, Bytes&&) {
   m.jobVersion = in.job_version();
   m.frame = fromWire(in.frame());
   m.neighbourWeight = in.neighbour_weight();
+  m.urgent = in.urgent();
   if (!(m.neighbourWeight >= 0 && m.neighbourWeight <= 1)) fail("neighbour weight is out of range");
   const auto count =
       upTo<int>("number of tasks", static_cast<uint64_t>(in.tile_size()), kMaxTasksPerMessage, 1);

@@ -98,6 +98,7 @@ pb::Tasks header(const msg::Tasks& m) {
   out.set_job_version(m.jobVersion);
   toWire(m.frame, *out.mutable_frame());
   out.set_neighbour_weight(m.neighbourWeight);
+  out.set_urgent(m.urgent);
   for (const msg::TaskItem& item : m.items) {
     out.add_tile(item.tile);
     out.add_phase(item.phase);

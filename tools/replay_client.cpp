@@ -162,12 +162,21 @@ class ReplayClient {
   }
 
   void answerDue() {
-    while (!waiting_.empty() && waiting_.begin()->first <= Clock::now()) {
+    for (; !waiting_.empty() && waiting_.begin()->first <= Clock::now(); answered_ = Clock::now()) {
       connection_->send(std::move(waiting_.begin()->second));
       waiting_.erase(waiting_.begin());
     }
     if (waiting_.empty()) return;
-    timer_ = loop_.after(waiting_.begin()->first - Clock::now(), [this] { answerDue(); });
+    timer_ = loop_.after(nextGroup() - Clock::now(), [this] { answerDue(); });
+  }
+
+  // In groups, as client/result_group.h does.
+  Time nextGroup() const {
+    const auto& [due, first] = *waiting_.begin();
+    Time last = due;  // of its frame
+    for (const auto& [time, result] : waiting_)
+      if (result.frame == first.frame) last = time;
+    return std::max(due, std::min(answered_ + kResultsTogether, last));
   }
 
   EventLoop& loop_;
@@ -181,7 +190,8 @@ class ReplayClient {
   int sets_ = 1;
   std::vector<Time> freeAt_;                  // by thread
   std::multimap<Time, msg::Result> waiting_;  // by when they are due
-  std::set<std::pair<uint32_t, int>> made_;   // light sets, by randomization
+  Time answered_{};
+  std::set<std::pair<uint32_t, int>> made_;  // light sets, by randomization
   std::unique_ptr<EventLoop::Timer> timer_;
   Ending ending_ = Ending::lost;
 };

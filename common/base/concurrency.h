@@ -58,6 +58,14 @@ class BoundedQueue {
     return removed;
   }
 
+  // of(the entry that is next); nothing if the queue is empty.
+  template <typename Of>
+  auto front(Of of) const -> std::optional<decltype(of(std::declval<const T&>()))> {
+    const std::lock_guard lock(mutex_);
+    if (entries_.empty()) return std::nullopt;
+    return of(entries_.front());
+  }
+
   void close() {
     {
       const std::lock_guard lock(mutex_);

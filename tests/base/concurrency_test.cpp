@@ -28,6 +28,16 @@ TEST(BoundedQueue, GivesWhatIsInsideAfterClosingAndThenNothing) {
   EXPECT_EQ(queue.pop(), std::nullopt);
 }
 
+TEST(BoundedQueue, ShowsWhatIsNext) {
+  BoundedQueue<int> queue(4);
+  const auto next = [&] { return queue.front([](int value) { return 10 * value; }); };
+  EXPECT_EQ(next(), std::nullopt);
+  for (int value : {1, 2}) queue.tryPush(value);
+  EXPECT_EQ(next(), 10);
+  queue.pop();
+  EXPECT_EQ(next(), 20);
+}
+
 TEST(BoundedQueue, ClosingFreesEverybodyWhoWaits) {
   BoundedQueue<int> queue(1);
   std::vector<std::thread> waiting;
