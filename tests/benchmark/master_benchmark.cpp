@@ -1,6 +1,6 @@
-// master_benchmark: what a pixel costs the master, kernel by kernel, beside the memory traffic that the
-// filter cannot do without. One thread, one tile of 96 x 96 pixels with its neighbourhood, in cache as
-// in a run. The column "per_pixel" is seconds.
+// master_benchmark: what a pixel costs the master, kernel by kernel, beside its floor: the memory
+// traffic that it cannot do without (names that end in Traffic). One thread, one tile of 96 x 96
+// pixels with its neighbourhood, in cache as in a run. The column "per_pixel" is seconds.
 #include <benchmark/benchmark.h>
 
 #include <random>
@@ -90,6 +90,25 @@ void Decode(benchmark::State& state) {
 }
 BENCHMARK(Decode);
 
+// Of a wall without U: 12 planes of codes in, 10 of floats out.
+void DecodeTraffic(benchmark::State& state) {
+  constexpr size_t kCodes = 12, kFloats = 10, kRoom = 9 * size_t{Patch::kPixels};
+  const std::vector<std::vector<uint8_t>> codes(kCodes, std::vector<uint8_t>(kRoom, 1));
+  std::vector<std::vector<float>> planes(kFloats, std::vector<float>(kRoom));
+  for (auto _ : state) {
+    for (size_t p = 0; p < kFloats; ++p) {
+      const uint8_t *one = codes[p].data(),
+                    *two = codes[p < kCodes - kFloats ? kFloats + p : p].data();
+      float* to = planes[p].data();
+#pragma GCC ivdep
+      for (size_t i = 0; i < kRoom; ++i) to[i] = static_cast<float>(one[i] ^ two[i]);
+    }
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(DecodeTraffic);
+
 void Filter(benchmark::State& state) {
   Patch patch;
   fill(patch, unpacked(0));
@@ -128,8 +147,8 @@ void Reuse(benchmark::State& state) {
 }
 BENCHMARK(Reuse)->ArgName("moving")->Arg(0)->Arg(1);
 
-// What the filter reads and writes, without its arithmetic: 17 planes in, 3 out.
-void Traffic(benchmark::State& state) {
+// 17 planes in, 3 out.
+void FilterTraffic(benchmark::State& state) {
   std::vector<std::vector<float>> planes(17, std::vector<float>(9 * Patch::kPixels, 1.0f));
   std::vector<std::vector<float>> out(3, std::vector<float>(9 * Patch::kPixels));
   for (auto _ : state) {
@@ -146,7 +165,7 @@ void Traffic(benchmark::State& state) {
   }
   perPixel(state);
 }
-BENCHMARK(Traffic);
+BENCHMARK(FilterTraffic);
 
 // The film of a 1920 x 1080 picture, tile after tile: from memory.
 void FilmTile(benchmark::State& state) {
@@ -161,6 +180,27 @@ void FilmTile(benchmark::State& state) {
   perPixel(state);
 }
 BENCHMARK(FilmTile);
+
+// 3 planes of a tile in, 3 of doubles from memory and back.
+void FilmTraffic(benchmark::State& state) {
+  RgbImage tile;
+  tile.reset(96, 96);
+  std::vector<std::vector<double>> sums(3, std::vector<double>(1920 * 1056));
+  const std::array planes = {tile.pixels.r.data(), tile.pixels.g.data(), tile.pixels.b.data()};
+  size_t next = 0;
+  for (auto _ : state) {
+    for (size_t y = 0; y < 96; ++y)
+      for (size_t c = 0; c < 3; ++c) {
+        double* to = &sums[c][(next / 20 * 96 + y) * 1920 + next % 20 * 96];
+        const float* from = planes[c] + y * 96;
+#pragma GCC ivdep
+        for (size_t x = 0; x < 96; ++x) to[x] += static_cast<double>(from[x]);
+      }
+    next = (next + 1) % 220;
+  }
+  perPixel(state);
+}
+BENCHMARK(FilmTraffic);
 
 RgbImage randomTile(float least, float most) {
   RgbImage tile;
@@ -182,6 +222,22 @@ void ToneMapTile(benchmark::State& state) {
   perPixel(state);
 }
 BENCHMARK(ToneMapTile);
+
+// 3 planes of floats in, as many bytes out.
+void ToneMapTraffic(benchmark::State& state) {
+  const RgbImage tile = randomTile(0, 255);
+  std::vector<uint8_t> codes(3 * kPixels);
+  for (auto _ : state) {
+    const float *r = tile.pixels.r.data(), *g = tile.pixels.g.data(), *b = tile.pixels.b.data();
+#pragma GCC ivdep
+    for (size_t i = 0; i < kPixels; ++i)
+      codes[3 * i] = static_cast<uint8_t>(r[i]), codes[3 * i + 1] = static_cast<uint8_t>(g[i]),
+                codes[3 * i + 2] = static_cast<uint8_t>(b[i]);
+    benchmark::ClobberMemory();
+  }
+  perPixel(state);
+}
+BENCHMARK(ToneMapTraffic);
 
 // A tile that a client has filtered, from its bytes to a display of 1920 pixels a row: as radiance that is
 // tone mapped here, or as codes.
