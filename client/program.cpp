@@ -171,8 +171,9 @@ void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& i
   try {
     RenderJob::Done done = job.run(order.frame, item, order.neighbourWeight, level_, thread, now);
     if (recorder_) recorder_->add(done.result);
-    const auto next = order.urgent ? std::nullopt : workers_.next();
-    if (results_.add({order.line, std::move(done)}, next, now())) later([this] { handOver(); });
+    const auto next = [this] { return workers_.nextFrame(); };
+    if (results_.add({order.line, order.urgent, std::move(done)}, next, now()))
+      later([this] { handOver(); });
   } catch (const std::exception& error) {  // no memory, most likely
     later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", order.frame.frame, item.tile,
                                     item.phase, error.what())] { session_.taskFailed(line); });
@@ -180,7 +181,7 @@ void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& i
 }
 
 void Program::handOver() {
-  for (auto& [line, done] : results_.take(now())) {
+  for (auto& [line, urgent, done] : results_.take(now())) {
     wireLevel_.finished(done.rawBytes, std::chrono::nanoseconds(done.result.busyNs));
     session_.taskFinished(line, std::move(done.result), now());
   }
@@ -190,7 +191,7 @@ void Program::handOver() {
 void Program::on(act::CancelTasks&& action) {
   const auto isVoid = [&](uint32_t frame) { return action.everything || frame < action.frame; };
   workers_.cancel(isVoid);
-  handOver();  // no task may be left whose end would do it
+  handOver();  // what waits for the end of a task that is gone
   std::erase_if(early_, [&](const auto& tasks) { return isVoid(tasks.tasks.frame.frame); });
   if (action.everything) jobs_.clear();  // another connection counts anew
 }

@@ -1,9 +1,13 @@
 // result_group.h: results on their way from the workers to the loop, in groups.
 //
-// Whoever hands a result over wakes the loop's thread, the master's and one of its workers, each time with code that rays
-// have driven out of the caches: on a machine that renders with all its cores that costs several times as much as the bytes.
-// So a result waits for others, but never for more than kResultsTogether and the task that its worker goes on with, and not at
-// all if it is urgent or no task of its frame waits here.
+// Whoever hands a result over wakes the loop's thread, the master's and one of its workers, each time
+// with code that rays have driven out of the caches: on a machine that renders with all its cores
+// that costs several times as much as the bytes. So a result waits for others, unless
+//   - it is urgent,
+//   - its task took kResultsTogether or more, or the last group went that long ago,
+//   - the task that is next here is of another frame, or there is none.
+// So it waits for kResultsTogether and the tasks that are at work then, at most; the end of a task of
+// its frame that is queued takes it along.
 //
 // Threads: add from workers, take from the loop's thread. Errors: none.
 #pragma once
@@ -22,17 +26,22 @@ class ResultGroup {
  public:
   struct Finished {
     uint32_t line = 0;  // the connection that its task came by
+    bool urgent = false;
     RenderJob::Done done;
   };
 
-  // True if the group is to be taken now; then once until it is. next: frame of the task that waits
-  // longest, if one does; nothing if the result is urgent.
-  bool add(Finished finished, std::optional<uint32_t> next, Time now) {
+  // True if somebody is to take the group; not again before that is done. nextFrame() is the frame of
+  // the task that is next here, or nothing. It is asked while no other result can be added: a task
+  // that it saw is not finished yet, and will take this result along.
+  template <typename NextFrame>
+  bool add(Finished finished, NextFrame nextFrame, Time now) {
     const std::lock_guard lock(mutex_);
-    const bool last = next != finished.done.result.frame;
+    const msg::Result& result = finished.done.result;
+    const bool isLong = std::chrono::nanoseconds(result.busyNs) >= kResultsTogether;
+    const bool goes = finished.urgent || isLong || now - taken_ >= kResultsTogether ||
+                      nextFrame() != std::optional(result.frame);
     results_.push_back(std::move(finished));
-    if (called_ || (!last && now - taken_ < kResultsTogether)) return false;
-    return called_ = true;
+    return goes && !std::exchange(called_, true);
   }
 
   std::vector<Finished> take(Time now) {

@@ -29,7 +29,7 @@ class Workers {
   // False when `capacity` tasks wait already.
   bool start(uint32_t frame, Job job);
   // Frame of the task that is next, if one waits. From any thread.
-  std::optional<uint32_t> next() const {
+  std::optional<uint32_t> nextFrame() const {
     return queue_.front([](const Entry& entry) { return entry.frame; });
   }
   // Drops the waiting tasks of frames for which `drop` is true; how many those were.

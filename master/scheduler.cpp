@@ -80,7 +80,7 @@ bool Scheduler::runsAhead() const {
   return static_cast<int>(nextFrame_ - frames_.begin()->first) >= needed + kAhead;
 }
 
-// More clients have credit beyond the sets that they go on with than there are sets that nobody is at work on.
+// Clients have credit beyond the sets that they go on with, for more sets than nobody is at work on.
 bool Scheduler::wouldShare() const {
   if (frames_.empty() || frames_.rbegin()->second.sharesSets() || runsAhead()) return false;
   int untouched = 0;
@@ -89,7 +89,8 @@ bool Scheduler::wouldShare() const {
     int credit = pool_.find(client)->credit();
     for (const auto& [number, frame] : frames_)
       if (const auto set = frame.setToGoOnWith(client)) credit -= frame.waitingOf(*set);
-    if (credit > 0 && --untouched < 0) return true;
+    for (; credit > 0; credit -= frames_.rbegin()->second.tasksOfSet())
+      if (--untouched < 0) return true;
   }
   return false;
 }
@@ -97,7 +98,7 @@ bool Scheduler::wouldShare() const {
 void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind) {
   NINEFOLD_CHECK(key.frame >= nextFrame_);
   frames_.emplace(key.frame, SchedulerFrame(key, grid, kind));
-  pool_.setTogether(kind.urgent ? Duration(0) : kResultsTogether);
+  pool_.setResultsWait(kind.urgent ? Duration(0) : kResultsTogether);
   nextFrame_ = key.frame + 1;
 }
 

@@ -5,13 +5,14 @@
 // Policies, each in one small function:
 //   order       in urgent frames oldest first; the next frame's tasks go out before this one's last
 //               are back
-//   light sets  a client goes on with light sets that it has. In a frame that is not urgent the next one
-//               is of the oldest frame that has one which nobody is at work on, and frames are opened so
-//               that there is one. Else, in urgent frames, and when the newest frame is kAhead further
+//   light sets  a client goes on with light sets that it has. The next one is of the oldest frame that
+//               has one which nobody is at work on, and frames are opened so that there is one. In
+//               frames that are urgent or whose sets are free, and when the newest frame is kAhead further
 //               ahead than it takes to give each client a set of its own, clients share: the set with
 //               most tasks left per client at work on it, of the oldest frame
 //   credit      a client that holds less than `low` tasks is refilled up to `high`; both cover its
-//               round trip at its learned speed (scheduler_client.h). No queue ever grows.
+//               round trip and the time that results wait for others at its learned speed
+//               (scheduler_client.h). No queue ever grows.
 //   stragglers  nothing left to hand out: a client with credit gets a copy of a task that is late
 //               or that it would finish sooner. At most one copy; the first result wins. The other
 //               client's credit stays spent until its own result came.

@@ -25,12 +25,12 @@ SchedulerClient::SchedulerClient(ClientId id, int threads, Time now)
 
 int SchedulerClient::low() const {
   if (trust_ != Trust::trusted) return trust_ == Trust::trial ? 1 : 0;
-  return threads() + tasksIn(roundTrip_ + together_, kMaxPerThread - kMaxGroup - 1);
+  return threads() + tasksIn(roundTrip_ + resultsWait_, kMaxPerThread - kMaxGroup - 1);
 }
 
 int SchedulerClient::high() const {
   if (trust_ != Trust::trusted) return low();
-  return low() + std::max((threads() + 1) / 2, tasksIn(together_, kMaxGroup));
+  return low() + std::max((threads() + 1) / 2, tasksIn(resultsWait_, kMaxGroup));
 }
 
 int SchedulerClient::tasksIn(Duration time, int mostPerThread) const {
@@ -84,8 +84,8 @@ void SchedulerClient::measureRoundTrip(Duration roundTrip) {
   updateRefilling();
 }
 
-void SchedulerClient::setTogether(Duration time) {
-  together_ = time;
+void SchedulerClient::setResultsWait(Duration time) {
+  resultsWait_ = time;
   updateRefilling();
 }
 

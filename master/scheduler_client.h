@@ -1,13 +1,13 @@
 // scheduler_client.h: what the scheduler knows of one client: the tasks that it holds, its learned
 // speed and its credit.
 //
-// Credit. With T threads, task time t (moving average of what it reports), round trip r, and w that a
-// result may wait for others (kResultsTogether; 0 in a hurry), a client works without a pause if it holds T tasks to
-// work on and T (r+w)/t more that are on their way:
+// Credit. With T threads, task time t (moving average of what it reports), round trip r, and w for
+// which a result waits for others (kResultsTogether; 0 while frames are urgent), a client works
+// without a pause if it holds T tasks to work on and T (r+w)/t more that are on their way:
 //     low = T + ceil(T (r+w)/t)      high = low + max(ceil(T/2), ceil(T w/t))
-// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in groups as
-// results do. At most kMaxPerThread T, kMaxGroup T of them in a group, as a frame waits for all that its
-// slowest client holds.
+// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in groups, as
+// results do. A group has at most kMaxGroup T, all together kMaxPerThread T: a frame waits for all that
+// its slowest client holds.
 //
 // Trust. trusted --no result for silenceLimit()--> suspect --any result--> trusted;
 //        suspect --heard of, and holds nothing--> trial (one task) --result--> trusted,
@@ -27,9 +27,9 @@ enum class Trust : uint8_t { trusted, trial, suspect };
 
 class SchedulerClient {
  public:
-  static constexpr int kMaxPerThread = 64;                    // bounds what a slow line can ask for
-  static constexpr int kMaxGroup = 8;                         // a thread
-  static constexpr Duration kFirstGuess = milliseconds(100);  // task time before any result
+  static constexpr int kMaxPerThread = 64;  // bounds what a slow line can ask for
+  static constexpr int kMaxGroup = 8;       // tasks that travel at once, for each thread
+  static constexpr Duration kFirstGuess = milliseconds(100);       // task time before any result
   static constexpr Duration kSilenceAtLeast = milliseconds(1000);  // see silenceLimit()
   static constexpr Duration kSilenceBeforeFirst = milliseconds(5000);
   static constexpr int kSilenceFactor = 4;  // times the expected time for all that it holds
@@ -63,7 +63,7 @@ class SchedulerClient {
   // Learns its speed; trusts it from now on.
   void gaveResult(Duration cost, bool accepted, Time now);
   void measureRoundTrip(Duration roundTrip);
-  void setTogether(Duration time);
+  void setResultsWait(Duration time);
   void setTrust(Trust trust, Time now);
 
   // Light sets that it made of late, for frames that share a randomization (while the picture
@@ -87,7 +87,7 @@ class SchedulerClient {
   bool refilling_ = true;
   Trust trust_ = Trust::trusted;
   std::optional<Duration> taskTime_;
-  Duration roundTrip_{0}, together_{0};
+  Duration roundTrip_{0}, resultsWait_{0};
   Time silentSince_, lastHeard_;
   bool owesAnswer_ = false;  // tasks were withdrawn from it since its last result
   uint32_t randomization_ = 0;

@@ -41,6 +41,7 @@ class SchedulerFrame {
   const FrameKey& key() const { return key_; }
   bool sharesSets() const { return sharesSets_; }       // all clients work on it at once
   int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of
+  int tasksOfSet() const { return tasks() / sets_; }    // at most
   int tasks() const { return static_cast<int>(tasks_.size()); }
   // Index of a task of this frame, -1 if there is no such task.
   int indexOf(const TaskId& task) const;

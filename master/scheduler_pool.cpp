@@ -8,13 +8,13 @@ void SchedulerPool::add(ClientId client, int threads, Time now) {
   const auto [member, added] =
       members_.emplace(client, Member{.client = SchedulerClient(client, threads, now)});
   NINEFOLD_CHECK(added);
-  member->second.client.setTogether(together_);
+  member->second.client.setResultsWait(resultsWait_);
   update(member->second.client);
 }
 
-void SchedulerPool::setTogether(Duration time) {
-  if (std::exchange(together_, time) == time) return;
-  change([time](SchedulerClient& client) { return client.setTogether(time), true; });
+void SchedulerPool::setResultsWait(Duration time) {
+  if (std::exchange(resultsWait_, time) == time) return;
+  change([time](SchedulerClient& client) { return client.setResultsWait(time), true; });
 }
 
 void SchedulerPool::remove(ClientId client) {

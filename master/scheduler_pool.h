@@ -24,7 +24,7 @@ class SchedulerPool {
   const SchedulerClient* find(ClientId client) const;
   void update(SchedulerClient& client);
   // How long results may wait for others from now on, all clients'.
-  void setTogether(Duration time);
+  void setResultsWait(Duration time);
   // Visits all clients in the order of their ids; `visit` says whether it changed the client.
   template <typename Visit>
   void change(Visit visit) {
@@ -55,7 +55,7 @@ class SchedulerPool {
   void leaveOrders(Member& member);
 
   std::map<ClientId, Member> members_;
-  Duration together_{0};
+  Duration resultsWait_{0};
   Ready ready_;
   int freeCredit_ = 0;
   std::set<std::pair<Time, ClientId>> silence_;

@@ -111,9 +111,8 @@ class ReplayClient {
 
  private:
   struct Answer {
-    Time due;
     msg::Result result;
-    bool operator<(const Answer& o) const { return due > o.due; }
+    bool urgent;
   };
 
   void on(msg::Configure& m) {
@@ -125,10 +124,10 @@ class ReplayClient {
   void on(msg::Refuse& m) { stop("the master refused: " + m.reason); }
   void on(msg::Goodbye&) { ending_ = Ending::done; }
   void on(msg::Cancel& m) {
-    std::erase_if(waiting_, [&](const auto& a) { return a.second.frame < m.frame; });
+    std::erase_if(waiting_, [&](const auto& a) { return a.second.result.frame < m.frame; });
   }
   void on(msg::Tasks& m) {
-    for (const msg::TaskItem& item : m.items) take(m.frame, item);
+    for (const msg::TaskItem& item : m.items) take(m.frame, item, m.urgent);
     answerDue();
   }
   template <typename Other>
@@ -138,7 +137,7 @@ class ReplayClient {
     ending_ = Ending::failed;
     connection_->close(std::move(why));
   }
-  void take(const FrameKey& frame, const msg::TaskItem& item) {
+  void take(const FrameKey& frame, const msg::TaskItem& item, bool urgent) {
     const msg::Result* recorded = recorded_.find(frame.frame, item);
     if (recorded == nullptr)
       return stop(fmt::format("no result for tile {}, phase {}: recorded of another picture?",
@@ -158,24 +157,26 @@ class ReplayClient {
     }
     Time& worker = *std::ranges::min_element(freeAt_);
     worker = std::max(worker, Clock::now()) + cost;
-    waiting_.emplace(worker, std::move(result));
+    waiting_.emplace(worker, Answer{std::move(result), urgent});
   }
 
   void answerDue() {
-    for (; !waiting_.empty() && waiting_.begin()->first <= Clock::now(); answered_ = Clock::now()) {
-      connection_->send(std::move(waiting_.begin()->second));
+    while (!waiting_.empty() && waiting_.begin()->first <= Clock::now()) {
+      connection_->send(std::move(waiting_.begin()->second.result));
       waiting_.erase(waiting_.begin());
+      answered_ = Clock::now();
     }
     if (waiting_.empty()) return;
     timer_ = loop_.after(nextGroup() - Clock::now(), [this] { answerDue(); });
   }
 
-  // In groups, as client/result_group.h does.
+  // In groups, like those of client/result_group.h.
   Time nextGroup() const {
     const auto& [due, first] = *waiting_.begin();
+    if (first.urgent) return due;
     Time last = due;  // of its frame
-    for (const auto& [time, result] : waiting_)
-      if (result.frame == first.frame) last = time;
+    for (const auto& [time, answer] : waiting_)
+      if (answer.result.frame == first.result.frame) last = time;
     return std::max(due, std::min(answered_ + kResultsTogether, last));
   }
 
@@ -188,8 +189,8 @@ class ReplayClient {
   std::shared_ptr<Connection> connection_;
   uint32_t job_ = 0;
   int sets_ = 1;
-  std::vector<Time> freeAt_;                  // by thread
-  std::multimap<Time, msg::Result> waiting_;  // by when they are due
+  std::vector<Time> freeAt_;             // by thread
+  std::multimap<Time, Answer> waiting_;  // by when they are due
   Time answered_{};
   std::set<std::pair<uint32_t, int>> made_;  // light sets, by randomization
   std::unique_ptr<EventLoop::Timer> timer_;

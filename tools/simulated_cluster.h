@@ -3,7 +3,8 @@
 // Deterministic, so that efficiency is a number that a test may insist on.
 //
 // A client works through its tasks in the order in which they came, one for each thread; it makes a
-// light set the first time that it meets one of a randomization. A frozen client does nothing, its
+// light set the first time that it meets one of a randomization; at rest its results wait for each
+// other as client/result_group.h says. A frozen client does nothing, its
 // messages wait; a dead one is noticed when its connection closes (after the line's latency), or,
 // if its line was cut, when its heartbeat has been missing for kHeartbeatLost.
 // Threads: none. Errors: CHECKs what the scheduler promises.
@@ -20,6 +21,7 @@
 
 #include "common/base/error.h"
 #include "master/scheduler.h"
+#include "proto/messages.h"
 
 namespace ninefold {
 
@@ -90,6 +92,8 @@ class SimulatedCluster {
     bool alive = false, known = false;
     int busyThreads = 0;
     std::deque<TaskId> queue;
+    std::vector<std::function<void()>> results;  // that wait for others
+    double handedOver = 0;
     std::set<std::pair<uint32_t, int>> sets;
   };
   struct Event {
@@ -180,6 +184,7 @@ class SimulatedCluster {
       schedule(now_ + clients_[c].model.latency, [=, this] {
         std::erase_if(clients_[c].queue,
                       [&](const TaskId& t) { return t.frame < cancel.firstWanted; });
+        handOver(c);
       });
     }
     for (const Assignment& a : actions.assign) {
@@ -213,9 +218,17 @@ class SimulatedCluster {
   void finish(size_t c, const TaskId& task, double work, double took) {
     Client& client = clients_[c];
     --client.busyThreads;
-    if (reaches(client))
-      schedule(now_ + client.model.latency, [=, this] { result(c, task, work, took); });
+    client.results.push_back([=, this] { result(c, task, work, took); });
+    const double wait = job_.moving ? 0 : seconds(kResultsTogether);
+    const bool isNext = !client.queue.empty() && client.queue.front().frame == task.frame;
+    if (!isNext || took >= wait || now_ - client.handedOver >= wait) handOver(c);
     this->work(c);
+  }
+  void handOver(size_t c) {
+    Client& client = clients_[c];
+    client.handedOver = now_;
+    for (auto& result : std::exchange(client.results, {}))
+      if (reaches(client)) schedule(now_ + client.model.latency, std::move(result));
   }
   void result(size_t c, const TaskId& task, double work, double took) {
     if (!clients_[c].known) return;

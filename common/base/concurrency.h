@@ -12,6 +12,7 @@
 #include <deque>
 #include <mutex>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "common/base/clock.h"
@@ -60,7 +61,7 @@ class BoundedQueue {
 
   // of(the entry that is next); nothing if the queue is empty.
   template <typename Of>
-  auto front(Of of) const -> std::optional<decltype(of(std::declval<const T&>()))> {
+  std::optional<std::invoke_result_t<Of, const T&>> front(Of of) const {
     const std::lock_guard lock(mutex_);
     if (entries_.empty()) return std::nullopt;
     return of(entries_.front());

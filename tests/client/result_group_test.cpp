@@ -2,56 +2,91 @@
 
 #include <gtest/gtest.h>
 
+#include <latch>
+#include <thread>
+
 namespace ninefold {
 namespace {
 
 class ResultGroupTest : public testing::Test {
  protected:
-  // A result of `frame` at `ms`; the next task that waits is of frame `next`.
-  bool add(uint32_t frame, std::optional<uint32_t> next, double ms) {
-    ResultGroup::Finished finished;
-    finished.done.result.frame = frame;
-    return group_.add(std::move(finished), next, at(ms));
+  struct Task {
+    uint32_t frame = 7;
+    bool urgent = false;
+    double took = 1;  // [ms]
+  };
+  ResultGroupTest() { take(0); }
+
+  // A result at `ms`; the next task is of frame `next`.
+  bool add(Task task, std::optional<uint32_t> next, double ms) {
+    return group_.add(
+        resultOf(task), [next] { return next; }, at(ms));
   }
   size_t take(double ms) { return group_.take(at(ms)).size(); }
+
+  static ResultGroup::Finished resultOf(Task task) {
+    ResultGroup::Finished finished;
+    finished.urgent = task.urgent;
+    finished.done.result.frame = task.frame;
+    finished.done.result.busyNs = static_cast<uint64_t>(1e6 * task.took);
+    return finished;
+  }
   static Time at(double ms) {
     return Time{} + std::chrono::hours(1) +
            duration_cast<Duration>(std::chrono::duration<double, std::milli>(ms));
   }
 
   ResultGroup group_;
-  const size_t begun_ = take(0);
 };
 
 TEST_F(ResultGroupTest, WaitsWhileTasksOfTheSameFrameAreThere) {
-  EXPECT_FALSE(add(7, 7, 1));
-  EXPECT_FALSE(add(7, 7, 2));
-  EXPECT_FALSE(add(7, 7, 3));
-  EXPECT_TRUE(add(7, 7, 4));
+  EXPECT_FALSE(add({}, 7, 1));
+  EXPECT_FALSE(add({}, 7, 2));
+  EXPECT_FALSE(add({}, 7, 3));
+  EXPECT_TRUE(add({}, 7, 4));
   EXPECT_EQ(take(4), 4u);
 }
 
 TEST_F(ResultGroupTest, GoesAtOnceWithTheLastTaskOfAFrame) {
-  EXPECT_FALSE(add(7, 7, 1));
-  EXPECT_TRUE(add(7, 8, 1.5));
+  EXPECT_FALSE(add({}, 7, 1));
+  EXPECT_TRUE(add({}, 8, 1.5));
   EXPECT_EQ(take(1.5), 2u);
-  EXPECT_TRUE(add(8, std::nullopt, 1.6));
+  EXPECT_TRUE(add({.frame = 8}, std::nullopt, 1.6));
   EXPECT_EQ(take(1.6), 1u);
 }
 
-TEST_F(ResultGroupTest, LongTasksAreNotHeldBack) {
-  EXPECT_TRUE(add(7, 7, 20));
-  EXPECT_EQ(take(20), 1u);
-  EXPECT_TRUE(add(7, 7, 40));
+TEST_F(ResultGroupTest, UrgentResultsAndThoseOfLongTasksDoNotWait) {
+  EXPECT_TRUE(add({.urgent = true}, 7, 1));
+  EXPECT_EQ(take(1), 1u);
+  EXPECT_TRUE(add({.took = 20}, 7, 2));
+  EXPECT_EQ(take(2), 1u);
 }
 
 TEST_F(ResultGroupTest, IsCalledForOnceUntilItIsTaken) {
-  EXPECT_TRUE(add(7, 7, 5));
-  EXPECT_FALSE(add(7, 7, 6));
-  EXPECT_FALSE(add(7, std::nullopt, 7));
+  EXPECT_TRUE(add({}, 7, 5));
+  EXPECT_FALSE(add({}, 7, 6));
+  EXPECT_FALSE(add({}, std::nullopt, 7));
   EXPECT_EQ(take(8), 3u);
   EXPECT_EQ(take(8), 0u);
-  EXPECT_TRUE(add(7, std::nullopt, 9));
+  EXPECT_TRUE(add({}, std::nullopt, 9));
+}
+
+// A worker sees that a task is there; another one finishes that task before the first has added its
+// result, which nobody would then take along.
+TEST_F(ResultGroupTest, NoResultIsLeftBehindByATaskThatItReliedOn) {
+  std::latch asked(1);
+  std::thread other([&] {
+    asked.wait();
+    EXPECT_TRUE(add({}, std::nullopt, 2));
+    EXPECT_EQ(take(2), 2u);
+  });
+  const auto next = [&] {
+    asked.count_down();
+    std::this_thread::sleep_for(milliseconds(50));
+    return std::optional(7u);
+  };
+  EXPECT_FALSE(group_.add(resultOf({}), next, at(1)));
+  other.join();
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(Agreement, GlassBallWithItsCaustic) {
 // What a ball floating half in water throws on the floor, seen from below the ball: particles come to it
 // from above, eye paths through the water, and both must find glass where the two overlap, whichever the
 // file has first.
-class HalfInWater : public ::testing::Test {
+class BallHalfInWater : public ::testing::Test {
  protected:
   void addBall() { b_.sphere(b_.material(testing::glass(1.5f)), Vec3(0, -0.4f, 0), 0.3f, 32); }
   void addWater() {
@@ -81,12 +81,12 @@ class HalfInWater : public ::testing::Test {
   SceneBuilder& b_ = room_.b;
 };
 
-TEST_F(HalfInWater, CausticOfABallBeforeTheWater) {
+TEST_F(BallHalfInWater, CausticBallFirst) {
   addBall(), addWater();
   expectCaustic();
 }
 
-TEST_F(HalfInWater, CausticOfABallBehindTheWater) {
+TEST_F(BallHalfInWater, CausticWaterFirst) {
   addWater(), addBall();
   expectCaustic();
 }

@@ -85,20 +85,22 @@ TEST(Scheduler, AtRestWhoHasTimeTakesALightSetOfItsOwnInTheNextFrame) {
   for (const TaskId& task : b.sent[2]) EXPECT_EQ(task.frame, 1u);
 }
 
-TEST(Scheduler, AnUrgentFrameIsSharedByAll) {
-  Bench b;
-  secondComes(b, {.urgent = true});
-  ASSERT_FALSE(b.sent[2].empty());
-  for (const TaskId& task : b.sent[2]) EXPECT_EQ(task.frame, 0u);
+TEST(Scheduler, AFrameThatIsUrgentOrWhoseSetsAreFreeIsSharedByAll) {
+  for (const FrameKind kind : {FrameKind{.urgent = true}, FrameKind{.freeSets = true}}) {
+    Bench b;
+    secondComes(b, kind);
+    ASSERT_FALSE(b.sent[2].empty());
+    for (const TaskId& task : b.sent[2]) EXPECT_EQ(task.frame, 0u);
+  }
 }
 
 TEST(Scheduler, WantsANextFrameRatherThanThatALightSetIsShared) {
-  for (const bool urgent : {false, true}) {
+  for (const FrameKind kind : {FrameKind{}, {.urgent = true}, {.freeSets = true}}) {
     Bench b;
     b.join(1);
-    b.open(0, Bench::grid(20, {1, 1}), 0, {.urgent = urgent});
+    b.open(0, Bench::grid(20, {1, 1}), 0, kind);
     b.scheduler.clientJoined(2, 1, b.now);
-    EXPECT_EQ(b.scheduler.wantsFrame(), !urgent);
+    EXPECT_EQ(b.scheduler.wantsFrame(), !kind.urgent && !kind.freeSets);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 
 namespace ninefold {
 namespace {
@@ -83,6 +84,7 @@ class ServerTest : public testing::Test {
       FrameOrder order;
       order.settings = smallPicture();
       order.job = jobOf(opened);
+      order.urgent = opened >= firstUrgent;
       order.key.frame = opened++;
       return order;
     };
@@ -128,7 +130,7 @@ class ServerTest : public testing::Test {
   std::function<std::optional<std::string>(const ReceivedTile&)> judge = [](const ReceivedTile&) {
     return std::nullopt;
   };
-  uint32_t frames = 3, opened = 0;
+  uint32_t frames = 3, opened = 0, firstUrgent = ~0u;
   std::unique_ptr<Server> server;
   std::vector<std::unique_ptr<PlayedClient>> played;
 };
@@ -193,6 +195,18 @@ TEST_F(ServerTest, AnnouncesEachJobBeforeItsFirstTasks) {
   });
   until([this] { return server->tally().tasks.completedFrames == frames; });
   EXPECT_EQ(seen.back(), frames);
+}
+
+TEST_F(ServerTest, TellsClientsWhichTasksAreUrgent) {
+  firstUrgent = 1;
+  std::set<uint32_t> seen;
+  play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    EXPECT_EQ(tasks.urgent, tasks.frame.frame >= firstUrgent);
+    seen.insert(tasks.frame.frame);
+    c.answerAll(tasks);
+  });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  EXPECT_EQ(seen.size(), frames);
 }
 
 // The first client keeps the old frame open by one task, and all of the new one.

@@ -106,7 +106,7 @@ TEST(SimulatedCluster, LatencyIsHidden) {
 TEST(SimulatedCluster, CreditStaysSmall) {
   const SimulatedJob moving{.frames = 5, .moving = true, .checkEvery = 1};
   EXPECT_LE(play(moving, alike(8)).mostInFlight(), 3);
-  // A task takes as long as results may wait for others: one of those, and one more on its way.
+  // Tasks of four milliseconds, now and then less: two on their way or waiting, groups of two.
   EXPECT_LE(play({.frames = 5, .checkEvery = 1}, alike(8)).mostInFlight(), 5);
 }
 

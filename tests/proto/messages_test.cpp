@@ -56,7 +56,7 @@ std::vector<Message> oneOfEach() {
       msg::Configure{3, 4, oddSettings(), {9, Delivery::Form::display, SurfaceTest::none, -1.5f}},
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
-      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f},
+      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f, true},
       msg::Cancel{4, 10},
       msg::Result{4, 10, 1, 2, 12345, 3, 6, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::Ping{1},
@@ -93,6 +93,7 @@ TEST(Messages, FieldsArriveWhereTheyBelong) {
   const auto tasks = std::get<msg::Tasks>(decode(oneOfEach()[9]));
   EXPECT_EQ(tasks.frame.rotation, 12u);
   EXPECT_EQ(tasks.items[1], (msg::TaskItem{4, 255, 31}));
+  EXPECT_TRUE(tasks.urgent);
   EXPECT_EQ(std::get<msg::Edit>(decode(oneOfEach()[15])).edit, oddEdit());
   EXPECT_TRUE(std::get<msg::Edit>(decode(oneOfEach()[15])).moving);
   const auto settings = std::get<msg::Configure>(decode(oneOfEach()[6])).settings;
