@@ -9,14 +9,14 @@
 namespace ninefold {
 namespace {
 
-// Calls f(from's plane, to's plane) for every plane of a result that `to` has, but for black layers.
+// Calls f(from's plane, to's plane) for every plane of a result that `to` has.
 template <typename F>
 void forEachPlane(const TileResult& from, TileResult& to, const F& f) {
   const auto rgb = [&f](const RgbPlane& a, RgbPlane& b) { f(a.r, b.r), f(a.g, b.g), f(a.b, b.b); };
   for (size_t layer = 0; layer < kLayers; ++layer) {
     const LayerPlanes& a = from.layers[layer];
     LayerPlanes& b = to.layers[layer];
-    if (b.distance.empty() || isBlack(a)) continue;
+    if (b.distance.empty()) continue;
     rgb(a.reflectance, b.reflectance);
     rgb(a.irradiance, b.irradiance);
     rgb(a.unfiltered, b.unfiltered);

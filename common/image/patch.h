@@ -45,7 +45,7 @@ class Patch {
   };
   Overlap overlap(int phase, const TaskRect& rect) const;
 
-  // Copies what overlaps of a rectangle's result, black layers excepted.
+  // Copies what overlaps of a rectangle's result. Black layers, too: the planes hold another tile's.
   void place(int phase, const TaskRect& rect, const TileResult& result);
 
   TileResult& phase(int p) { return phases_[static_cast<size_t>(p)]; }

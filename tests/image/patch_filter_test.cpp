@@ -73,6 +73,32 @@ TEST(PatchFilter, TakesNothingFromOneFrameToTheNext) {
   EXPECT_EQ(first, again);
 }
 
+// A patch that has held a mirror takes a tile of which one pixel mirrors: the other phases' results have
+// nothing in that layer.
+TEST(PatchFilter, TakesNothingFromTheTileThatThePatchHeldBefore) {
+  const TileGrid grid(96, 96, {3, 3});
+  const auto mirroring = [&](const auto& isMirror) {
+    return frameOf(grid, kDiffuseBit | kReflectionBit, 0,
+                   [&](TileResult& out, size_t i, int x, int y) {
+                     if (!isMirror(x, y)) return;
+                     LayerPlanes& layer = out.layers[kReflection];
+                     set(layer.reflectance, i, Vec3(0.25f));
+                     set(layer.irradiance, i, Vec3(4));
+                     set(layer.unfiltered, i, Vec3(100));
+                   });
+  };
+  const auto isOne = [](int x, int y) { return x == 40 && y == 20; };
+  Patch patch;
+  fill(patch, mirroring([](int, int) { return true; }), 0);
+  fill(patch, mirroring(isOne), 0);
+  PatchFilter filter(SurfaceTest::surface);
+  RgbImage beauty;
+  filter.compose(patch, camera(), 1, beauty);
+  for (int y = 0; y < 96; ++y)
+    for (int x = 0; x < 96; ++x)
+      ASSERT_EQ(beauty.rgb(beauty.at(x, y)), Vec3(isOne(x, y) ? 101.0f : 0.0f)) << x << ", " << y;
+}
+
 // Two walls, one before the other, whose edge is between the columns 47 and 48.
 TEST(PatchFilter, ShowsWhatShareOfTheWindowCounts) {
   const auto step = [](Vec3 v) {
