@@ -9,6 +9,7 @@
 namespace ninefold {
 namespace {
 
+constexpr size_t kTogether = 8;  // results that a worker unpacks before it answers
 constexpr size_t kCopies = 2;  // of a task: the first and one for a straggler
 
 int tileOf(const msg::Result& result) { return static_cast<int>(result.tile); }
@@ -64,13 +65,11 @@ void Assembly::open(const FrameView& view) {
 }
 
 bool Assembly::take(ReceivedTile& tile) {
-  {
-    const std::lock_guard lock(mutex_);
-    if (queue_.size() >= queueLimit_) return false;
-    bytes_ += tile.result.encoded.size();
-    queue_.push_back(std::move(tile));
-  }
-  work_.notify_one();
+  const std::lock_guard lock(mutex_);
+  if (queue_.size() >= queueLimit_) return false;
+  bytes_ += tile.result.encoded.size();
+  queue_.push_back(std::move(tile));
+  if (queue_.size() == 1) work_.notify_one();
   return true;
 }
 
@@ -82,39 +81,58 @@ void Assembly::run(int worker) {
   while (true) {
     work_.wait(lock, [this] { return closing_ || books_.hasTile() || !queue_.empty(); });
     if (closing_) return;
-    if (books_.hasTile()) {  // first: it frees memory, and somebody waits for the frame
+    if (books_.hasTile())  // first: it frees memory, and somebody waits for the frame
       finishOne(lock, worker);
-      continue;
-    }
-    ReceivedTile tile = std::move(queue_.front());
+    else
+      unpackSome(lock, decoder);
+  }
+}
+
+// Whoever takes work and leaves some wakes the next: nobody is woken for nothing.
+void Assembly::wakeAnother() {
+  if (books_.hasTile() || !queue_.empty()) work_.notify_one();
+}
+
+void Assembly::unpackSome(std::unique_lock<std::mutex>& lock, TileDecoder& decoder) {
+  std::vector<Unpacking> some = takeSome();
+  wakeAnother();
+  lock.unlock();
+  const Duration start = threadCpuTime();
+  for (Unpacking& one : some) unpack(one, decoder);
+  const Duration spent = threadCpuTime() - start;
+  lock.lock();
+  busy_.unpacking += spent;
+  for (Unpacking& one : some) place(one);
+  lock.unlock();
+  for (Unpacking& one : some) answer_(std::move(one.tile), one.malformed);
+  some.clear();
+  lock.lock();
+}
+
+// Of those that wait this worker's share, but not so many that a tile has to wait for long.
+std::vector<Assembly::Unpacking> Assembly::takeSome() {
+  const size_t share = (queue_.size() + workers_.size() - 1) / workers_.size();
+  std::vector<Unpacking> some(std::min(share, kTogether));
+  for (Unpacking& one : some) {
+    one.tile = std::move(queue_.front());
     queue_.pop_front();
-    bytes_ -= tile.result.encoded.size();
-    lock.unlock();
-    const Duration start = threadCpuTime();
-    unpack(std::move(tile), decoder);
-    const Duration spent = threadCpuTime() - start;
-    lock.lock();
-    busy_.unpacking += spent;
+    bytes_ -= one.tile.result.encoded.size();
+    one.shape = shapeIfWanted(one.tile.result);
   }
+  return some;
 }
 
-void Assembly::unpack(ReceivedTile&& tile, TileDecoder& decoder) {
-  msg::Result& result = tile.result;
-  std::optional<std::string> malformed;
+void Assembly::unpack(Unpacking& one, TileDecoder& decoder) const {
   try {
-    if (const auto shape = shapeIfWanted(result)) {
-      // Placed only now: a malformed copy must not keep a good one out.
-      place(result, decoder.unpack(std::move(result.encoded), *shape), tile.arrived);
-    }
+    if (one.shape)
+      one.unpacked = decoder.unpack(std::move(one.tile.result.encoded), *one.shape);
   } catch (const Error& error) {
-    malformed = error.what();
+    one.malformed = error.what();
   }
-  result.encoded = {};
-  answer_(std::move(tile), malformed);
+  one.tile.result.encoded = {};
 }
 
-std::optional<TileShape> Assembly::shapeIfWanted(const msg::Result& result) {
-  const std::lock_guard lock(mutex_);
+std::optional<TileShape> Assembly::shapeIfWanted(const msg::Result& result) const {
   if (!books_.isWanted(result.frame, tileOf(result), phaseOf(result))) return std::nullopt;
   const FrameShape& frame = slots_.at(result.frame)->frame.view.shape;
   const TaskRect rect = isFiltered(frame) ? pixelsOf(frame.grid, tileOf(result))
@@ -122,17 +140,18 @@ std::optional<TileShape> Assembly::shapeIfWanted(const msg::Result& result) {
   return TileShape{rect.width, rect.height, frame.layerMask, frame.extraMask};
 }
 
-void Assembly::place(const msg::Result& result, UnpackedTile&& unpacked, Time arrived) {
-  const std::lock_guard lock(mutex_);
+// Only now: a malformed copy must not keep a good one out.
+void Assembly::place(Unpacking& one) {
+  if (!one.shape || one.malformed) return;
+  const msg::Result& result = one.tile.result;
   const int tile = tileOf(result), phase = phaseOf(result);
   if (!books_.isWanted(result.frame, tile, phase)) return;
   Slot& slot = *slots_.at(result.frame);
   const int sets = slot.frame.view.shape.grid.interleave().sets();
-  bytes_ += unpacked.bytes(), slot.bytes += unpacked.bytes();
-  slot.frame.tasks[static_cast<size_t>(tile * sets + phase)] = std::move(unpacked);
-  slot.lastResult = std::max(slot.lastResult, arrived);
+  bytes_ += one.unpacked.bytes(), slot.bytes += one.unpacked.bytes();
+  slot.frame.tasks[static_cast<size_t>(tile * sets + phase)] = std::move(one.unpacked);
+  slot.lastResult = std::max(slot.lastResult, one.tile.arrived);
   books_.place(result.frame, tile, phase);
-  if (books_.hasTile()) work_.notify_all();
 }
 
 void Assembly::finishOne(std::unique_lock<std::mutex>& lock, int worker) {
@@ -140,6 +159,7 @@ void Assembly::finishOne(std::unique_lock<std::mutex>& lock, int worker) {
   const int tile = *books_.nextTile();
   Slot& slot = *slots_.at(number);
   ++finishing_;
+  wakeAnother();
   lock.unlock();
   const Duration start = threadCpuTime();
   finish_(worker, slot.frame, tile);
@@ -185,7 +205,7 @@ void Assembly::closeFrame(uint32_t number) {
   for (const UnpackedTile& task : slots_.at(number)->frame.tasks) bytes_ -= task.bytes();
   books_.close(number);
   slots_.erase(number);
-  if (books_.hasTile()) work_.notify_all();  // of the frame behind it
+  wakeAnother();  // for tiles of the frame behind it
 }
 
 void Assembly::supersede(uint32_t firstWanted) {

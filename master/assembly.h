@@ -103,10 +103,21 @@ class Assembly {
     Time lastResult, finished;
   };
 
+  // A result between the queue and its frame.
+  struct Unpacking {
+    ReceivedTile tile;
+    std::optional<TileShape> shape;  // nothing: nobody wants it any more
+    UnpackedTile unpacked;
+    std::optional<std::string> malformed;
+  };
+
   void run(int worker);
-  void unpack(ReceivedTile&& tile, TileDecoder& decoder);
-  std::optional<TileShape> shapeIfWanted(const msg::Result& result);
-  void place(const msg::Result& result, UnpackedTile&& unpacked, Time arrived);
+  void wakeAnother();
+  void unpackSome(std::unique_lock<std::mutex>& lock, TileDecoder& decoder);
+  std::vector<Unpacking> takeSome();
+  void unpack(Unpacking& one, TileDecoder& decoder) const;
+  std::optional<TileShape> shapeIfWanted(const msg::Result& result) const;
+  void place(Unpacking& one);
   void finishOne(std::unique_lock<std::mutex>& lock, int worker);
   void closeFrame(uint32_t frame);
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <bit>
+#include <boost/core/noinit_adaptor.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -24,7 +25,8 @@ namespace ninefold {
 static_assert(std::endian::native == std::endian::little,
               "the wire is little-endian; add a swap here");
 
-using Bytes = std::vector<std::byte>;
+// What resize() adds is not set: it is to be overwritten, and often.
+using Bytes = std::vector<std::byte, boost::noinit_adaptor<std::allocator<std::byte>>>;
 using ByteView = std::span<const std::byte>;
 
 inline ByteView viewOf(const std::string& text) {

@@ -208,6 +208,11 @@ void UnpackedTile::copy(const Part& part, uint8_t layers, uint8_t glowing, int s
   forEachExtraField(copier, out);
 }
 
+void UnpackedTile::prefetch() const {
+  constexpr size_t kLine = 64;
+  for (size_t i = 0; i < bytes_.size(); i += kLine) __builtin_prefetch(bytes_.data() + i, 0, 2);
+}
+
 void UnpackedTile::copyRadiance(RgbImage& out) const {
   out.width = width_, out.height = height_;
   for (auto* plane : {&out.pixels.r, &out.pixels.g, &out.pixels.b}) plane->resize(out.count());

@@ -92,6 +92,8 @@ class UnpackedTile {
     int width = 0, height = 0;
   };
   void copy(const Part& part, uint8_t layers, uint8_t glowing, int stride, TileResult& out) const;
+  // Asks the memory for what copy() will read.
+  void prefetch() const;
   // All of a tile of radiance; sets the shape of `out`.
   void copyRadiance(RgbImage& out) const;
   // All of a tile of codes, R, G, B of each pixel; rows of `out` hold `stride` pixels.

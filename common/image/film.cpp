@@ -56,6 +56,10 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
   for (int y = 0; y < tile.height; ++y) {
     const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
     const size_t from = tile.at(0, y);
+    if (y + 2 < tile.height)
+      for (const double* row : {&r_[to], &g_[to], &b_[to]})
+        for (size_t x = 0; x < width + 7; x += 8)
+          __builtin_prefetch(row + 2 * static_cast<size_t>(width_) + x, 1, 3);
     addRow(&tile.pixels.r[from], width, count, &r_[to]);
     addRow(&tile.pixels.g[from], width, count, &g_[to]);
     addRow(&tile.pixels.b[from], width, count, &b_[to]);

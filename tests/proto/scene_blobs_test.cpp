@@ -176,7 +176,7 @@ TEST(SceneBlobs, LyingSizesAreRefused) {
 TEST(SceneBlobs, ABombStopsAtTheDeclaredSize) {
   // 256 MiB of zeros in some KiB that claim to be 1000 bytes: stops after one step, see
   // compression.cpp.
-  const Bytes bomb = compressBlob(Bytes(256 << 20), 1);
+  const Bytes bomb = compressBlob(Bytes(256 << 20, std::byte{0}), 1);
   ASSERT_LT(bomb.size(), 100u << 10);
   const std::string text = errorOf([&] { decompressBlob(bomb, 1000); });
   EXPECT_NE(text.find("more than the declared 1000"), std::string::npos) << text;
