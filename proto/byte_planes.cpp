@@ -35,11 +35,27 @@ void writeDifferences(std::span<const uint8_t> plane, size_t width, Bytes& out) 
     to[row] = static_cast<uint8_t>(plane[row] - plane[row - width]);
 }
 
+// Running sums of eight bytes, the first one in the lowest bits, that begin at `sum`; adds them all to it.
+// Bytes of even and of odd places are summed apart, in lanes of sixteen bits, where no sum runs over. The
+// next eight have to wait for one addition only.
+uint64_t runningSums(uint64_t bytes, uint64_t& sum) {
+  constexpr uint64_t kLow = 0x00ff00ff00ff00ff, kOnes = 0x0001000100010001;
+  const uint64_t even = (bytes & kLow) * kOnes, odd = (bytes >> 8 & kLow) * kOnes;
+  const uint64_t before = (sum & 0xff) * kOnes;
+  sum += (even + odd) >> 48;
+  return ((even + (odd << 16) + before) & kLow) | ((even + odd + before) & kLow) << 8;
+}
+
 void addDifferences(std::span<uint8_t> plane, size_t width) {
   for (size_t row = 0; row < plane.size(); row += width) {
-    if (row > 0) plane[row] = static_cast<uint8_t>(plane[row] + plane[row - width]);
-    for (size_t i = row + 1; i < row + width; ++i)
-      plane[i] = static_cast<uint8_t>(plane[i] + plane[i - 1]);
+    uint64_t sum = row > 0 ? plane[row - width] : 0;
+    size_t i = row;
+    for (uint64_t bytes; i + sizeof bytes <= row + width; i += sizeof bytes) {
+      std::memcpy(&bytes, &plane[i], sizeof bytes);
+      bytes = runningSums(bytes, sum);
+      std::memcpy(&plane[i], &bytes, sizeof bytes);
+    }
+    for (; i < row + width; ++i) plane[i] = static_cast<uint8_t>(sum += plane[i]);
   }
 }
 
