@@ -9,8 +9,8 @@
 namespace ninefold {
 namespace {
 
-constexpr size_t kTogether = 8;  // results that a worker unpacks before it answers
-constexpr size_t kCopies = 2;  // of a task: the first and one for a straggler
+constexpr size_t kTogether = 8;  // results that a worker unpacks at once
+constexpr size_t kCopies = 2;    // of a task: the first and one for a straggler
 
 int tileOf(const msg::Result& result) { return static_cast<int>(result.tile); }
 int phaseOf(const msg::Result& result) { return static_cast<int>(result.phase); }
@@ -124,8 +124,7 @@ std::vector<Assembly::Unpacking> Assembly::takeSome() {
 
 void Assembly::unpack(Unpacking& one, TileDecoder& decoder) const {
   try {
-    if (one.shape)
-      one.unpacked = decoder.unpack(std::move(one.tile.result.encoded), *one.shape);
+    if (one.shape) one.unpacked = decoder.unpack(std::move(one.tile.result.encoded), *one.shape);
   } catch (const Error& error) {
     one.malformed = error.what();
   }

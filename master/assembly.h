@@ -103,7 +103,8 @@ class Assembly {
     Time lastResult, finished;
   };
 
-  // A result between the queue and its frame.
+  // A result between the queue and its frame. Workers take several at once: a look at the processor's clock,
+  // a turn at the lock and a wake-up for each would cost as much as the results themselves.
   struct Unpacking {
     ReceivedTile tile;
     std::optional<TileShape> shape;  // nothing: nobody wants it any more
@@ -112,7 +113,7 @@ class Assembly {
   };
 
   void run(int worker);
-  void wakeAnother();
+  void wakeAnother();  // if there is work left
   void unpackSome(std::unique_lock<std::mutex>& lock, TileDecoder& decoder);
   std::vector<Unpacking> takeSome();
   void unpack(Unpacking& one, TileDecoder& decoder) const;

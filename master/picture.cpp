@@ -19,6 +19,7 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
   patch.lighten(bright);
   patch.setGlow(glowing);
   forEachTask([&](int around, int phase) {
+    // Results have waited for each other in memory: the next one comes while this one is decoded.
     if (around == tile && phase + 1 < patch.phases()) frame.task(around, phase + 1).prefetch();
     const Patch::Overlap part = patch.overlap(phase, shape.grid.rect(around, phase));
     frame.task(around, phase)

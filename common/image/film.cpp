@@ -18,6 +18,13 @@ void addRow(const float* values, size_t n, int64_t count, double* mean) {
   for (size_t i = 0; i < n; ++i) mean[i] += (static_cast<double>(values[i]) - mean[i]) * share;
 }
 
+// Rows of a tile are far apart in the film, where no processor looks ahead by itself.
+constexpr int kRowsAhead = 2;
+void prefetch(const double* mean, size_t n) {
+  constexpr size_t kLine = 64 / sizeof *mean;
+  for (size_t i = 0; i < n; i += kLine) __builtin_prefetch(mean + i, 1);
+}
+
 }  // namespace
 
 Film::Film(int width, int height, bool keepsError)
@@ -56,10 +63,9 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
   for (int y = 0; y < tile.height; ++y) {
     const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
     const size_t from = tile.at(0, y);
-    if (y + 2 < tile.height)
-      for (const double* row : {&r_[to], &g_[to], &b_[to]})
-        for (size_t x = 0; x < width + 7; x += 8)
-          __builtin_prefetch(row + 2 * static_cast<size_t>(width_) + x, 1, 3);
+    if (y + kRowsAhead < tile.height)
+      for (const auto* means : {&r_, &g_, &b_})
+        prefetch(means->data() + to + pixelCount(width_, kRowsAhead), width);
     addRow(&tile.pixels.r[from], width, count, &r_[to]);
     addRow(&tile.pixels.g[from], width, count, &g_[to]);
     addRow(&tile.pixels.b[from], width, count, &b_[to]);

@@ -2,6 +2,7 @@
 import argparse
 import os
 import sys
+import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
@@ -12,8 +13,8 @@ from report_lib.tables import Table  # noqa: E402
 
 LINES = [dict(mbit=0), dict(mbit=10000), dict(mbit=1000), dict(mbit=100),
          dict(mbit=1000, delay_ms=0.1), dict(mbit=1000, delay_ms=1), dict(mbit=1000, delay_ms=10),
-         dict(mbit=100, delay_ms=1), dict(mbit=1000, delay_ms=0.1, loss=1), dict(mbit=1000, delay_ms=0.1, cut="4:1"),
-         dict(mbit=1000, delay_ms=0.1, cut="4:8")]
+         dict(mbit=100, delay_ms=1), dict(mbit=1000, delay_ms=0.1, loss=1), dict(mbit=1000, delay_ms=0.1, cut="3:1"),
+         dict(mbit=1000, delay_ms=0.1, cut="3:8")]
 ADAPTIVE = [dict(mbit=0), dict(mbit=1000), dict(mbit=100), dict(mbit=20)]
 QUICK = [dict(mbit=0), dict(mbit=100), dict(mbit=1000, delay_ms=1, loss=1)]
 PORT = 4700
@@ -24,7 +25,7 @@ def parse(words):
     parser.add_argument("--scene", default="table_room")
     parser.add_argument("--size", default="640x480")
     parser.add_argument("--clients", type=int, default=16, help="behind the one line")
-    parser.add_argument("--frames", type=int, default=150)
+    parser.add_argument("--frames", type=int, default=200)
     parser.add_argument("--modes", nargs="+", choices=["master", "clients"], default=["master", "clients"],
                         help="who filters")
     parser.add_argument("--quick", action="store_true", help="few lines, few frames")
@@ -54,9 +55,13 @@ def run(cluster, options, where, recordings, line):
                  f"{links.ADDRESS}:{PORT}", "--key-file", cluster.key, "--recording", recordings[level], "--clients",
                  str(options.clients), "--pace", "recorded"]]
     with links.line(**line):
-        return cluster.run(options.scene, ["--size", options.size, "--filter-at", where, "--frames", options.frames,
-                                           "--local-clients", 0, "--wait-clients", options.clients], clients,
-                           listen=f"0.0.0.0:{PORT}", prefix=links.within(links.MASTER))
+        start = time.monotonic()
+        s = cluster.run(options.scene, ["--size", options.size, "--filter-at", where, "--frames", options.frames,
+                                        "--local-clients", 0, "--wait-clients", options.clients], clients,
+                        listen=f"0.0.0.0:{PORT}", prefix=links.within(links.MASTER))
+        if "cut" in line and time.monotonic() - start < sum(map(float, line["cut"].split(":"))):
+            raise Failure(f"{options.frames} frames were done before the line was cut and whole again; give more --frames")
+    return s
 
 
 def adaptive(cluster, options):

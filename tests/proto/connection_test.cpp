@@ -145,7 +145,8 @@ TEST_F(Connections, APeerThatTakesNothingIsGivenUp) {
   startClients = false;  // never reads
   joinLocal();
   for (int i = 0; i < 200; ++i)
-    served[0]->connection->send(msg::BlobChunk{{}, 0, kBlobChunkBytes, Bytes(kBlobChunkBytes, std::byte{0})});
+    served[0]->connection->send(
+        msg::BlobChunk{{}, 0, kBlobChunkBytes, Bytes(kBlobChunkBytes, std::byte{0})});
   ASSERT_TRUE(until([&] { return !served[0]->closed.empty(); }));
   EXPECT_EQ(served[0]->closed, "the peer took nothing for 0.2 s");
 }
@@ -157,8 +158,8 @@ TEST_F(Connections, AFullQueueClosesInsteadOfGrowing) {
   startClients = false;
   joinLocal();
   int taken = 0;
-  while (taken < 1000 && served[0]->connection->send(
-                             msg::BlobChunk{{}, 0, kBlobChunkBytes, Bytes(kBlobChunkBytes, std::byte{0})}))
+  while (taken < 1000 && served[0]->connection->send(msg::BlobChunk{
+                             {}, 0, kBlobChunkBytes, Bytes(kBlobChunkBytes, std::byte{0})}))
     ++taken;
   EXPECT_EQ(taken, 3) << "a fourth chunk and its head are more than 1 MiB";
   ASSERT_TRUE(until([&] { return !served[0]->closed.empty(); }));
