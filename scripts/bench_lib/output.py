@@ -45,16 +45,20 @@ def write_table(name, title, table, notes=()):
 
 
 def plot_lines(name, file, series, xlabel, ylabel, title, logx=True, ideal=None):
-    """series: {label: [(x, y)]}."""
-    figure, axis = plot.subplots(figsize=(6, 4), layout="constrained")
-    for colour, (label, points) in zip(COLOURS * 4, series.items()):
-        axis.plot(*zip(*sorted(points)), "o-", color=colour, markersize=3, linewidth=1, label=label)
+    """series: {label: [(x, y)]}. Colours that come again have another line."""
+    figure, axis = plot.subplots(figsize=(8, 4), layout="constrained")
+    styles = [(colour, line) for line in ("o-", "s--", "^:", "v-.") for colour in COLOURS]
+    for (colour, line), (label, points) in zip(styles, series.items()):
+        axis.plot(*zip(*sorted(points)), line, color=colour, markersize=3, linewidth=1, label=label)
     if ideal is not None:
         axis.axhline(ideal, color="0.6", linewidth=0.8, linestyle=":")
     axis.set(xlabel=xlabel, ylabel=ylabel, title=title, xscale="log" if logx else "linear")
     axis.set_ylim(bottom=0)
+    counts = sorted({x for points in series.values() for x, _ in points})
+    axis.set_xticks(counts, [f"{x:g}" for x in counts], minor=False)
+    axis.minorticks_off()
     axis.grid(True, color="0.92")
-    axis.legend(fontsize=7)
+    axis.legend(fontsize=7, loc="upper left", bbox_to_anchor=(1.01, 1))
     figure.savefig(os.path.join(folder(name), file), dpi=120)
     plot.close(figure)
 
