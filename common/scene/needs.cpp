@@ -105,16 +105,13 @@ std::vector<std::string> describe(const Needs& needs) {
 
 std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
   std::vector<std::string> lines;
-  if (settings.method == Method::pathTrace) {
-    if (needs.punctualLights && needs.smoothSpecular)
-      lines.emplace_back(
-          "path-trace cannot find light that comes from point, spot or directional lights by way "
-          "of "
-          "smooth mirrors, glass or transparent surfaces: it is missing");
-    return lines;
-  }
+  const bool traced = settings.method == Method::pathTrace;
+  if (traced && needs.punctualLights && needs.smoothSpecular)
+    lines.emplace_back(
+        "path-trace cannot find light that comes from point, spot or directional lights by way of "
+        "smooth mirrors, glass or transparent surfaces: it is missing");
   if (!needs.specular()) return lines;
-  if (settings.caustics == Caustics::off || settings.photons == 0)
+  if (settings.caustics == Caustics::off || (settings.photons == 0 && !traced))
     lines.emplace_back("caustics are off: light by way of mirrors and glass is missing");
   else if (settings.caustics == Caustics::direct)
     lines.emplace_back(
