@@ -30,7 +30,7 @@ namespace ninefold {
 
 // Raised whenever the meaning of any message changes. One cluster runs one release: there is no
 // range.
-inline constexpr uint32_t kProtocol = 1;
+inline constexpr uint32_t kProtocol = 2;
 // The release of this build, e.g. "0.1.0".
 std::string releaseName();
 
