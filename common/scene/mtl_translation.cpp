@@ -68,6 +68,7 @@ Reading::Reading(const MtlMaterial& m) : from(m) {
   Tf = clamped(m.Tf.value_or(Vec3(0)), kAny);
   isDark = !m.mapKd && maxComponent(Kd) <= kBlack;
   opacity = opacityOf(m);
+  if (opacity == 0 && m.mapD) opacity = 1;
   opacityIsGiven = m.d.has_value() || (m.Tr && *m.Tr < 1);
 }
 

@@ -10,11 +10,6 @@ namespace {
 
 constexpr uint64_t kMaxLibraryBytes = 64 << 20;
 
-void warnMissing(std::string_view name) {
-  warn("material library '{}' is missing: its materials are grey; put it into the scene's folder",
-       name);
-}
-
 // A name may have a #, as in "Material #25".
 std::string withoutComment(const std::string& name) { return name.substr(0, name.find(" # ")); }
 
@@ -27,6 +22,7 @@ ObjMaterials::ObjMaterials(const SceneFolder& folder, Scene& scene)
 bool ObjMaterials::addLibrary(const std::string& name) {
   const auto file = findFile(*folder_, "", name);
   if (!file) return false;
+  if (!libraries_.insert(*file).second) return true;
   const std::vector<unsigned char> bytes = folder_->read(*file, kMaxLibraryBytes);
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   const std::string beside = file->substr(0, file->rfind('/') + 1);
@@ -34,14 +30,20 @@ bool ObjMaterials::addLibrary(const std::string& name) {
     return findFile(*folder_, beside, map).has_value();
   };
   try {
-    for (const MtlMaterial& m : readMtl(text, *file, exists)) {
+    const std::vector<MtlMaterial> materials = readMtl(text, *file, exists);
+    for (const MtlMaterial& m : materials) sources_.try_emplace(m.name, Source{m, beside});
+    for (const MtlMaterial& m : materials)
       sources_.try_emplace(withoutComment(m.name), Source{m, beside});
-      sources_[m.name] = {m, beside};
-    }
   } catch (const Error& e) {
     fail("material library '{}': {}", *file, e.what());
   }
   return true;
+}
+
+void ObjMaterials::missing(std::string_view name) {
+  if (libraries_.insert(std::string(name)).second)
+    warn("material library '{}' is missing: its materials are grey; put it into the scene's folder",
+         name);
 }
 
 // Words make a name if that is a file, or if they end in ".mtl".
@@ -56,10 +58,10 @@ void ObjMaterials::addLibraries(std::string_view line) {
     const std::string file = fileName(name);
     const bool found = addLibrary(file);
     if (!found && !lowerCase(file).ends_with(".mtl")) continue;
-    if (!found) warnMissing(file);
+    if (!found) missing(file);
     name = line.substr(0, 0);
   }
-  if (!name.empty()) warnMissing(name);
+  if (!name.empty()) missing(name);
 }
 
 const ObjMaterials::Source* ObjMaterials::find(const std::string& name) const {

@@ -2,12 +2,14 @@
 // What a material means: mtl_translation.h, obj_textures.h.
 //
 // A name is looked up as normalizedName (text_lines.h) tells it; if no library has it, without a
-// comment behind it. Of two materials of one name the last counts.
+// comment behind it. Of two materials of one name the first counts, as of
+// two libraries of a line the format has it.
 // Errors: throws Error (a missing or bad texture, a library that leads outside the scene's folder).
 // Threads: one.
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 
@@ -34,12 +36,14 @@ class ObjMaterials {
     std::string beside;  // folder of its library, empty or ending in '/'
   };
   bool addLibrary(const std::string& name);
+  void missing(std::string_view name);
   const Source* find(const std::string& name) const;
   Material translated(const Source& source);
 
   const SceneFolder* folder_;
   Scene* scene_;
   ObjTextures textures_;
+  std::set<std::string> libraries_;  // that were read or found missing
   std::map<std::string, Source> sources_;
   std::map<std::pair<std::string, bool>, int> known_;
 };

@@ -51,7 +51,7 @@ class ObjBuilder : public ObjEvents {
   struct Part {
     Mesh mesh;
     std::unordered_map<ObjCorner, uint32_t, CornerHash> vertices;
-    bool hasNormals = false, hasCoordinates = false, hasColours = false;
+    bool hasNormals = false;
     size_t facesWithoutCoordinates = 0;
   };
   void finishGroup();
@@ -104,7 +104,6 @@ void ObjBuilder::finishGroup() {
 void ObjBuilder::finishPart(const std::string& material, Part& part) {
   Mesh& mesh = part.mesh;
   if (!part.hasNormals) mesh.normals.clear();
-  if (!part.hasColours) mesh.colors.clear();
   flatTriangles_ += cleanMesh(mesh, "group '" + group_ + "'");
   if (mesh.triangles.empty()) return;
   mesh.name = group_;
@@ -156,9 +155,10 @@ uint32_t ObjBuilder::vertex(Part& part, const ObjCorner& corner) const {
   mesh.uv0.push_back(coordinate < 0 ? kNoCoordinate
                                     : coordinates_[static_cast<size_t>(coordinate)]);
   mesh.normals.push_back(normal < 0 ? Vec3(0) : normals_[static_cast<size_t>(normal)]);
-  mesh.colors.emplace_back(coloured ? colours_[place] : Vec3(1), 1);
+  if (coloured) mesh.colors.resize(mesh.positions.size() - 1, Vec4(1));
+  if (coloured || !mesh.colors.empty())
+    mesh.colors.emplace_back(coloured ? colours_[place] : Vec3(1), 1);
   part.hasNormals |= normal >= 0;
-  part.hasColours |= coloured;
   return entry->second;
 }
 

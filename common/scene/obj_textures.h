@@ -12,7 +12,7 @@
 //                         coordinates of the first, with a warning if the second's differ.
 //
 // A name means a file beside the .mtl, else beside the .obj; where both fail, as with paths of
-// other machines, the name without its folders, in these two places.
+// other machines, the name without its folders, in these two places; last, all that in any case.
 // Errors: throws Error (a missing or bad texture).
 // Threads: one. Refers to the folder and the images it fills.
 #pragma once

@@ -13,7 +13,11 @@ namespace ninefold {
 class UnreadKeys {
  public:
   void add(std::string_view key, uint64_t line) {
-    if (firstLines_.size() < kMost) firstLines_.try_emplace(std::string(key), line);
+    if (firstLines_.size() >= kMost) return;
+    std::string shown(key.substr(0, 40));
+    for (char& c : shown)
+      if (static_cast<unsigned char>(c) < ' ') c = '?';
+    firstLines_.try_emplace(std::move(shown), line);
   }
 
   // `file`: as the warning shall name it.
@@ -21,8 +25,8 @@ class UnreadKeys {
     if (firstLines_.empty()) return;
     std::string list;
     for (const auto& [key, line] : firstLines_)
-      list += fmt::format("{}{} (line {})", list.empty() ? "" : ", ", key.substr(0, 40), line);
-    warn("{}: not modelled and left out: {}", file, list.substr(0, 1000));
+      list += fmt::format("{}{} (line {})", list.empty() ? "" : ", ", key, line);
+    warn("{}: not modelled and left out: {}", file, list);
   }
 
  private:

@@ -75,6 +75,13 @@ TEST_F(MtlMaps, PathsOfOtherMachinesMeanTheFileBesideTheLibrary) {
     EXPECT_EQ(nameOf(rest), "texture 't.png'") << rest;
 }
 
+TEST_F(MtlMaps, TheCaseOfANameIsTheLastThingThatMatters) {
+  EXPECT_EQ(nameOf("T.PNG"), "texture 't.png'");
+  EXPECT_EQ(nameOf("Tex\\T.png"), "texture 't.png'") << "the folder's case is its own";
+  picture("T.PNG", 1, 1, 3, {1, 1, 1});
+  EXPECT_EQ(nameOf("T.PNG"), "texture 'T.PNG'");
+}
+
 TEST_F(MtlMaps, FilesAreBesideTheLibraryThatNamesThem) {
   picture("lib/image.png", 1, 1, 3, {1, 2, 3});
   picture("lib/t.png", 1, 1, 3, {4, 5, 6});
