@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "common/base/error.h"
@@ -39,22 +40,55 @@ TextureUse useOf(int image, const MtlMap& map) {
 
 Gain gainOf(const MtlMap& map) { return {map.base, map.gain}; }
 
-// What the texels of a map are made with, for the name of the image.
-std::string nameOf(const MtlMap& map, Gain gain) {
-  std::string name = "'" + map.file + "'";
+// How two maps, of which one may be absent, share an image.
+class SharedCoordinates {
+ public:
+  SharedCoordinates(const MtlMaterial& material, const MtlMap& a, const MtlMap& b,
+                    const char* names)
+      : own_(a ? &a : &b), square_(false) {
+    const bool same = a.scale == b.scale && a.offset == b.offset && a.clamp == b.clamp;
+    if (!a || !b || same) return;
+    square_ = repeatsInSquare(a) && repeatsInSquare(b);
+    if (!square_)
+      warn("material '{}': {} have different -s, -o or -clamp: the second has those of the first",
+           material.name, names);
+  }
+  TextureUse use(int image) const { return square_ ? useOf(image, MtlMap()) : useOf(image, *own_); }
+  TextureImage place(const TextureImage& image, const MtlMap& map) const {
+    return square_ ? asSeenBy(useOf(0, map), image) : image;
+  }
+  std::string nameOf(const MtlMap& map) const {
+    if (!square_) return {};
+    return fmt::format(" at {} {} {} {}", map.scale.x, map.scale.y, map.offset.x, map.offset.y);
+  }
+
+ private:
+  static bool repeatsInSquare(const MtlMap& map) {
+    constexpr float kMost = 16;  // images would become too large
+    const auto fits = [](float s) { return s == std::round(s) && s != 0 && std::abs(s) <= kMost; };
+    return !map.clamp && fits(map.scale.x) && fits(map.scale.y);
+  }
+  const MtlMap* own_;
+  bool square_;  // both are looked up once and for all, in the square that the coordinates span
+};
+
+// The name of an image: its file and what its texels are made with.
+std::string nameOf(const ImageSource& source, const MtlMap& map, Gain gain) {
+  std::string name = source.name;
   if (map.channel != 0) name += fmt::format(" channel {}", map.channel);
   if (!gain.isIdentity()) name += fmt::format(" as {} + {} t", gain.base, gain.gain);
   return name;
 }
-
-bool sameCoordinates(const MtlMap& a, const MtlMap& b) {
-  return a.scale == b.scale && a.offset == b.offset && a.clamp == b.clamp;
+std::string nameOf(const ImageSource& source, const MtlMap& map, Gain gain,
+                   const SharedCoordinates& shared) {
+  return nameOf(source, map, gain) + shared.nameOf(map);
 }
 
-void warnIfApart(const MtlMaterial& from, const MtlMap& a, const MtlMap& b, const char* names) {
-  if (a && b && !sameCoordinates(a, b))
-    warn("material '{}': {} have different -s, -o or -clamp: the second has those of the first",
-         from.name, names);
+TextureImage white() {
+  TextureImage image;
+  image.width = image.height = 1;
+  image.texels.assign(4, 255);
+  return image;
 }
 
 // A gain that never leaves [0, limit] is a factor; another goes into the texels, times a factor
@@ -100,7 +134,7 @@ int ObjTextures::colours(const MtlMap& map, Gain gain) {
   const FileImage source(*folder_, beside_, map);
   if (gain.isIdentity() && map.channel == 0) return images_.add(source, true);
   const std::array<const ImageSource*, 1> parts = {&source};
-  return images_.addMade(source.name + nameOf(map, gain), true, parts,
+  return images_.addMade(nameOf(source, map, gain), true, parts,
                          [&](auto decoded) { return coloursOf(decoded[0], map.channel, gain); });
 }
 
@@ -112,25 +146,23 @@ void ObjTextures::addColour(const MtlMaterial& from, Material& m) {
     m.baseColorMap = useOf(colours(colour, gain.texels), colour);
     return;
   }
-  warnIfApart(from, colour, cover, "map_Kd and map_d");
+  const SharedCoordinates shared(from, colour, cover, "map_Kd and map_d");
   const FileImage colourFile(*folder_, beside_, colour), coverFile(*folder_, beside_, cover);
   std::vector<const ImageSource*> parts;
-  if (colour) parts.push_back(&colourFile);
+  std::string name = "white";
+  if (colour) parts.push_back(&colourFile), name = nameOf(colourFile, colour, gain.texels, shared);
   if (cover) parts.push_back(&coverFile);
-  const std::string name = (colour ? colourFile.name + nameOf(colour, gain.texels) : "white") +
-                           (cover ? " covered by " + coverFile.name + nameOf(cover, gainOf(cover))
-                                  : " without its alpha");
+  name += cover ? " covered by " + nameOf(coverFile, cover, gainOf(cover), shared)
+                : " without its alpha";
   const int image = images_.addMade(name, true, parts, [&](auto decoded) {
-    TextureImage white;
-    white.width = white.height = 1, white.texels.assign(4, 255);
-    const TextureImage colours =
-        colour ? coloursOf(decoded[0], colour.channel, gain.texels) : white;
+    TextureImage colours = white();
+    if (colour) colours = shared.place(coloursOf(decoded[0], colour.channel, gain.texels), colour);
     if (!cover) return colours;
     const TextureImage& mask = decoded.back();
     const char channel = cover.channel != 0 ? cover.channel : coverageChannel(mask);
-    return coveredBy(colours, scalarOf(mask, channel, gainOf(cover)));
+    return coveredBy(colours, shared.place(scalarOf(mask, channel, gainOf(cover)), cover));
   });
-  m.baseColorMap = useOf(image, colour ? colour : cover);
+  m.baseColorMap = shared.use(image);
   m.alphaMode = AlphaMode::blend;
 }
 
@@ -149,19 +181,26 @@ void ObjTextures::addSpecular(const MtlMap& map, Material& m) {
 
 void ObjTextures::addMetallicRoughness(const MtlMaterial& from, Material& m) {
   const MtlMap &rough = from.mapPr, &metal = from.mapPm;
-  warnIfApart(from, rough, metal, "map_Pr and map_Pm");
+  const SharedCoordinates shared(from, rough, metal, "map_Pr and map_Pm");
   const FileImage roughFile(*folder_, beside_, rough), metalFile(*folder_, beside_, metal);
   std::vector<const ImageSource*> parts;
   std::string name;
-  if (rough) parts.push_back(&roughFile), name += "roughness " + nameOf(rough, gainOf(rough));
-  if (metal) parts.push_back(&metalFile), name += "metallic " + nameOf(metal, gainOf(metal));
-  const int image = images_.addMade(beside_ + name, false, parts, [&](auto decoded) {
+  if (rough)
+    parts.push_back(&roughFile),
+        name += " roughness " + nameOf(roughFile, rough, gainOf(rough), shared);
+  if (metal)
+    parts.push_back(&metalFile),
+        name += " metallic " + nameOf(metalFile, metal, gainOf(metal), shared);
+  const int image = images_.addMade(name, false, parts, [&](auto decoded) {
+    const auto scalar = [&](const TextureImage& part, const MtlMap& map) {
+      return shared.place(scalarOf(part, map.channel, gainOf(map)), map);
+    };
     std::optional<TextureImage> roughness, metallic;
-    if (rough) roughness = scalarOf(decoded[0], rough.channel, gainOf(rough));
-    if (metal) metallic = scalarOf(decoded.back(), metal.channel, gainOf(metal));
+    if (rough) roughness = scalar(decoded[0], rough);
+    if (metal) metallic = scalar(decoded.back(), metal);
     return metallicRoughness(roughness ? &*roughness : nullptr, metallic ? &*metallic : nullptr);
   });
-  m.metallicRoughnessMap = useOf(image, rough ? rough : metal);
+  m.metallicRoughnessMap = shared.use(image);
 }
 
 void ObjTextures::addNormals(const MtlMaterial& from, Material& m) {
@@ -175,8 +214,8 @@ void ObjTextures::addNormals(const MtlMaterial& from, Material& m) {
   const MtlMap& map = from.bump;
   const FileImage source(*folder_, beside_, map);
   const std::array<const ImageSource*, 1> parts = {&source};
-  const std::string name =
-      fmt::format("{} as bumps {} times {}", source.name, nameOf(map, gainOf(map)), map.bump);
+  const std::string name = fmt::format("{} as bumps times {}{}", nameOf(source, map, gainOf(map)),
+                                       map.bump, map.clamp ? " with edges" : "");
   const int image = images_.addMade(name, false, parts, [&](auto decoded) {
     if (isNormalMap(decoded[0])) return scaledNormals(decoded[0], map.bump);
     return normalsOfHeights(scalarOf(decoded[0], map.channel, gainOf(map)), map.bump,

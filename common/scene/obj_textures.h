@@ -8,8 +8,9 @@
 //   bump                  heights, or a normal map, which is what Blender writes so: which, its
 //                         texels tell; left out beside norm
 //   -o -s -clamp -mm -bm -imfchan  are followed; -clamp repeats the edge. v grows upwards in the
-//                         file, downwards here. Two maps that become one image have the
-//                         coordinates of the first, with a warning if the second's differ.
+//                         file, downwards here. Two maps that become one image are
+//                         looked up by what they share, or in a square that both repeat in (whole
+//                         -s, no -clamp), else by what the first says, with a warning.
 //
 // A name means a file beside the .mtl, else beside the .obj; where both fail, as with paths of
 // other machines, the name without its folders, in these two places; last, all that in any case.

@@ -110,6 +110,27 @@ TextureImage coveredBy(const TextureImage& colours, const TextureImage& coverage
   });
 }
 
+TextureImage asSeenBy(const TextureUse& use, const TextureImage& image) {
+  const auto side = [](float scale, int size) {
+    return std::max(1, static_cast<int>(std::abs(scale) * static_cast<float>(size)));
+  };
+  TextureImage seen;
+  seen.width = side(use.scale.x, image.width), seen.height = side(use.scale.y, image.height);
+  seen.channels = image.channels;
+  const auto channels = static_cast<size_t>(image.channels);
+  for (int y = 0; y < seen.height; ++y)
+    for (int x = 0; x < seen.width; ++x) {
+      const Vec2 uv = (Vec2(x, y) + 0.5f) / Vec2(seen.width, seen.height);
+      const Vec2 at = glm::fract(textureCoordinates(use, uv)) * Vec2(image.width, image.height);
+      const int column = std::min(static_cast<int>(at.x), image.width - 1);
+      const int row = std::min(static_cast<int>(at.y), image.height - 1);
+      const auto texel = image.texels.begin() +
+                         (static_cast<ptrdiff_t>(row) * image.width + column) * image.channels;
+      seen.texels.insert(seen.texels.end(), texel, texel + static_cast<ptrdiff_t>(channels));
+    }
+  return seen;
+}
+
 TextureImage metallicRoughness(const TextureImage* roughness, const TextureImage* metallic) {
   const auto side = [&](int TextureImage::*size) {
     return std::max(roughness ? roughness->*size : 1, metallic ? metallic->*size : 1);

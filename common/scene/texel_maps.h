@@ -27,6 +27,10 @@ TextureImage coloursOf(const TextureImage& image, char channel, Gain gain);
 // R, G, B of `colours`, alpha of `coverage`, which has one channel.
 TextureImage coveredBy(const TextureImage& colours, const TextureImage& coverage);
 
+// The image as a square of texture coordinates 0..1 shows it that looks it up by `use`, at the
+// nearest texels. It repeats as the image does if the scales are whole numbers.
+TextureImage asSeenBy(const TextureUse& use, const TextureImage& image);
+
 // G = roughness, B = metallic, of one channel each; null counts as 1.
 TextureImage metallicRoughness(const TextureImage* roughness, const TextureImage* metallic);
 

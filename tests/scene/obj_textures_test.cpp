@@ -33,6 +33,24 @@ TEST_F(ObjTextures, OpacityIsCoverage) {
   EXPECT_EQ(scene.images[0].texels, (Texels{1, 2, 3, 255, 1, 2, 3, 128, 4, 5, 6, 1, 4, 5, 6, 0}));
 }
 
+// The colour once, the mask twice over the square; then the mask a half further to the left.
+TEST_F(ObjTextures, MapsOfOtherCoordinatesShareASquare) {
+  picture("one.png", 1, 1, 3, {1, 2, 3});
+  picture("cut.png", 2, 1, 1, {255, 7});
+  const auto alphas = [&](const std::string& options) {
+    const Scene scene = square("Kd 1 1 1\nmap_Kd one.png\nmap_d " + options + " cut.png\n");
+    EXPECT_EQ(scene.materials[0].baseColorMap.scale, Vec2(1));
+    EXPECT_EQ(scene.materials[0].baseColorMap.offset, Vec2(0));
+    Texels alpha;
+    for (size_t i = 3; i < scene.images[0].texels.size(); i += 4)
+      alpha.push_back(scene.images[0].texels[i]);
+    return alpha;
+  };
+  EXPECT_EQ(alphas("-s 2 1"), (Texels{255, 7, 255, 7}));
+  EXPECT_EQ(alphas("-o 0.5"), (Texels{7, 255}));
+  EXPECT_EQ(alphas("-s -2 1"), (Texels{7, 255, 7, 255}));
+}
+
 TEST_F(ObjTextures, OpacityIsTheAlphaChannelIfThatSaysAnything) {
   picture("alpha.png", 2, 1, 4, {50, 60, 70, 0, 50, 60, 70, 77});
   picture("grey.png", 2, 1, 4, {51, 51, 51, 255, 200, 200, 200, 255});
@@ -89,7 +107,7 @@ TEST_F(ObjTextures, RoughnessAndMetallic) {
             (Texels{255, 32, 255, 255, 64, 255}));
   EXPECT_EQ(rough.materials[0].roughness, 0.5f);
   EXPECT_EQ(rough.materials[0].metallic, 0);
-  EXPECT_CONTAINS(logOf("map_Pr r.png\nmap_Pm -s 2 2 m.png\n"),
+  EXPECT_CONTAINS(logOf("map_Pr r.png\nmap_Pm -s 1.5 2 m.png\n"),
                   "map_Pr and map_Pm have different -s, -o or -clamp");
 }
 
