@@ -16,7 +16,7 @@ struct Option {
 };
 constexpr Option kOptions[] = {
     {"-s", 3, true},     {"-o", 3, true},       {"-t", 3, true},       {"-mm", 2, true},
-    {"-bm", 1, true},    {"-boost", 1, true},   {"-texres", 1, true},  {"-clamp", 1, false},
+    {"-bm", 1, true},    {"-boost", 1, true},   {"-texres", 1, false}, {"-clamp", 1, false},
     {"-cc", 1, false},   {"-blendu", 1, false}, {"-blendv", 1, false}, {"-imfchan", 1, false},
     {"-type", 1, false},
 };
@@ -36,7 +36,7 @@ class Reader {
 
  private:
   std::string_view readOptions(std::string_view rest);
-  std::string_view giveBackNumbers(std::string_view name);
+  std::string_view giveBackWords(std::string_view name);
   std::string_view cutTrailingOptions(std::string_view name);
   bool isFile(std::string_view name) const {
     return !trimmed(name).empty() && (*exists_)(fileName(name));
@@ -54,7 +54,7 @@ class Reader {
 
 MtlMap Reader::read(std::string_view rest) {
   std::string_view name = trimmed(readOptions(rest));
-  if (!isFile(name)) name = giveBackNumbers(name);
+  if (!isFile(name)) name = giveBackWords(name);
   if (!isFile(name)) name = cutTrailingOptions(name);
   if (const size_t comment = name.find(" #"); comment != name.npos && !isFile(name))
     name = name.substr(0, comment);
@@ -81,9 +81,9 @@ std::string_view Reader::readOptions(std::string_view rest) {
   }
 }
 
-// "-s 2 2 1 x.png" may name "x.png", "1 x.png" or "2 1 x.png".
-std::string_view Reader::giveBackNumbers(std::string_view name) {
-  if (last_ == nullptr || !last_->isNumber) return name;
+// "-s 2 2 1 x.png" may name "x.png", "1 x.png" or "2 1 x.png"; "-clamp x.png" names "x.png".
+std::string_view Reader::giveBackWords(std::string_view name) {
+  if (last_ == nullptr) return name;
   for (size_t kept = lastValues_.size(); kept-- > 0;) {
     const char* begin = lastValues_[kept].data();
     const std::string_view longer(begin, static_cast<size_t>(name.data() + name.size() - begin));

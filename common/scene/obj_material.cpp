@@ -2,6 +2,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/scene/file_search.h"
 #include "common/scene/mtl_translation.h"
 #include "common/scene/text_lines.h"
 

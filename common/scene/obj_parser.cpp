@@ -26,6 +26,7 @@ class Parser {
  private:
   void statement(std::string_view keyword, std::string_view rest);
   void vertex(std::string_view rest);
+  void colour(Vec3 srgb);
   void face(std::string_view rest);
   ObjCorner corner(std::string_view word) const;
   Numbers numbers(std::string_view rest, int least, const char* what) const;
@@ -81,12 +82,18 @@ void Parser::vertex(std::string_view rest) {
   const auto [v, count] = numbers(rest, 3, "a position");
   events_->addPosition(DVec3(v[0], v[1], v[2])), ++positions_;
   if (count == 3 || (count == 4 && v[3] == 1)) return;
-  if (count == 6 || count == 7) events_->colourPosition(Vec3(v[3], v[4], v[5]));
+  if (count == 6 || count == 7) colour(Vec3(v[3], v[4], v[5]));
   if (count == 6 || (count == 7 && v[6] == 1)) return;
   unread_.add(count == 7   ? "opacity of v"
               : count == 4 ? "weight of v"
                            : "further numbers of v",
               lines_.number());
+}
+
+void Parser::colour(Vec3 srgb) {
+  events_->colourPosition(srgb);
+  if (srgb != glm::clamp(srgb, 0.0f, 1.0f))
+    unread_.add("colours of v beyond 0 to 1", lines_.number());
 }
 
 Numbers Parser::numbers(std::string_view rest, int least, const char* what) const {

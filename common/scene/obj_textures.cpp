@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/scene/file_search.h"
+#include "common/scene/shared_coordinates.h"
 
 namespace ninefold {
 namespace {
@@ -28,49 +29,7 @@ struct FileImage : ImageSource {
   std::vector<unsigned char> content;
 };
 
-// v points up in the file: 1 - v' = 1 - (s v + o) = s (1 - v) + 1 - s - o.
-TextureUse useOf(int image, const MtlMap& map) {
-  TextureUse use;
-  use.image = image;
-  use.scale = map.scale;
-  use.offset = Vec2(map.offset.x, 1 - map.scale.y - map.offset.y);
-  if (map.clamp) use.wrapS = use.wrapT = Wrap::clamp;
-  return use;
-}
-
 Gain gainOf(const MtlMap& map) { return {map.base, map.gain}; }
-
-// How two maps, of which one may be absent, share an image.
-class SharedCoordinates {
- public:
-  SharedCoordinates(const MtlMaterial& material, const MtlMap& a, const MtlMap& b,
-                    const char* names)
-      : own_(a ? &a : &b), square_(false) {
-    const bool same = a.scale == b.scale && a.offset == b.offset && a.clamp == b.clamp;
-    if (!a || !b || same) return;
-    square_ = repeatsInSquare(a) && repeatsInSquare(b);
-    if (!square_)
-      warn("material '{}': {} have different -s, -o or -clamp: the second has those of the first",
-           material.name, names);
-  }
-  TextureUse use(int image) const { return square_ ? useOf(image, MtlMap()) : useOf(image, *own_); }
-  TextureImage place(const TextureImage& image, const MtlMap& map) const {
-    return square_ ? asSeenBy(useOf(0, map), image) : image;
-  }
-  std::string nameOf(const MtlMap& map) const {
-    if (!square_) return {};
-    return fmt::format(" at {} {} {} {}", map.scale.x, map.scale.y, map.offset.x, map.offset.y);
-  }
-
- private:
-  static bool repeatsInSquare(const MtlMap& map) {
-    constexpr float kMost = 16;  // images would become too large
-    const auto fits = [](float s) { return s == std::round(s) && s != 0 && std::abs(s) <= kMost; };
-    return !map.clamp && fits(map.scale.x) && fits(map.scale.y);
-  }
-  const MtlMap* own_;
-  bool square_;  // both are looked up once and for all, in the square that the coordinates span
-};
 
 // The name of an image: its file and what its texels are made with.
 std::string nameOf(const ImageSource& source, const MtlMap& map, Gain gain) {
@@ -106,20 +65,6 @@ SplitGain split(Gain gain, float limit) {
 }
 
 }  // namespace
-
-std::optional<std::string> findFile(const SceneFolder& folder, const std::string& beside,
-                                    const std::string& name) {
-  const std::string bare = name.substr(name.rfind('/') + 1);
-  const auto first = [&](const auto& find) -> std::optional<std::string> {
-    for (const std::string& path : {beside + name, name, beside + bare, bare}) try {
-        if (std::string file = find(path); !file.empty()) return file;
-      } catch (const Error&) {  // leads elsewhere: the next may not
-      }
-    return {};
-  };
-  const auto exact = first([&](const auto& p) { return folder.exists(p) ? p : std::string(); });
-  return exact ? exact : first([&](const auto& p) { return folder.spelled(p); });
-}
 
 void ObjTextures::addMaps(const MtlMaterial& from, const std::string& beside, Material& m) {
   beside_ = beside;
@@ -214,11 +159,12 @@ void ObjTextures::addNormals(const MtlMaterial& from, Material& m) {
   const MtlMap& map = from.bump;
   const FileImage source(*folder_, beside_, map);
   const std::array<const ImageSource*, 1> parts = {&source};
+  const float strength = std::clamp(map.bump, -1e4f, 1e4f);
   const std::string name = fmt::format("{} as bumps times {}{}", nameOf(source, map, gainOf(map)),
-                                       map.bump, map.clamp ? " with edges" : "");
+                                       strength, map.clamp ? " with edges" : "");
   const int image = images_.addMade(name, false, parts, [&](auto decoded) {
-    if (isNormalMap(decoded[0])) return scaledNormals(decoded[0], map.bump);
-    return normalsOfHeights(scalarOf(decoded[0], map.channel, gainOf(map)), map.bump,
+    if (isNormalMap(decoded[0])) return scaledNormals(decoded[0], strength);
+    return normalsOfHeights(scalarOf(decoded[0], map.channel, gainOf(map)), strength,
                             map.clamp ? Wrap::clamp : Wrap::repeat);
   });
   m.normalMap = useOf(image, map);

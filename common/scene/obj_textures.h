@@ -8,17 +8,13 @@
 //   bump                  heights, or a normal map, which is what Blender writes so: which, its
 //                         texels tell; left out beside norm
 //   -o -s -clamp -mm -bm -imfchan  are followed; -clamp repeats the edge. v grows upwards in the
-//                         file, downwards here. Two maps that become one image are
-//                         looked up by what they share, or in a square that both repeat in (whole
-//                         -s, no -clamp), else by what the first says, with a warning.
+//                         file, downwards here. Two that become one image:
+//                         shared_coordinates.h. Names of files: file_search.h.
 //
-// A name means a file beside the .mtl, else beside the .obj; where both fail, as with paths of
-// other machines, the name without its folders, in these two places; last, all that in any case.
 // Errors: throws Error (a missing or bad texture).
 // Threads: one. Refers to the folder and the images it fills.
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "common/scene/image_library.h"
@@ -27,11 +23,6 @@
 #include "common/scene/texel_maps.h"
 
 namespace ninefold {
-
-// Where a file that a scene names is, as a path from the scene's folder. `beside`: the folder of
-// the file that names it, empty or ending in '/'.
-std::optional<std::string> findFile(const SceneFolder& folder, const std::string& beside,
-                                    const std::string& name);
 
 class ObjTextures {
  public:

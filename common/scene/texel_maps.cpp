@@ -9,8 +9,9 @@
 namespace ninefold {
 namespace {
 
+// Not-a-number becomes 0.
 uint8_t code(float value) {
-  return static_cast<uint8_t>(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+  return static_cast<uint8_t>(std::lround(value > 0 ? 255 * std::min(value, 1.0f) : 0.0f));
 }
 
 // IEC 61966-2-1.

@@ -38,7 +38,7 @@ TEST_F(MtlMaps, TakesOneTwoOrThreeNumbers) {
 TEST_F(MtlMaps, SkipsWhatSaysNothingToUs) {
   for (const char* rest :
        {"-blendu on -blendv off -cc off -clamp off -texres 256 -boost 1.5 -type sphere t.png",
-        "-bm t.png", "-bm 0.5 t.png"}) {
+        "-bm t.png", "-bm 0.5 t.png", "-texres 256x256 t.png", "-clamp t.png"}) {
     EXPECT_EQ(nameOf(rest), "texture 't.png'") << rest;
     EXPECT_EQ(use(rest).wrapS, Wrap::repeat) << rest;
   }

@@ -40,6 +40,12 @@ TEST_F(ObjVertexColour, FourthNumberIsAWeightSeventhAnOpacity) {
   EXPECT_CONTAINS(logOfFile("v 0 0 0 1 0.5\n" + square), "further numbers of v (line 1)");
 }
 
+TEST_F(ObjVertexColour, BeyondTheirRangeAreClampedAndNamed) {
+  const std::string text = "v 0 0 0 255 -1 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\nf 1 2 3\n";
+  EXPECT_EQ(read(text).meshes[0].colors[0], Vec4(1, 0, 0, 1));
+  EXPECT_CONTAINS(logOfFile(text), "colours of v beyond 0 to 1 (line 1)");
+}
+
 TEST_F(ObjVertexColour, AreNotThereIfNobodyHasOne) {
   EXPECT_TRUE(read(kColoured + kSquare + "f 5 6 7\n").meshes[0].colors.empty());
 }
