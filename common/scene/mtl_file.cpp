@@ -41,8 +41,10 @@ constexpr MapKey kMaps[] = {
     {"bump", &MtlMaterial::bump},    {"map_bump", &MtlMaterial::bump},
 };
 
-// Exporters write these for every material; at zero they say nothing.
-constexpr const char* kNothingAtZero[] = {"ps", "pc", "pcr", "aniso", "anisor"};
+// Exporters write these for every material: at zero sheen, coat and anisotropy say nothing, and the
+// coat's roughness and the anisotropy's angle say nothing alone.
+constexpr const char* kNothingAtZero[] = {"ps", "pc", "aniso"};
+constexpr const char* kNothingAlone[] = {"pcr", "anisor"};
 
 template <typename Table>
 auto find(const Table& table, const std::string& key) {
@@ -50,6 +52,11 @@ auto find(const Table& table, const std::string& key) {
   const auto* found =
       std::find_if(std::begin(table), end, [&](const auto& e) { return key == e.key; });
   return found == end ? nullptr : found;
+}
+
+template <typename Keys>
+bool contains(const Keys& keys, const std::string& key) {
+  return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
 class Parser {
@@ -62,20 +69,22 @@ class Parser {
   void statement(std::string_view word, std::string_view rest, MtlMaterial& m);
   std::optional<std::vector<float>> numbers(std::string_view word, std::string_view rest);
   void colour(std::string_view word, std::string_view rest, std::optional<Vec3>& to);
-  void dissolveOr(std::string_view word, std::string_view rest, std::optional<float>& to);
+  void number(std::string_view word, std::string_view rest, std::optional<float>& to);
   void readMap(std::string_view word, std::string_view rest, MtlMap& to);
+  void leftOut(const std::string& why);
   void noteAmbient(const std::vector<MtlMaterial>& materials);
 
   TextLines lines_;
   const std::string* file_;
   const FileExists* exists_;
   UnreadKeys unread_;
+  int linesLeftOut_ = 0;
   std::map<size_t, uint64_t> ambientLines_;  // by number of materials so far
 };
 
 bool isAllZero(std::string_view rest) {
-  for (std::string_view word = nextWord(rest); !word.empty(); word = nextWord(rest))
-    if (finiteNumber(word) != 0.0) return false;
+  for (std::string_view w = nextWord(rest); !w.empty() && w[0] != '#'; w = nextWord(rest))
+    if (finiteNumber(w) != 0.0) return false;
   return true;
 }
 
@@ -84,13 +93,15 @@ std::vector<MtlMaterial> Parser::run() {
   for (std::string_view line; lines_.next(line);) {
     const std::string_view word = nextWord(line);
     if (word.empty() || word[0] == '#') continue;
-    if (lowerCase(word) == "newmtl")
+    if (lowerCase(word) == "newmtl") {
       materials.emplace_back().name = normalizedName(line);
-    else if (!materials.empty())
+    } else if (materials.empty()) {
+      unread_.add(std::string(word) + " before newmtl", lines_.number());
+    } else {
       statement(word, line, materials.back());
-    if (lowerCase(word) == "ka") ambientLines_[materials.size()] = lines_.number();
+      if (lowerCase(word) == "ka") ambientLines_[materials.size()] = lines_.number();
+    }
   }
-  ambientLines_.erase(0);
   noteAmbient(materials);
   unread_.report("material library '" + *file_ + "'");
   return materials;
@@ -99,11 +110,10 @@ std::vector<MtlMaterial> Parser::run() {
 void Parser::statement(std::string_view word, std::string_view rest, MtlMaterial& m) {
   const std::string key = lowerCase(word);
   if (const auto* c = find(kColours, key)) return colour(word, rest, m.*c->value);
-  if (const auto* n = find(kNumbers, key)) return dissolveOr(word, rest, m.*n->value);
+  if (const auto* n = find(kNumbers, key)) return number(word, rest, m.*n->value);
   if (const auto* map = find(kMaps, key)) return readMap(word, rest, m.*map->value);
-  const bool canBeNothing = std::find(std::begin(kNothingAtZero), std::end(kNothingAtZero), key) !=
-                            std::end(kNothingAtZero);
-  if (!canBeNothing || !isAllZero(rest)) unread_.add(word, lines_.number());
+  if (contains(kNothingAlone, key) || (contains(kNothingAtZero, key) && isAllZero(rest))) return;
+  unread_.add(word, lines_.number());
 }
 
 // Ambient light is what a renderer of indirect light computes. Only what reflects reads Ka, as how
@@ -123,17 +133,21 @@ std::optional<std::vector<float>> Parser::numbers(std::string_view word, std::st
   for (std::string_view w = nextWord(rest); !w.empty() && w[0] != '#'; w = nextWord(rest)) {
     const auto number = finiteNumber(w);
     if (!number) {
-      warn(
-          "material library '{}', line {}: '{}' of {} is not a finite number: the line is left out",
-          *file_, lines_.number(), w.substr(0, 40), word);
+      leftOut(fmt::format("'{}' of {} is not a finite number", w.substr(0, 40), word));
       return {};
     }
     values.push_back(static_cast<float>(*number));
   }
   if (!values.empty()) return values;
-  warn("material library '{}', line {}: {} has no number: the line is left out", *file_,
-       lines_.number(), word);
+  leftOut(fmt::format("{} has no number", word));
   return {};
+}
+
+// Says so of the first lines only: a damaged file has any number of them.
+void Parser::leftOut(const std::string& why) {
+  constexpr int kMost = 20;
+  if (linesLeftOut_++ < kMost)
+    warn("material library '{}', line {}: {}: the line is left out", *file_, lines_.number(), why);
 }
 
 void Parser::colour(std::string_view word, std::string_view rest, std::optional<Vec3>& to) {
@@ -145,20 +159,21 @@ void Parser::colour(std::string_view word, std::string_view rest, std::optional<
 
 // Of "d -halo 0.5" the number alone: that a surface is clearer where it is seen head-on is not
 // modelled.
-void Parser::dissolveOr(std::string_view word, std::string_view rest, std::optional<float>& to) {
+void Parser::number(std::string_view word, std::string_view rest, std::optional<float>& to) {
   std::string_view behind = rest;
   if (lowerCase(nextWord(behind)) == "-halo") {
     unread_.add("-halo", lines_.number());
     rest = behind;
   }
-  if (const auto values = numbers(word, rest)) to = (*values)[0];
+  const auto values = numbers(word, rest);
+  if (values) to = (*values)[0];
+  if (lowerCase(word) == "illum" && to && (*to < 0 || *to > 9))
+    unread_.add("illum beyond 0 to 9", lines_.number());
 }
 
 void Parser::readMap(std::string_view word, std::string_view rest, MtlMap& to) {
   to = parseMtlMap(rest, *exists_, unread_, lines_.number());
-  if (!to)
-    warn("material library '{}', line {}: {} has no file name: the line is left out", *file_,
-         lines_.number(), word);
+  if (!to) leftOut(fmt::format("{} has no file name", word));
 }
 
 }  // namespace

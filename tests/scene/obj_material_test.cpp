@@ -169,8 +169,13 @@ TEST_F(ObjMaterial, WhatIsNotModelledIsNamedInOneWarning) {
       logOf("Ka 1 1 1\nKd 1 1 1\nPr 0\nPs 0.5\nPc 0\naniso 0.1\nrefl x.png\ndisp y.png\nwrong 1\n"),
       "material library 'a.mtl': not modelled and left out: Ka (line 2), Ps (line 5), aniso (line "
       "7), disp (line 9), refl (line 8), wrong (line 10)\n");
-  const std::string nothing = logOf("Ka 0 0 0\nKd 1 1 1\nPs 0\nPc 0\nPcr 0\naniso 0\nanisor 0\n");
+  const std::string nothing =
+      logOf("Ka 0 0 0\nKd 1 1 1\nPs 0 # x\nPc 0\nPcr 0.03\naniso 0\nanisor 0\n");
   EXPECT_EQ(nothing.find("left out"), std::string::npos) << nothing;
+}
+
+TEST_F(ObjMaterial, IlluminationsThatAreNoneAreNamed) {
+  EXPECT_CONTAINS(logOf("Kd 1 1 1\nillum 10\n"), "illum beyond 0 to 9 (line 3)");
 }
 
 TEST_F(ObjMaterial, BadNumbersAreNamedWithFileAndLine) {
