@@ -76,9 +76,10 @@ bool Reading::isGlass() const {
   const bool refracts = illum == 6 || illum == 7;
   if (!refracts && illum != 4 && illum != 9) return false;
   if (opacity < 1) return lightPasses() || opacity == 0;
-  if (!refracts) return false;
+  const bool bends = from.Ni.value_or(1) > 1;
+  if (!refracts) return lightPasses() && isDark && bends && !opacityIsGiven;
   if (lightPasses()) return !opacityIsGiven || isDark;
-  return !from.Tf && !opacityIsGiven && isDark && from.Ni.value_or(1) > 1;
+  return !from.Tf && isDark && bends && !opacityIsGiven;
 }
 
 bool Reading::reflects() const {

@@ -12,8 +12,10 @@
 //   illum          o = 1                              o < 1
 //   0 1 2 10 none  ordinary                           ordinary, blended by o
 //   3 5 8          reflects (below)                   reflects, blended by o
-//   4 9            ordinary: exporters write 4, and   blended by o; glass if Tf is given and not
-//                  Tf 1 1 1, for anything             black, or if o = 0
+//   4 9            ordinary: Maya writes 4, and Tf    blended by o; glass if Tf is given and not
+//                  1 1 1, for anything; glass if Kd   black, or if o = 0
+//                  is black, Tf is not, Ni is above
+//                  1 and o is not given
 //   6              ordinary, or glass if it is told   as 4 9; not glass: reflects, blended by o
 //   7              ordinary, or glass if it is told   as 4 9
 //   told           Tf is given and not black, and o is not given or Kd is black; or o and Tf are

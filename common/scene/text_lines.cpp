@@ -10,10 +10,9 @@
 namespace ninefold {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-bool isBlank(char c) { return kBlanks.find(c) != kBlanks.npos; }
+bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 
 bool isUtf16(std::string_view text) {
   return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
@@ -53,9 +52,9 @@ bool TextLines::next(std::string_view& line) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  const size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return text.substr(0, 0);
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
+  while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+  while (!text.empty() && isBlank(text.front())) text.remove_prefix(1);
+  return text;
 }
 
 std::string_view nextWord(std::string_view& line) {

@@ -66,6 +66,7 @@ TEST_F(ObjMaterial, IsOpaqueUnderEveryIllumination) {
 // Maya writes every opaque surface so.
 TEST_F(ObjMaterial, Illum4WithAFilterIsOpaque) {
   expectOrdinary(material("illum 4\nKd 0.4 0.4 0.4\nKa 0 0 0\nTf 1 1 1\nNi 1\n"), Vec3(0.4f));
+  expectOrdinary(material("illum 4\nKd 0 0 0\nKa 0 0 0\nTf 1 1 1\nNi 1\n"), Vec3(0));
 }
 
 // Blender and MeshLab: opacity, whatever the model. Blender writes 9 for it, 6 for a metal.
