@@ -91,7 +91,10 @@ TEST(VertexColor, AlphaCutsHolesIntoALamp) {
     lamp.alphaMode = AlphaMode::mask, lamp.alphaCutoff = 0.5f;
     Scene scene = square(lamp, everywhere(Vec4(1, 1, 1, alpha)));
     scene.environment = Radiance(0);
-    EXPECT_EQ(Emitters(scene, Radiance(0)).empty(), alpha < 0.5f);
+    const Emitters emitters(scene, Radiance(0));
+    const Radiance shown = emitters.pointAt(0, Vec2(0.3f)).radiance;
+    EXPECT_EQ(shown, Radiance(alpha < 0.5f ? 0.0f : 3.0f));
+    EXPECT_EQ(isBlack(emitters[0].flux), alpha < 0.5f);
   }
 }
 
