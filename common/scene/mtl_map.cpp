@@ -49,15 +49,14 @@ class Reader {
   uint64_t line_;
   MtlMap map_;
   const Option* last_ = nullptr;              // the option before the name
-  std::vector<std::string_view> lastValues_;  // and its numbers
+  std::vector<std::string_view> lastValues_;  // and its words
 };
 
 MtlMap Reader::read(std::string_view rest) {
   std::string_view name = trimmed(readOptions(rest));
   if (!isFile(name)) name = giveBackWords(name);
+  if (!isFile(name)) name = trimmed(name.substr(0, name.find(" #")));
   if (!isFile(name)) name = cutTrailingOptions(name);
-  if (const size_t comment = name.find(" #"); comment != name.npos && !isFile(name))
-    name = name.substr(0, comment);
   map_.file = fileName(name);
   return map_;
 }
@@ -97,12 +96,12 @@ std::string_view Reader::giveBackWords(std::string_view name) {
 
 // "x.png -s 2 2": from an option's word on, if nothing but options is behind it.
 std::string_view Reader::cutTrailingOptions(std::string_view name) {
-  for (size_t at = name.find(" -"); at != name.npos; at = name.find(" -", at + 1)) {
-    std::string_view tail = name.substr(at + 1);
-    if (findOption(nextWord(tail)) == nullptr) continue;
+  for (size_t at = name.find('-', 1); at != name.npos; at = name.find('-', at + 1)) {
+    std::string_view tail = name.substr(at);
+    if (name[at - 1] > ' ' || findOption(nextWord(tail)) == nullptr) continue;
     Reader behind(*exists_, *unread_, line_);
     behind.map_ = map_;
-    if (!trimmed(behind.readOptions(name.substr(at + 1))).empty()) continue;
+    if (!trimmed(behind.readOptions(name.substr(at))).empty()) continue;
     map_ = behind.map_;
     return trimmed(name.substr(0, at));
   }

@@ -48,6 +48,7 @@ TEST_F(MtlMaps, SkipsWhatSaysNothingToUs) {
 
 TEST_F(MtlMaps, OptionsMayStandBehindTheName) {
   EXPECT_EQ(use("t.png -s 2 3 1").scale, Vec2(2, 3));
+  EXPECT_EQ(use("t.png\t-s 2 3 # tiles").scale, Vec2(2, 3));
   EXPECT_EQ(use("-o 1 1 t a.png -s 2 3 -clamp on").scale, Vec2(2, 3));
   EXPECT_EQ(use("-o 0.5 1 t a.png -s 2 3 -clamp on").offset, Vec2(0.5f, 1 - 3 - 1));
 }
