@@ -27,7 +27,7 @@ class Program {
   Program(EventLoop& loop, const Options& options, msg::Hello hello, std::shared_ptr<const Key> key,
           std::optional<BlobCache> cache);
 
-  // Until the session ends; the exit status. Prints the last line.
+  // Until the session ends; the exit status. Prints the last line. Throws Error if a recording cannot be kept.
   int run();
 
  private:

@@ -37,6 +37,9 @@ struct Endpoint {
 };
 // "host:port", "1.2.3.4:4700", "[::1]:4700"; throws Error naming `flag`.
 Endpoint parseEndpoint(std::string_view text, std::string_view flag);
+// The other way round.
+std::string addressText(const Endpoint& endpoint);
+bool isLoopback(const std::string& host);
 
 struct ConnectionOptions {
   Duration handshake =
