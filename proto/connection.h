@@ -101,7 +101,7 @@ class Listener {
 };
 
 enum class ConnectProblem : uint8_t {
-  badAddress,   // the name cannot be resolved
+  badAddress,   // the name cannot be resolved, yet
   unreachable,  // no route, network down
   refused,      // nobody listens there
   timedOut,

@@ -38,6 +38,13 @@ fs::path targetOf(const fs::path& name) {
   return target;
 }
 
+// A file that was mounted by itself (into a container, say) cannot be replaced by a rename.
+bool isMount(const fs::path& name) {
+  struct statx facts {};
+  return ::statx(AT_FDCWD, name.c_str(), 0, STATX_TYPE, &facts) == 0 &&
+         (facts.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
+}
+
 void checkFolder(const fs::path& name, const fs::path& folder) {
   struct stat facts {};
   if (::stat(folder.c_str(), &facts) != 0) {
@@ -63,6 +70,9 @@ void checkOldFile(const fs::path& name, const FileRights& rights) {
   if (!S_ISREG(facts.st_mode))
     fail("cannot write {}: it is {}, no regular file; choose another name", name.string(),
          kindOf(facts.st_mode));
+  if (isMount(name))
+    fail("cannot write {}: the file is mounted by itself and cannot be replaced; mount its folder",
+         name.string());
   if (::faccessat(AT_FDCWD, name.c_str(), W_OK, AT_EACCESS) != 0)
     fail("cannot write {}: it is write-protected ({}); choose another name", name.string(),
          ::strerror(errno));

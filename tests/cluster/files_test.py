@@ -130,6 +130,16 @@ class Files(ClusterTest):
             (disk / "rest").unlink()
         self.assertEqual(self.parts(disk), [])
 
+    @unittest.skipUnless(os.geteuid() == 0, "needs root, to mount a file")
+    def test_a_file_that_is_mounted_is_refused_before_the_scene_is_read(self):
+        for name in ("inside.png", "outside.png"):
+            (self.folder / name).write_text("old")
+        mount = ["mount", "--bind", self.folder / "outside.png", self.folder / "inside.png"]
+        if subprocess.run(mount, capture_output=True).returncode:
+            self.skipTest("nothing can be mounted here")
+        self.addCleanup(subprocess.run, ["umount", "-l", self.folder / "inside.png"])
+        self.refused(self.run_master("--output", "inside.png"), "mounted by itself")
+
     def test_keys_are_new_files_only(self):
         self.new_key()
         key = (self.folder / "cluster.key").read_bytes()
