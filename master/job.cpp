@@ -10,8 +10,9 @@ namespace {
 uint8_t extraPlanes(const Options& options, const Needs& needs) {
   if (!options.aovs) return planesOf(options.view);
   const bool photons = needs.specular() && options.settings.caustics != Caustics::off;
-  return static_cast<uint8_t>(kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane |
-                              (photons ? kCausticPlane : 0) | planesOf(options.view));
+  return static_cast<uint8_t>(
+      kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | (photons ? kCausticPlane : 0) |
+      (isUnfiltered(options.settings.method) ? kIrradiancePlane : 0) | planesOf(options.view));
 }
 
 std::string hashOf(const std::vector<Blob>& blobs) {

@@ -31,7 +31,7 @@ namespace ninefold {
 
 // Raised whenever the meaning of any message changes. One cluster runs one release: there is no
 // range.
-inline constexpr uint32_t kProtocol = 1;
+inline constexpr uint32_t kProtocol = 2;
 
 // Limits on what a message may carry; senders keep to them, receivers enforce them.
 inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text
@@ -42,7 +42,7 @@ inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that ta
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
 inline constexpr float kMostExposure = 50;               // [EV], and its negative
-inline constexpr uint8_t kAllExtraPlanes = 31;           // every bit of ExtraPlane
+inline constexpr uint8_t kAllExtraPlanes = 63;           // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.
 inline constexpr Duration kResultsTogether = milliseconds(4);

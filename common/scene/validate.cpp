@@ -33,6 +33,9 @@ void checkMesh(const Scene& scene, const Mesh& mesh, const std::string& what) {
   checkPerVertex(mesh.uv0, mesh, what, "texture coordinates");
   checkPerVertex(mesh.uv1, mesh, what, "texture coordinates");
   checkPerVertex(mesh.tangents, mesh, what, "tangents");
+  checkPerVertex(mesh.colors, mesh, what, "colours");
+  for (const Vec4& c : mesh.colors)
+    if (glm::clamp(c, 0.0f, 1.0f) != c) fail("{}: one of its colours is outside of 0 to 1", what);
   for (const Vec3& n : mesh.normals)
     if (!isUnit(n)) fail("{}: one of its normals is not of unit length", what);
   for (const Triangle& t : mesh.triangles)
