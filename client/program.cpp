@@ -54,8 +54,17 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
 int Program::run() {
   tick();
   loop_.run();
-  if (recorder_) recorder_->finish();
+  keepRecording();
   return status_;
+}
+
+void Program::keepRecording() {
+  try {
+    if (recorder_) recorder_->finish();
+  } catch (const Error& error) {
+    log("{}", error.what());
+    status_ = 1;
+  }
 }
 
 void Program::tick() {

@@ -27,7 +27,7 @@ class Program {
   Program(EventLoop& loop, const Options& options, msg::Hello hello, std::shared_ptr<const Key> key,
           std::optional<BlobCache> cache);
 
-  // Until the session ends; the exit status. Prints the last line. Throws Error if a recording cannot be kept.
+  // Until the session ends; the exit status. Prints the last line.
   int run();
 
  private:
@@ -58,6 +58,7 @@ class Program {
   };
   void runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread);
   void handOver();
+  void keepRecording();
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.
   template <typename Event>

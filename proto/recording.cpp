@@ -6,7 +6,8 @@
 
 namespace ninefold {
 
-Recorder::Recorder(const std::filesystem::path& file, const msg::Hello& hello) : file_(file) {
+Recorder::Recorder(const std::filesystem::path& file, const msg::Hello& hello)
+    : file_(std::make_unique<WrittenFile>(file)) {
   write(hello);
 }
 
@@ -16,14 +17,14 @@ void Recorder::write(Message message) {
   const Frame frame = encodeMessage(std::move(message));
   const auto head = frameHead(frame);
   const std::lock_guard lock(mutex_);
-  if (finished_) return;
+  if (!file_) return;
   for (const ByteView part : {ByteView(head), viewOf(frame.header), ByteView(frame.payload)})
-    file_.write(textOf(part));
+    file_->write(textOf(part));
 }
 
 void Recorder::finish() {
   const std::lock_guard lock(mutex_);
-  if (!std::exchange(finished_, true)) file_.publish();
+  if (const auto file = std::move(file_)) file->publish();
 }
 
 std::vector<msg::Result> readRecording(const std::filesystem::path& file) {

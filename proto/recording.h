@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -25,8 +26,7 @@ class Recorder {
   void write(Message message);
 
   std::mutex mutex_;
-  WrittenFile file_;       // guarded by mutex_
-  bool finished_ = false;  // guarded by mutex_
+  std::unique_ptr<WrittenFile> file_;  // guarded by mutex_; null once finished
 };
 
 std::vector<msg::Result> readRecording(const std::filesystem::path& file);

@@ -154,7 +154,7 @@ void WrittenFile::writeAt(uint64_t offset, std::string_view bytes) {
   while (!bytes.empty()) {
     const ssize_t n = ::pwrite(fd_.get(), bytes.data(), bytes.size(), static_cast<off_t>(offset));
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) failWith(n < 0 ? errno : ENOSPC);
+    if (n <= 0) failWith(failure_ = n < 0 ? errno : ENOSPC);
     offset += static_cast<uint64_t>(n);
     bytes.remove_prefix(static_cast<size_t>(n));
     size_ = std::max(size_, offset);
@@ -162,6 +162,7 @@ void WrittenFile::writeAt(uint64_t offset, std::string_view bytes) {
 }
 
 void WrittenFile::publish() {
+  if (failure_ != 0) failWith(failure_);
   // EINVAL: a file system that cannot.
   if (::fsync(fd_.get()) != 0 && errno != EINVAL) failWith(errno);
   struct stat facts {};

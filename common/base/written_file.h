@@ -37,7 +37,7 @@ class WrittenFile {
   void write(std::string_view bytes) { writeAt(size_, bytes); }  // at the end
   void writeAt(uint64_t offset, std::string_view bytes);
   uint64_t size() const { return size_; }
-  // Last. Before it nothing is to be seen under the name.
+  // Last. Before it nothing is to be seen under the name. Fails again if a write has failed.
   void publish();
 
  private:
@@ -50,6 +50,7 @@ class WrittenFile {
   std::filesystem::path beside_;  // empty: nothing is there
   UniqueFd fd_;
   uint64_t size_ = 0;
+  int failure_ = 0;  // errno of the first write that failed
 };
 
 // Throws if the file could not be written. Call it before the work that leads to the file.

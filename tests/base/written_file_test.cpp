@@ -188,6 +188,15 @@ TEST_F(WrittenFiles, ABytesLimitLeavesTheOldFile) {
   EXPECT_EQ(entries(), 2u);
 }
 
+TEST_F(WrittenFiles, AfterAFailedWriteNothingIsPublished) {
+  folder_.write("a", "old");
+  WrittenFile file(path("a"));
+  file.write("whole");
+  EXPECT_NE(complaint([&] { file.writeAt(uint64_t{1} << 63, "too far"); }), "");
+  EXPECT_NE(complaint([&] { file.publish(); }), "");
+  EXPECT_EQ(contentOf(path("a")), "old");
+}
+
 TEST_F(WrittenFiles, BytesThatDidNotArriveAreNoticed) {
   folder_.write("a", "old");
   const std::string line = complaint([&] {

@@ -148,12 +148,12 @@ class Files(ClusterTest):
             self.refused(self.start(BIN / "ninefold-master", "--new-key", name), word)
         self.assertEqual((self.folder / "cluster.key").read_bytes(), key)
 
-    def remote(self, *options):
+    def remote(self, *options, **more):
         """A master without clients, and one that is given these options."""
         self.new_key() if not (self.folder / "cluster.key").exists() else None
         master = self.master("--local-clients", 0, "--key-file", "cluster.key", frames=1)
         client = self.start(BIN / "ninefold-client", "--master", self.address_of(master), "--key-file", "cluster.key",
-                            "--threads", 1, *options)
+                            "--threads", 1, *options, **more)
         return master, client
 
     def test_a_cache_that_cannot_be_is_told_once_and_harms_nothing(self):
@@ -195,6 +195,15 @@ class Files(ClusterTest):
         self.finish(master)
         self.assertEqual(client.ends(), 0, client.text)
         self.assertGreater((self.folder / "r").stat().st_size, 1000)
+        self.assertEqual(self.parts(), [])
+
+    def test_a_recording_on_a_full_disk_leaves_the_old_one_and_status_1(self):
+        (self.folder / "r").write_text("old")
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+        _, client = self.remote("--cache", "none", "--record", "r", preexec_fn=limit)
+        self.assertEqual(client.ends(), 1, client.text)
+        self.assertIn("cannot write r: File too large", client.lines[-1])
+        self.assertEqual((self.folder / "r").read_text(), "old")
         self.assertEqual(self.parts(), [])
 
 
