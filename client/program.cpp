@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "common/base/log.h"
+#include "common/base/process.h"
 
 namespace ninefold::client {
 namespace {
@@ -26,8 +27,7 @@ SessionOptions sessionOptions(const Options& options, msg::Hello hello) {
 }
 
 bool isFinal(ConnectProblem problem) {
-  return problem == ConnectProblem::wrongKey || problem == ConnectProblem::badAddress ||
-         problem == ConnectProblem::notNinefold;
+  return problem == ConnectProblem::wrongKey || problem == ConnectProblem::notNinefold;
 }
 
 }  // namespace
@@ -43,9 +43,9 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
       threads_(options.threads),
       builder_(std::move(cache), options.isa, options.threads, answers()),
       workers_(options.threads, kTasksPerThread * static_cast<size_t>(options.threads)) {
-  loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
-    // Ctrl-C at the master's terminal reaches its local clients too, but is the master's to handle.
-    if (local_ && signal == SIGINT) return;
+  loop_.onSignal(endingSignals(), [this](int signal) {
+    // What happens to the master's terminal reaches its local clients too, but is the master's to handle.
+    if (local_ && signal != SIGTERM) return;
     session_.stop("stopped by a signal");
     carryOut();
   });
@@ -54,7 +54,17 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
 int Program::run() {
   tick();
   loop_.run();
+  keepRecording();
   return status_;
+}
+
+void Program::keepRecording() {
+  try {
+    if (recorder_) recorder_->finish();
+  } catch (const Error& error) {
+    log("{}", error.what());
+    status_ = 1;
+  }
 }
 
 void Program::tick() {

@@ -58,6 +58,7 @@ class Program {
   };
   void runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread);
   void handOver();
+  void keepRecording();
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.
   template <typename Event>

@@ -13,9 +13,7 @@ constexpr Duration kTick = milliseconds(20);
 constexpr Duration kTimeToEnd = milliseconds(900);
 
 LocalClients::Plan withMaster(LocalClients::Plan plan, const Endpoint& master) {
-  const bool v6 = master.host.find(':') != std::string::npos;
-  plan.arguments.push_back(v6 ? fmt::format("--master=[{}]:{}", master.host, master.port)
-                              : fmt::format("--master={}:{}", master.host, master.port));
+  plan.arguments.push_back("--master=" + addressText(master));
   return plan;
 }
 
@@ -43,10 +41,13 @@ void Cluster::start() {
 }
 
 void Cluster::watchSignals() {
-  loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
+  loop_.onSignal(endingSignals(), [this](int signal) {
     int none = 0;
+    signal_.compare_exchange_strong(none, signal);
+    // A terminal that closes sends more than one; only who asks twice is in a hurry.
+    const bool isAsked = signal == SIGINT || signal == SIGTERM;
     // Local clients follow: the kernel kills them with us.
-    if (!signal_.compare_exchange_strong(none, signal)) std::_Exit(128 + signal);
+    if (isAsked && ++asked_ > 1) std::_Exit(128 + signal);
   });
 }
 

@@ -42,7 +42,7 @@ class Cluster {
   // A tile was placed, or could not be.
   void decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed);
 
-  // The first SIGINT or SIGTERM, 0 if none came. A second one ends the program at once.
+  // The first of endingSignals(), 0 if none came. A second SIGINT or SIGTERM ends the program at once.
   int signal() const { return signal_; }
   // Why the run cannot go on, if it cannot.
   std::optional<std::string> failure() const;
@@ -75,6 +75,7 @@ class Cluster {
   std::unique_ptr<EventLoop::Timer> timer_;
   std::optional<Time> endBy_;  // set by stop
   std::atomic<int> signal_ = 0;
+  int asked_ = 0;  // to end, by people; the loop's thread
 
   mutable std::mutex mutex_;
   std::optional<std::string> failure_;  // guarded by mutex_

@@ -8,6 +8,7 @@
 
 #include "common/scene/camera_choice.h"
 #include "master/options_flags.h"
+#include "master/output_files.h"
 #include "proto/connection.h"
 #include "proto/tile_codec.h"
 
@@ -95,10 +96,6 @@ void readPicture(const RawOptions& raw, Options& o) {
   o.aovs = raw.isOn("aovs");
 }
 
-bool isLoopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
-}
-
 void readCluster(const RawOptions& raw, int cores, Options& o) {
   o.localClients = std::max(1, cores);
   assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
@@ -183,7 +180,7 @@ void readFiles(const RawOptions& raw, Options& o) {
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !o.window)
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
-  if (o.animate && !o.window && (!o.output || o.output->find('#') == std::string::npos))
+  if (o.animate && !o.window && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;
   const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
@@ -204,7 +201,8 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   Options o;
   o.help = raw.isOn("help");
   o.newKey = raw.text("new-key");
-  if (o.help || o.newKey) return o;
+  o.version = raw.isOn("version");
+  if (o.help || o.version || o.newKey) return o;
 
   o.scene = raw.text("scene").value_or("");
   if (o.scene.empty()) failUsage("no scene is given; see ninefold-master --help");

@@ -28,6 +28,7 @@ enum class Preset : uint8_t { interactive, final, paper };
 
 struct Options {
   bool help = false;                  // print helpText() and end; nothing else counts
+  bool version = false;               // print the release and end; nothing else counts
   std::optional<std::string> newKey;  // make this key file and end; nothing else counts
 
   std::string scene;   // file

@@ -100,8 +100,9 @@ constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
-    {"stats", "FILE", "what happened, as JSON"},
-    {"help", nullptr, "print this and end"},
+    {"stats", "FILE", "what happened, as JSON; - is standard output"},
+    {"help", nullptr, "print this and end, as -h does"},
+    {"version", nullptr, "print the release and end"},
 };
 
 template <size_t n>
@@ -123,6 +124,11 @@ po::options_description allFlags() {
   return all;
 }
 
+// The only short flag: a number with a minus is a value.
+std::pair<std::string, std::string> readShortHelp(const std::string& word) {
+  return {word == "-h" ? "help" : "", ""};
+}
+
 po::variables_map parseFlags(int argc, const char* const* argv,
                              const po::options_description& all) {
   using namespace po::command_line_style;
@@ -134,6 +140,7 @@ po::variables_map parseFlags(int argc, const char* const* argv,
   po::store(po::command_line_parser(argc, argv)
                 .options(known)
                 .positional(positional)
+                .extra_parser(readShortHelp)
                 .style(allow_long | long_allow_adjacent | long_allow_next)
                 .run(),
             values);
@@ -174,7 +181,7 @@ RawOptions::RawOptions(int argc, const char* const* argv, const Variable& variab
   }
   for (const auto& option : all.options()) {
     const std::string& flag = option->long_name();
-    if (flag == "help" || flag == "new-key" || has(flag)) continue;
+    if (flag == "help" || flag == "version" || flag == "new-key" || has(flag)) continue;
     if (const auto value = variable(variableOfFlag(flag))) values_[flag] = *value;
   }
 }
@@ -218,9 +225,11 @@ std::string helpText() {
          "\n"
       << allFlags()
       << "\n"
-         "Each flag but --help and --new-key may also be given by the environment:\n"
+         "Each flag but --help, --version and --new-key may also be given by the environment:\n"
          "NINEFOLD_LOCAL_CLIENTS=4 for --local-clients 4, NINEFOLD_AOVS=1 for --aovs. Flags win.\n"
-         "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage.\n";
+         "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage,\n"
+         "128 + N ended by signal N, with the picture so far written: 130 Ctrl-C, 143 SIGTERM,\n"
+         "129 SIGHUP, 141 SIGPIPE.\n";
   return text.str();
 }
 

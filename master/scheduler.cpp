@@ -131,7 +131,7 @@ Verdict Scheduler::verdictOnClosed(uint32_t frame) const {
 
 Verdict Scheduler::verdictOn(ClientId id, const TaskId& task) const {
   const SchedulerClient* client = pool_.find(id);
-  if (client == nullptr) return Verdict::unknown;
+  if (client == nullptr) return past_.contains(id) ? Verdict::stale : Verdict::unknown;
   const SchedulerFrame* frame = findFrame(task.frame);
   if (frame == nullptr) return verdictOnClosed(task.frame);
   const int index = frame->indexOf(task);
@@ -146,9 +146,10 @@ Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, Duration cost,
   counts_.droppedUnknown += verdict == Verdict::unknown;
   counts_.droppedDuplicate += verdict == Verdict::duplicate;
   counts_.droppedStale += verdict == Verdict::stale;
-  if (verdict == Verdict::unknown) return verdict;
+  SchedulerClient* const known = pool_.find(id);
+  if (verdict == Verdict::unknown || known == nullptr) return verdict;
 
-  SchedulerClient& client = *pool_.find(id);
+  SchedulerClient& client = *known;
   client.answered(task);
   trustAgain(client);
   client.gaveResult(cost, isAccepted(verdict), now);

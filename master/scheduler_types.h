@@ -53,7 +53,7 @@ enum class Verdict : uint8_t {
   accepted,
   completedFrame,  // accepted, and it was the frame's last
   duplicate,       // another client was faster
-  stale,           // its frame was superseded
+  stale,           // its frame was superseded, or its client has left
   unknown,         // never asked of this client, or no such task
 };
 inline bool isAccepted(Verdict v) { return v == Verdict::accepted || v == Verdict::completedFrame; }

@@ -7,22 +7,18 @@
 #include "common/base/log.h"
 #include "common/image/image_file.h"
 #include "master/cluster_setup.h"
+#include "master/invitation.h"
 #include "master/latency_log.h"
 #include "master/live_run.h"
+#include "master/output_files.h"
 #include "master/script_player.h"
+#include "master/stats.h"
 
 namespace ninefold {
 namespace {
 
 constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
 constexpr Duration kStep = milliseconds(4);   // between two looks at the script
-
-// out.####.png with a number.
-std::string numbered(const std::string& pattern, int number) {
-  const size_t from = pattern.find('#'), end = pattern.find_first_not_of('#', from);
-  const size_t digits = end - from;
-  return pattern.substr(0, from) + fmt::format("{:0{}}", number, digits) + pattern.substr(end);
-}
 
 // Codes are made as for a window, so that latencies are those that a person at one would feel.
 LiveRun::Pace paceOf(const Options& options, const Script& script) {
@@ -44,7 +40,7 @@ class ScriptRun {
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
-    if (script().rate && (!options_.output || options_.output->find('#') == std::string::npos))
+    if (script().rate && (!options_.output || !isNumbered(*options_.output)))
       fail("a script with a rate needs --output out.####.png for its pictures");
     live_.setView(options_.view);
     moveTo(0);
@@ -111,13 +107,19 @@ class ScriptRun {
     }
     moveTo(script().seconds);
     const LiveState last = live_.state();
-    const auto rest = waitFor(latest_, [&](const Shown& s) {
+    waitFor(latest_, [&](const Shown& s) {
       return s.state == last && !s.frame.moving && s.frames >= script().frames;
     });
-    if (rest == nullptr) return;
-    if (options_.output) write(*options_.output, *rest);
+    writeLatest();
+  }
+
+  // What there is, if the script was ended before its time.
+  void writeLatest() {
     const std::lock_guard lock(mutex_);
-    if (options_.stats) log_.write(*options_.stats, options_.scene);
+    if (latest_ == nullptr)
+      return warn("stopped before any picture was complete: nothing is written");
+    if (options_.output) write(*options_.output, *latest_);
+    if (options_.stats) writeStats(*options_.stats, log_.json(options_.scene));
   }
 
   void write(const std::string& path, const Shown& shown) const {
@@ -140,7 +142,8 @@ class ScriptRun {
 }  // namespace
 
 int runScript(const Options& options) {
-  if (options.output) checkOutputPath(*options.output);
+  checkGuests(options);
+  checkFiles(options);
   ScriptRun run(options);
   return run.run();
 }

@@ -1,14 +1,11 @@
 #include "master/stats.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/base/error.h"
+#include "common/base/standard_streams.h"
+#include "common/base/written_file.h"
 
 namespace ninefold {
 namespace {
@@ -152,15 +149,9 @@ std::string toJson(const RunStats& stats) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void writeStats(const std::string& path, const RunStats& stats) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  file << toJson(stats);
-  file.close();
-  if (file && std::rename(part.c_str(), path.c_str()) == 0) return;
-  const int reason = errno;
-  std::remove(part.c_str());
-  fail("--stats {}: cannot write it: {}", path, std::strerror(reason));
+void writeStats(const std::string& path, const std::string& json) {
+  if (path == kStandardOutput) return writeOutput(json);
+  writeFile(path, json);
 }
 
 }  // namespace ninefold

@@ -49,7 +49,9 @@ struct RunStats {
 // The object as text, keys in the order of the interface.
 std::string toJson(const RunStats& stats);
 
-// Written beside `path` and renamed: it is whole or not there.
-void writeStats(const std::string& path, const RunStats& stats);
+// --stats of that name is standard output.
+inline constexpr const char* kStandardOutput = "-";
+// A file is whole or as it was before (written_file.h).
+void writeStats(const std::string& path, const std::string& json);
 
 }  // namespace ninefold

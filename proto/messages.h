@@ -18,6 +18,7 @@
 
 #include "common/base/clock.h"
 #include "common/base/counters.h"
+#include "common/base/release.h"
 #include "common/image/layers.h"
 #include "common/image/surface_test.h"
 #include "common/scene/edit.h"
@@ -31,8 +32,6 @@ namespace ninefold {
 // Raised whenever the meaning of any message changes. One cluster runs one release: there is no
 // range.
 inline constexpr uint32_t kProtocol = 2;
-// The release of this build, e.g. "0.1.0".
-std::string releaseName();
 
 // Limits on what a message may carry; senders keep to them, receivers enforce them.
 inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text

@@ -82,6 +82,14 @@ void ChildProcess::terminate() const {
   if (pid_ != 0) ::kill(pid_, SIGTERM);
 }
 
+std::vector<int> endingSignals() {
+  std::vector<int> signals{SIGINT, SIGTERM, SIGPIPE};
+  struct sigaction hangUp {};
+  ::sigaction(SIGHUP, nullptr, &hangUp);
+  if (hangUp.sa_handler != SIG_IGN) signals.push_back(SIGHUP);
+  return signals;
+}
+
 std::filesystem::path programBesideUs(const std::string& name) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);

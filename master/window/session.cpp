@@ -3,12 +3,14 @@
 #include <algorithm>
 
 #include "common/base/log.h"
-#include "common/image/image_file.h"
 #include "common/scene/camera_choice.h"
 #include "common/scene/gltf_writer.h"
 #include "master/cluster_setup.h"
 #include "master/headless.h"
+#include "master/invitation.h"
+#include "master/output_files.h"
 #include "master/script_run.h"
+#include "master/stats.h"
 
 namespace ninefold {
 namespace {
@@ -245,16 +247,20 @@ void WindowSession::writeLast() {
     log("{} frame(s) in {}", board_.shown()->frames, *options_.output);
   }
   const std::lock_guard lock(latencyMutex_);
-  if (options_.stats) latency_.write(*options_.stats, options_.scene);
+  if (options_.stats) writeStats(*options_.stats, latency_.json(options_.scene));
 }
 
 int runWindow(const Options& options) {
-  if (options.output) checkOutputPath(*options.output);
+  checkGuests(options);
+  checkFiles(options);
   std::optional<Window> window;
   try {
     const int height = std::max(480, options.settings.height);
     window.emplace("ninefold", std::max(720, options.settings.width), height);
   } catch (const NoDisplay& none) {
+    if (!options.output)
+      fail("{}; start from a desktop, or give --output FILE to render without a window",
+           none.what());
     warn("{}; going on without a window", none.what());
     Options headless = options;
     headless.window = false;

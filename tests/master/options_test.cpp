@@ -290,6 +290,14 @@ TEST(Options, HelpNamesEveryFlagOfTheInterface) {
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
 }
 
+TEST(Options, ShortHelpIsHelpAndANegativeNumberIsAValue) {
+  EXPECT_TRUE(parse("-h", {}, false).help);
+  EXPECT_TRUE(parse("--version", {}, false).version);
+  EXPECT_FLOAT_EQ(parse("a.glb --exposure -5").exposure, -5);
+  for (const char* status : {"0 done", "1 a failure", "2 wrong usage", "143 SIGTERM", "129 SIGHUP"})
+    EXPECT_NE(helpText().find(status), std::string::npos) << status;
+}
+
 TEST(Options, SettingsTakeCameraAndLightFromTheScene) {
   Scene scene;
   scene.cameras = {Camera{.name = "door"}, Camera{.name = "desk", .verticalFov = 0.5f}};

@@ -104,10 +104,10 @@ TEST(Stats, AFileIsWholeOrNotThere) {
   const auto folder = std::filesystem::path(::testing::TempDir()) / "ninefold_stats_test";
   std::filesystem::remove_all(folder);
   const std::string path = folder / "s.json";
-  EXPECT_THROW(writeStats(path, example()), Error);  // no such folder
+  EXPECT_THROW(writeStats(path, toJson(example())), Error);  // no such folder
   std::filesystem::create_directories(folder);
-  writeStats(path, example());
-  writeStats(path, example());  // replaces
+  writeStats(path, toJson(example()));
+  writeStats(path, toJson(example()));  // replaces
   EXPECT_EQ(Json::parse(std::ifstream(path))["frames"], 4);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
   std::filesystem::remove_all(folder);

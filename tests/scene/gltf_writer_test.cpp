@@ -45,6 +45,14 @@ TEST_P(GltfWriterTest, EditsAreSaved) {
   expectSameScene(after, readScene(path));
 }
 
+TEST(GltfWriter, NamesThatAreNoUtf8DoNotKeepASceneFromBeingSaved) {
+  const TempFolder folder;
+  Scene scene = readScene(NINEFOLD_SCENES "/cornell.glb");
+  scene.materials.front().name = "gr\xfcn";
+  writeGltf(folder.path() / "a.glb", scene);
+  EXPECT_EQ(readScene(folder.path() / "a.glb").materials.size(), scene.materials.size());
+}
+
 TEST(GltfWriter, SaysWhereItCannotWrite) {
   EXPECT_THROW(writeGltf("/nonexistent/a.glb", Scene()), Error);
   EXPECT_THROW(writeGltf("a.obj", Scene()), Error);
