@@ -135,7 +135,7 @@ std::string helpText() {
        << "\nEach flag but --help may also be given by the environment: NINEFOLD_KEY_FILE for\n"
           "--key-file. Flags win.\n"
           "Exit status: 0 the master is done, 1 a failure (one line on stderr says what to do), 2 "
-          "wrong usage.\n";
+          "wrong usage,\n3 a task that did not end.\n";
   return text.str();
 }
 

@@ -42,7 +42,8 @@ void drawNumbers(const PanelView& view) {
 void drawClients(const PanelView& view) {
   if (!ImGui::CollapsingHeader("Clients")) return;
   for (const ClientInfo& client : view.clients) {
-    std::string text = fmt::format("{} {}", client.name, nameOf(client.status.state));
+    std::string text =
+        fmt::format("{} {}", client.name, client.isStuck() ? "stuck" : nameOf(client.status.state));
     if (client.status.state == ClientState::syncing)
       text += fmt::format(" {:.0f} %", 100 * client.status.synced);
     if (client.work)

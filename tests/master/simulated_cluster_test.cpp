@@ -26,9 +26,9 @@ Clients mixed(int count) {
   return clients;
 }
 
-SimulatedCluster play(const SimulatedJob& job, const Clients& clients) {
+SimulatedCluster play(const SimulatedJob& job, const Clients& clients, double deadline = 1000) {
   SimulatedCluster cluster(job, clients);
-  cluster.run();
+  cluster.run(deadline);
   EXPECT_TRUE(cluster.finished()) << cluster.completed() << " of " << job.frames << " frames";
   EXPECT_TRUE(cluster.everyTaskOnce());
   return cluster;
@@ -140,6 +140,29 @@ TEST(SimulatedCluster, TheFirstFrameAroundAFrozenClientWaitsOnlyForCopies) {
   clients[0].freezes = 0.1;
   const SimulatedCluster cluster = play({.frames = 1, .framesInFlight = 1}, clients);
   EXPECT_LE(cluster.elapsed(), 1.2 * (315 * 4e-3 / 3));
+}
+
+TEST(SimulatedCluster, StuckClientsAreToldOfAndTheOthersDoTheirWork) {
+  Clients clients = alike(6);
+  clients[1].sticks = 0.3;
+  clients[4].sticks = 0.5, clients[4].comesBack = 20;
+  const SimulatedCluster cluster = play({.frames = 150}, clients);
+  std::map<ClientId, int> stuck, back;
+  for (const StuckNote& note : cluster.notes()) ++(note.isBack ? back : stuck)[note.client];
+  EXPECT_EQ(stuck, (std::map<ClientId, int>{{2, 1}, {5, 1}}));
+  EXPECT_EQ(back, (std::map<ClientId, int>{{5, 1}}));
+  EXPECT_EQ(cluster.scheduler().counts().clientsStuck, 2u);
+  EXPECT_GT(cluster.reports()[4].tasks, 2 * cluster.reports()[1].tasks) << "it works again";
+}
+
+TEST(SimulatedCluster, LongTasksStickNobody) {
+  // Tasks of the reference may take seconds, and some machines are four times slower.
+  Clients clients = alike(4);
+  clients[3].speed = 0.25;
+  const SimulatedCluster cluster =
+      play({.grid = TileGrid(640, 480, {1, 1}), .frames = 2, .taskSeconds = 2.5, .rays = 6e3},
+           clients, 1e5);
+  EXPECT_TRUE(cluster.notes().empty());
 }
 
 TEST(SimulatedCluster, LateJoinersAreUsed) {
