@@ -97,8 +97,9 @@ void Cluster::watchForStall(Time now) {
                     seconds(stall_.time())));
 }
 
+// A window waits for remote clients, if there may be any.
 void Cluster::failWithoutClients() {
-  if (local_.hang())
+  if (local_.hang() && (!remoteMayJoin_ || !stall_.isEndless()))
     fail(*local_.hang());
   else if (!remoteMayJoin_)
     fail("all local clients ended and none can be started; see the lines above");

@@ -41,7 +41,8 @@ void LatencyLog::add(const Shown& shown) {
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
 }
 
-void LatencyLog::write(const std::string& path, const std::string& scene) const {
+void LatencyLog::write(const std::string& path, const std::string& scene,
+                       const ServerTally& tally) const {
   std::vector<double> latency, moving;
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
   for (const Entry& e : entries_) {
@@ -55,6 +56,8 @@ void LatencyLog::write(const std::string& path, const std::string& scene) const 
   nlohmann::ordered_json all{{"scene", scene},
                              {"latency_ms", summary(latency)},
                              {"moving_frame_ms", summary(moving)},
+                             {"clients_stuck", tally.tasks.clientsStuck},
+                             {"values_not_finite", tally.replaced},
                              {"frames", std::move(frames)}};
   std::ofstream file(path);
   file << all.dump(1) << "\n";

@@ -14,7 +14,7 @@ class LatencyLog {
   explicit LatencyLog(Time start) : start_(start) {}
   void add(const Shown& shown);
   // JSON. Throws Error if the file cannot be written.
-  void write(const std::string& path, const std::string& scene) const;
+  void write(const std::string& path, const std::string& scene, const ServerTally& tally) const;
 
  private:
   struct Entry {

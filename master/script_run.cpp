@@ -117,7 +117,7 @@ class ScriptRun {
     if (rest == nullptr) return;
     if (options_.output) write(*options_.output, *rest);
     const std::lock_guard lock(mutex_);
-    if (options_.stats) log_.write(*options_.stats, options_.scene);
+    if (options_.stats) log_.write(*options_.stats, options_.scene, live_.cluster().tally());
   }
 
   void write(const std::string& path, const Shown& shown) const {

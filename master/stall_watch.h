@@ -26,6 +26,7 @@ class StallWatch {
   bool look(bool nothingMoves, Time now);
   // For how long nothing has moved; 0 if something does.
   Duration time() const { return time_; }
+  bool isEndless() const { return !patience_; }
   bool isOver() const { return patience_ && time_ >= *patience_; }
   uint64_t stalls() const { return stalls_; }
 

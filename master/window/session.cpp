@@ -245,7 +245,7 @@ void WindowSession::writeLast() {
     log("{} frame(s) in {}", board_.shown()->frames, *options_.output);
   }
   const std::lock_guard lock(latencyMutex_);
-  if (options_.stats) latency_.write(*options_.stats, options_.scene);
+  if (options_.stats) latency_.write(*options_.stats, options_.scene, live_->cluster().tally());
 }
 
 int runWindow(const Options& options) {
