@@ -15,9 +15,12 @@ constexpr int kAhead = 3;  // frames beyond those in which each client has a set
 
 }  // namespace
 
-void Scheduler::clientJoined(ClientId id, int threads, Time now) {
+void Scheduler::clientJoined(ClientId id, int threads, Time now, Duration sceneTime) {
   NINEFOLD_CHECK(!past_.contains(id));
   pool_.add(id, threads, now);
+  SchedulerClient& client = *pool_.find(id);
+  client.setSceneTime(sceneTime);
+  pool_.update(client);
 }
 
 void Scheduler::clientLost(ClientId id, Time now) {

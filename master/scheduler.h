@@ -52,8 +52,8 @@ namespace ninefold {
 
 class Scheduler {
  public:
-  // A client is ready to render. Ids are never used twice.
-  void clientJoined(ClientId client, int threads, Time now);
+  // A client is ready to render. Ids are never used twice. `sceneTime`: that it took to build the scene.
+  void clientJoined(ClientId client, int threads, Time now, Duration sceneTime = Duration(0));
   // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
   void clientLost(ClientId client, Time now);
   // Any message came from it: a suspect may be tried again.

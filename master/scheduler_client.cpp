@@ -62,12 +62,15 @@ Duration SchedulerClient::allowance(double rays) const {
          fromSeconds(std::min(rays * perRay, kLongestAllowance));
 }
 
+Time SchedulerClient::deadlineOf(const HeldTask& held) const {
+  return *held.begun + roundTrip_ + resultsWait_ + sceneTime_ + allowance(held.rays);
+}
+
 std::optional<Time> SchedulerClient::deadline() const {
   std::optional<Time> first;
   for (const HeldTask& held : held_) {
     if (!held.begun) break;
-    const Time its = *held.begun + roundTrip_ + resultsWait_ + allowance(held.rays);
-    first = std::min(first.value_or(its), its);
+    first = std::min(first.value_or(deadlineOf(held)), deadlineOf(held));
   }
   return first;
 }
@@ -76,8 +79,7 @@ std::optional<HeldTask> SchedulerClient::overdue(Time now) const {
   std::optional<HeldTask> oldest;
   for (const HeldTask& held : held_) {
     if (!held.begun) break;
-    const bool isLate = *held.begun + roundTrip_ + resultsWait_ + allowance(held.rays) <= now;
-    if (isLate && (!oldest || *held.begun < *oldest->begun)) oldest = held;
+    if (deadlineOf(held) <= now && (!oldest || *held.begun < *oldest->begun)) oldest = held;
   }
   return oldest;
 }

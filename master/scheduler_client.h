@@ -14,7 +14,9 @@
 //        --silence--> suspect.
 //
 // Stuck. A client works on the T oldest tasks that it holds; the deadline of such a task is
-//     begin + (r+w) + allowance(n)        n  rays that the task is expected to take (task_rays.h)
+//     begin + (r+w) + c + allowance(n)    n  rays that the task is expected to take (task_rays.h)
+//                                         c  time that it took to build the scene: after an edit, tasks
+//                                            wait for that again
 //     allowance(n) = 10 s + 8 n (s+l)     s  longest time for a ray of late, over its results
 //                                         l  the same over those that made a light set
 //     allowance(n) = 30 s + n 0.1 ms      before its first result, some 300 times what rays take
@@ -90,6 +92,7 @@ class SchedulerClient {
   void excuse(Duration pause);
   void measureRoundTrip(Duration roundTrip);
   void setResultsWait(Duration time);
+  void setSceneTime(Duration time) { sceneTime_ = time; }
   void setTrust(Trust trust, Time now);
 
   // Light sets that it made of late, for frames that share a randomization (while the picture
@@ -107,6 +110,7 @@ class SchedulerClient {
   Duration workTime(int tasks) const { return taskTime() * ((tasks + threads() - 1) / threads()); }
   void updateRefilling();
   void beginTasks(Time now);
+  Time deadlineOf(const HeldTask& held) const;  // needs one that it is at work on
   void learn(TaskCost cost, const HeldTask* task);
 
   ClientReport report_;
@@ -118,7 +122,7 @@ class SchedulerClient {
   std::optional<double> secondsPerRay_;  // s above
   double lightSecondsPerRay_ = 0;        // l above
   std::optional<Time> stuckSince_;
-  Duration roundTrip_{0}, resultsWait_{0};
+  Duration roundTrip_{0}, resultsWait_{0}, sceneTime_{0};
   Time silentSince_, lastHeard_;
   bool owesAnswer_ = false;  // tasks were withdrawn from it since its last result
   uint32_t randomization_ = 0;

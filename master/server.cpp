@@ -95,7 +95,7 @@ void Server::on(Handle& peer, todo::Join&& a, Time now) {
   const ClientSession& session = *peer.second.session;
   log("client {} is ready: {}, {} thread(s), {}", peer.first, describe(session),
       session.hello().threads, session.hello().isa);
-  joining_[peer.first] = a.job;
+  joining_[peer.first] = a;
   letJoin(now);
 }
 
@@ -105,10 +105,10 @@ void Server::letJoin(Time now) {
     return std::ranges::all_of(open_, [&](const auto& frame) { return frame.second.job >= job; });
   };
   std::erase_if(joining_, [&](const auto& client) {
-    const auto& [id, job] = client;
-    if (!canDoAll(job)) return false;
+    const auto& [id, join] = client;
+    if (!canDoAll(join.job)) return false;
     const int threads = static_cast<int>(peers_.at(id).session->hello().threads);
-    scheduler_.clientJoined(id, threads, now);
+    scheduler_.clientJoined(id, threads, now, join.sceneTime);
     return true;
   });
 }

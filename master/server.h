@@ -134,9 +134,9 @@ class Server {
   const ServerDuty duty_;
   Admission admission_;
   Scheduler scheduler_;
-  std::map<ClientId, Peer> peers_;        // all of the run
-  std::map<uint32_t, FrameOrder> open_;   // frames
-  std::map<ClientId, uint32_t> joining_;  // ready; join when no open frame is of an older job
+  std::map<ClientId, Peer> peers_;          // all of the run
+  std::map<uint32_t, FrameOrder> open_;     // frames
+  std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   bool started_ = false;  // waitClients were ready once
   std::optional<Time> lastDispatch_;

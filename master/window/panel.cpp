@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "common/math/units.h"
 
 namespace ninefold {
@@ -37,6 +39,8 @@ void drawNumbers(const PanelView& view) {
              ? fmt::format("{} frame", shown.frames)
              : fmt::format("{} frames   error {:.2f} %", shown.frames, 100 * shown.relativeError));
   line(fmt::format("flying {:.2f} m/s", view.speed));
+  const auto stuck = std::ranges::count_if(view.clients, &ClientInfo::isStuck);
+  if (stuck > 0) line(fmt::format("{} client(s) stuck: see Clients", stuck));
 }
 
 void drawClients(const PanelView& view) {

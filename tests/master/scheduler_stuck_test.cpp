@@ -100,6 +100,16 @@ TEST(SchedulerStuck, ALightSetThatTakesLongIsAllowedForLongAfterItWasMade) {
   EXPECT_EQ(b.notes.size(), 1u);
 }
 
+TEST(SchedulerStuck, ASceneThatTakesLongToBuildMayTakeThatAgainAfterAnEdit) {
+  Bench b;
+  b.scheduler.clientJoined(1, 1, b.now, seconds(100));
+  b.open(0, Bench::grid(4, {1, 1}));
+  passWithHeartbeats(b, seconds(130) - milliseconds(100), {1});
+  EXPECT_TRUE(b.notes.empty());
+  passWithHeartbeats(b, milliseconds(300), {1});
+  EXPECT_EQ(b.notes.size(), 1u);
+}
+
 TEST(SchedulerStuck, ATaskWaitsForThoseAheadOfItWithoutFalling) {
   // One task takes 9 s, in time; each behind it has as long from when that one is done.
   Bench b;

@@ -191,13 +191,15 @@ TEST(SimulatedCluster, SurvivesRandomFailures) {
     Clients clients = mixed(10);
     for (SimulatedClient& c : clients) {
       c.joins = uniform(0, 0.5);
-      const double kind = uniform(0, 4), when = c.joins + uniform(0, 1);
+      const double kind = uniform(0, 5), when = c.joins + uniform(0, 1);
       if (kind < 1)
         c.dies = when;
       else if (kind < 2)
         c.cut = when;
       else if (kind < 3)
         c.freezes = when, c.thaws = when + uniform(0, 3);
+      else if (kind < 4)
+        c.sticks = when, c.comesBack = when + uniform(0, 30);
     }
     clients.push_back({});  // one that lives
     play({.frames = 30, .checkEvery = 10}, clients);
