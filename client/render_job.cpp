@@ -105,8 +105,10 @@ RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
 std::string RenderJob::describe(const FrameKey& frame, const msg::TaskItem& item) const {
   const int set =
       lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, settings_.interleave.sets());
-  return fmt::format("frame {}, tile {}, set {} (again: {})", frame.frame, item.tile, set,
-                     replayLine(*light_->scene->scene, settings_, frame.frame));
+  const TracedScene& scene = *light_->scene;
+  return fmt::format("frame {}, tile {}, set {} (again{}: {})", frame.frame, item.tile, set,
+                     scene.scene == scene.asFetched ? "" : ", but for edits of the scene",
+                     replayLine(*scene.scene, settings_, frame.frame));
 }
 
 void RenderJob::trace(const Task& task, Desk& desk, Work& work, Time (*now)()) {

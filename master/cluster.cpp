@@ -91,10 +91,9 @@ void Cluster::watchForStall(Time now) {
     warn("nothing has moved for {:.0f} s: all clients are stuck{}",
          seconds(now - server_.lastMove()), remoteMayJoin_ ? "; others may join" : "");
   if (stall_.isOver())
-    fail(
-        fmt::format("all clients are stuck and nothing has moved for {:.0f} s: see the lines above "
-                    "for their tasks; --patience S waits longer",
-                    seconds(stall_.time())));
+    fail(fmt::format(
+        "all clients are stuck and nothing has moved for {:.0f} s: {}; --patience S waits longer",
+        seconds(now - server_.lastMove()), server_.stuckTasks(now)));
 }
 
 // A window waits for remote clients, if there may be any.

@@ -319,6 +319,18 @@ bool Server::nothingMoves() const {
   return scheduler_.allAreStuck() && joining_.empty() && std::ranges::none_of(peers_, isComing);
 }
 
+std::string Server::stuckTasks(Time now) const {
+  constexpr size_t kLongEnough = 150;
+  std::string text;
+  for (const ClientReport& report : scheduler_.report(now)) {
+    if (!report.stuck || !report.oldest) continue;
+    if (text.size() > kLongEnough) return text + ", ...";
+    text += fmt::format("{}client {} in {}", text.empty() ? "" : ", ", report.client,
+                        nameOf(*report.oldest));
+  }
+  return text;
+}
+
 bool Server::isConnected() const {
   return std::ranges::any_of(peers_, [](const auto& p) { return p.second.connection != nullptr; });
 }

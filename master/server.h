@@ -88,6 +88,8 @@ class Server {
   std::optional<ClientReport> workOf(const std::string& name, Time now) const;
   // All clients are stuck, and none is on its way.
   bool nothingMoves() const;
+  // Who is stuck where: "client 1 in frame 3, tile 5, set 2, client 2 in ..."; the first few.
+  std::string stuckTasks(Time now) const;
   // When the latest result came, or client became ready.
   Time lastMove() const { return lastMove_; }
   int readyClients() const { return scheduler_.clients(); }

@@ -67,7 +67,8 @@ class Stuck(ClusterTest):
         stats = json.loads(master.stats_file.read_text())
         self.assertEqual((stats["frames"], stats["clients_stuck"], stats["stalls"]), (2, 1, 1))
         last = [line for line in master.lines if line][-1]
-        self.assertRegex(last, "^ninefold-master: all clients are stuck and nothing has moved for 2 s")
+        self.assertRegex(last, r"^ninefold-master: all clients are stuck and nothing has moved for 1\d s: "
+                         r"client 1 in frame 2, tile 0, set \d; --patience S waits longer$")
 
     def test_a_client_that_comes_back_goes_on(self):
         master = self.remote_master("--patience", 60)
