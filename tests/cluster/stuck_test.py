@@ -87,6 +87,9 @@ class Stuck(ClusterTest):
         last = [line for line in master.lines if line][-1]
         self.assertRegex(last, r"^ninefold-master: local client 1 hung 3 times in a row without a result, "
                                r"at last in frame 0, tile \d+, set \d, and is given up")
+        stats = json.loads(master.stats_file.read_text())
+        self.assertEqual((stats["frames"], [c["tasks"] for c in stats["clients"]]), (0, [0, 0, 0]))
+        self.assertFalse(master.picture.exists())
 
     def test_a_local_client_that_gives_results_between_its_hangs_is_started_again(self):
         master = self.local_master({"after": 15, "grace": -9.5})  # of 72 tasks
