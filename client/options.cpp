@@ -144,8 +144,7 @@ std::string helpText() {
           "NINEFOLD_KEY_FILE for\n"
           "--key-file. Flags win.\n"
           "Exit status: 0 the master is done, or a signal ended the client; 1 a failure (one line "
-          "on\n"
-          "stderr says what to do), 2 wrong usage.\n";
+          "on\nstderr says what to do), 2 wrong usage, 3 a task that did not end.\n";
   return text.str();
 }
 

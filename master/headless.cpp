@@ -128,7 +128,7 @@ int HeadlessRun::run() {
   cluster_.stop("the picture is done");
   if (picture_.frames() > 0) writePicture();
   cluster_.join();
-  if (picture_.frames() > 0) writeStatistics();
+  if (picture_.frames() > 0 || cluster_.failure()) writeStatistics();
   if (const auto failure = cluster_.failure()) fail("{}", *failure);
   if (picture_.frames() == 0) warn("stopped before any frame was complete: nothing is written");
   return cluster_.signal() == 0 ? 0 : 128 + cluster_.signal();
@@ -184,6 +184,7 @@ void HeadlessRun::writePicture() const {
 void HeadlessRun::writeStatistics() const {
   if (!options_.stats) return;
   RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), workers_);
+  stats.stalls = cluster_.stalls();
   stats.frames = picture_.frames();
   stats.relativeError = picture_.relativeError();
   stats.imageHash = picture_.imageHash();

@@ -44,6 +44,13 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   return nextFrame_;
 }
 
+uint32_t LivePlan::giveUp() {
+  open_.clear();
+  dirty_ = moving_;
+  plan_ = planOfRest();
+  return nextFrame_;
+}
+
 std::optional<LiveFrame> LivePlan::next(Time now) {
   if (moving_) return nextInMotion(now);
   if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;

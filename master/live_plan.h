@@ -64,6 +64,8 @@ class LivePlan {
   // Nothing happens if it is what is shown already. Gives back the first frame that is still wanted
   // if open ones are not.
   std::optional<uint32_t> change(const LiveState& state, Time now);
+  // The open frames cannot be rendered any more: others are to show the same. The first of those.
+  uint32_t giveUp();
   void setTarget(Duration target) { quality_.setTarget(target); }
   // Of frames that open from now on. No change of the picture.
   void setDelivery(const Delivery& atRest, const Delivery& inMotion) {

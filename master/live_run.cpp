@@ -37,7 +37,8 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       view_(options.view),
       pace_(pace),
       cluster_(clusterSetup(options, keys), *job.offer,
-               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); }}),
+               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); },
+                [this] { return giveUp(); }}),
       assembly_(
           workers_,
           [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
@@ -224,6 +225,18 @@ bool LiveRun::take(ReceivedTile& tile) {
     }
   }
   return assembly_.take(tile);
+}
+
+// On the network thread.
+uint32_t LiveRun::giveUp() {
+  uint32_t firstWanted = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    firstWanted = plan_.giveUp();
+    open_.clear();
+  }
+  assembly_.supersede(firstWanted);
+  return firstWanted;
 }
 
 // On a worker's thread.

@@ -84,6 +84,7 @@ class LiveRun {
   };
   std::optional<FrameOrder> nextFrame();
   bool take(ReceivedTile& tile);
+  uint32_t giveUp();
   void finishTile(int worker, const GatheredFrame& frame, int tile);
   void gatherFrames();
   void change(const std::function<void()>& apply);

@@ -101,6 +101,7 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
   assign(o.clientThreads, raw.whole("client-threads", 1, 1024));
   assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
+  assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = choice(raw, "isa", kIsas)) o.isa = kIsas[*isa];

@@ -47,6 +47,7 @@ struct Options {
   std::optional<std::string> keyFile;
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
+  double patience = 120;     // without a window, with clients that are all stuck [s]
 
   bool window = false;
   std::optional<std::string> script;      // file

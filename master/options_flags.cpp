@@ -94,6 +94,9 @@ constexpr Flag kCluster[] = {
     {"wire-level", "auto|N",
      "lossless compression of results, zstd's levels 1 to 19, 0 = none; auto: what suits each "
      "client's line (default auto)"},
+    {"patience", "S",
+     "when all clients are stuck, each in a task that does not end, wait for S seconds, then end "
+     "with what there is, unless in a window (default 120)"},
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
 constexpr Flag kFiles[] = {

@@ -119,7 +119,8 @@ class ScriptRun {
     if (latest_ == nullptr)
       return warn("stopped before any picture was complete: nothing is written");
     if (options_.output) write(*options_.output, *latest_);
-    if (options_.stats) writeStats(*options_.stats, log_.json(options_.scene));
+    if (options_.stats)
+      writeStats(*options_.stats, log_.json(options_.scene, live_.cluster().tally()));
   }
 
   void write(const std::string& path, const Shown& shown) const {

@@ -95,7 +95,8 @@ Json object(const std::vector<ClientStats>& clients) {
                    {"isa", c.isa},
                    {"tasks", c.tasks},
                    {"busy_fraction", c.busyFraction},
-                   {"sets_per_frame", c.setsPerFrame}});
+                   {"sets_per_frame", c.setsPerFrame},
+                   {"stuck", c.stuck}});
   return all;
 }
 
@@ -127,6 +128,9 @@ void addWork(const RunStats& s, Json& json) {
   json["tiles_dropped"] = {
       {"stale", s.tilesStale}, {"duplicate", s.tilesDuplicate}, {"malformed", s.tilesMalformed}};
   json["tasks_reissued"] = s.tasksReissued;
+  json["clients_stuck"] = s.clientsStuck;
+  json["stalls"] = s.stalls;
+  json["values_not_finite"] = s.valuesNotFinite;
 }
 
 void addJob(const RunStats& s, Json& json) {

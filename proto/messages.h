@@ -46,6 +46,9 @@ inline constexpr uint8_t kAllExtraPlanes = 63;           // every bit of ExtraPl
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.
 inline constexpr Duration kResultsTogether = milliseconds(4);
+inline constexpr Duration kLongestAllowed = std::chrono::hours(1000);  // for a task
+// Exit status of a client that its own watchdog has ended (client/watchdog.h).
+inline constexpr int kHungStatus = 3;
 
 enum class MessageType : uint16_t {
   hello = 1,    // C -> M  first on every connection                            -> Welcome | Refuse
@@ -152,6 +155,7 @@ struct Tasks {
   std::vector<TaskItem> items;  // 1..kMaxTasksPerMessage
   float neighbourWeight = 1;    // of the filter, in [0, 1]; for tiles that are filtered there
   bool urgent = false;          // no result is to wait for others
+  Duration allowed = std::chrono::hours(1);  // for each, on one thread: up to kLongestAllowed
 };
 struct Cancel {
   uint32_t jobVersion = 0;  // the latest
@@ -164,7 +168,8 @@ struct Result {
   uint32_t phase = 0;
   uint64_t busyNs = 0;    // one thread's time for this task, its light set included if made for it
   uint32_t setsMade = 0;  // light sets made on the way: one at most for each phase
-  uint64_t replaced = 0;  // values that were not finite and were sent as 0
+  uint64_t replaced = 0;  // values that were not finite, or negative, and were sent as 0
+  uint32_t replacedIn = 0;  // in which fields (tile_names.h)
   RayCounts rays;
   Bytes encoded;  // as tile_codec.h made them
 };

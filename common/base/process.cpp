@@ -71,11 +71,12 @@ ChildProcess::~ChildProcess() {
   while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-std::optional<std::string> ChildProcess::ended() {
+std::optional<ChildProcess::Ending> ChildProcess::ended() {
   int status = 0;
   if (pid_ == 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
   pid_ = 0;
-  return describeStatus(status);
+  const bool exited = WIFEXITED(status);
+  return Ending{exited ? std::optional(WEXITSTATUS(status)) : std::nullopt, describeStatus(status)};
 }
 
 void ChildProcess::terminate() const {

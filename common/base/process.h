@@ -58,8 +58,12 @@ class ChildProcess {
   ~ChildProcess();  // kill -9 and reap, if it still runs
 
   pid_t pid() const { return pid_; }
-  // How it ended ("exit status 1", "signal 9 (Killed)"), once it has; asks without waiting.
-  std::optional<std::string> ended();
+  struct Ending {
+    std::optional<int> status;  // nothing: a signal
+    std::string text;           // "exit status 1", "signal 9 (Killed)"
+  };
+  // How it ended, once it has; asks without waiting.
+  std::optional<Ending> ended();
   void terminate() const;  // SIGTERM, asks it to go
 
  private:

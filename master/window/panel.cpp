@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "common/math/units.h"
 
 namespace ninefold {
@@ -37,12 +39,15 @@ void drawNumbers(const PanelView& view) {
              ? fmt::format("{} frame", shown.frames)
              : fmt::format("{} frames   error {:.2f} %", shown.frames, 100 * shown.relativeError));
   line(fmt::format("flying {:.2f} m/s", view.speed));
+  const auto stuck = std::ranges::count_if(view.clients, &ClientInfo::isStuck);
+  if (stuck > 0) line(fmt::format("{} client(s) stuck: see Clients", stuck));
 }
 
 void drawClients(const PanelView& view) {
   if (!ImGui::CollapsingHeader("Clients")) return;
   for (const ClientInfo& client : view.clients) {
-    std::string text = fmt::format("{} {}", client.name, nameOf(client.status.state));
+    std::string text =
+        fmt::format("{} {}", client.name, client.isStuck() ? "stuck" : nameOf(client.status.state));
     if (client.status.state == ClientState::syncing)
       text += fmt::format(" {:.0f} %", 100 * client.status.synced);
     if (client.work)

@@ -247,7 +247,8 @@ void WindowSession::writeLast() {
     log("{} frame(s) in {}", board_.shown()->frames, *options_.output);
   }
   const std::lock_guard lock(latencyMutex_);
-  if (options_.stats) writeStats(*options_.stats, latency_.json(options_.scene));
+  if (options_.stats)
+    writeStats(*options_.stats, latency_.json(options_.scene, live_->cluster().tally()));
 }
 
 int runWindow(const Options& options) {

@@ -282,6 +282,23 @@ TEST_F(LivePlanTest, AStillHasAsManyFramesAsItShallHave) {
   }
 }
 
+TEST_F(LivePlanTest, WhatNobodyCanRenderAnyMoreIsShownByOtherFrames) {
+  done();
+  opened();  // the second at rest
+  EXPECT_EQ(plan.giveUp(), 2u);
+  const LiveFrame again = done();
+  EXPECT_EQ(again.order.key.frame, 2u);
+  EXPECT_EQ(again.rested, 0) << "the film begins anew";
+  moveTo(7);
+  const LiveFrame moving = opened();
+  EXPECT_EQ(plan.giveUp(), 4u);
+  EXPECT_FALSE(plan.completed(moving.order.key.frame, now));
+  const LiveFrame other = opened();
+  EXPECT_TRUE(other.moving);
+  EXPECT_EQ(other.order.settings.camera.eye.x, 7);
+  EXPECT_EQ(other.order.job, moving.order.job);
+}
+
 TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
   const uint32_t before = done().order.job;
   LiveState state = plan.state();
