@@ -2,28 +2,17 @@
 
 #include <tiny_gltf.h>
 
-#include <algorithm>
-#include <array>
 #include <limits>
 #include <string_view>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/scene/gltf_guard.h"
+#include "common/scene/gltf_unread.h"
 #include "common/scene/reader.h"
 
 namespace ninefold {
 namespace {
-
-constexpr std::array<std::string_view, 9> kExtensions = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_volume",    "KHR_mesh_quantization",  "KHR_texture_transform",
-};
-
-bool isKnown(std::string_view extension) {
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 // What the parser's callbacks share: where files may come from and how many bytes are left to read.
 struct Source {
@@ -82,12 +71,8 @@ void setCallbacks(tinygltf::TinyGLTF& parser, Source& source) {
 
 void checkExtensions(const tinygltf::Model& model) {
   for (const std::string& name : model.extensionsRequired)
-    if (!isKnown(name))
+    if (!isReadExtension(name))
       fail("needs the glTF extension {}, which is not supported: export without it", name);
-  std::string unknown;
-  for (const std::string& name : model.extensionsUsed)
-    if (!isKnown(name)) unknown += (unknown.empty() ? "" : ", ") + name;
-  if (!unknown.empty()) warn("glTF extensions that are not supported are left out: {}", unknown);
 }
 
 std::string firstLine(const std::string& text) {
@@ -122,6 +107,8 @@ std::shared_ptr<const tinygltf::Model> parseGltf(std::span<const unsigned char> 
   }
   if (!parsed) fail("damaged glTF file: {}", firstLine(errors));
   checkExtensions(*model);
+  if (const std::string unread = unreadOf(json); !unread.empty())
+    warn("left out, as nothing reads it: {}", unread);
   return model;
 }
 
