@@ -2,8 +2,6 @@
 
 #include <tiny_gltf.h>
 
-#include <algorithm>
-#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -12,21 +10,12 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/scene/gltf_guard.h"
+#include "common/scene/gltf_unread.h"
 #include "common/scene/gltf_uri.h"
 #include "common/scene/reader.h"
 
 namespace ninefold {
 namespace {
-
-constexpr std::array<std::string_view, 9> kExtensions = {
-    "EXT_mesh_gpu_instancing", "KHR_lights_punctual",    "KHR_materials_emissive_strength",
-    "KHR_materials_ior",       "KHR_materials_specular", "KHR_materials_transmission",
-    "KHR_materials_volume",    "KHR_mesh_quantization",  "KHR_texture_transform",
-};
-
-bool isKnown(std::string_view extension) {
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
 
 // What the parser's callbacks share: where files may come from, how many bytes are left to read, and
 // what could not be had, by the place of its URI.
@@ -97,15 +86,8 @@ void setCallbacks(tinygltf::TinyGLTF& parser, Source& source) {
 
 void checkRequired(const std::vector<std::string>& extensions) {
   for (const std::string& name : extensions)
-    if (!isKnown(name))
+    if (!isReadExtension(name))
       fail("needs the glTF extension {}, which is not supported: export without it", name);
-}
-
-void warnOfExtensions(const std::vector<std::string>& used) {
-  std::string unknown;
-  for (const std::string& name : used)
-    if (!isKnown(name)) unknown += (unknown.empty() ? "" : ", ") + name;
-  if (!unknown.empty()) warn("glTF extensions that are not supported are left out: {}", unknown);
 }
 
 // minVersion decides where it is there, else the major version: glTF 2.0, 3.2.
@@ -223,7 +205,8 @@ GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folde
   }
   checkVersion(model->asset.version, model->asset.minVersion);
   checkRequired(model->extensionsRequired);
-  warnOfExtensions(model->extensionsUsed);
+  if (const std::string unread = unreadOf(tokenized.json); !unread.empty())
+    warn("left out, as nothing reads it: {}", unread);
   auto bad = restoreUris(tokenized, source, *model);
   return {std::move(model), std::move(bad)};
 }

@@ -1,0 +1,245 @@
+#include "common/scene/gltf_unread.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+namespace ninefold {
+namespace {
+
+using Json = nlohmann::json;
+
+// What is read of attributes, materials and extensions, as paths of member names; arrays do not
+// count. '#' stands for a number, '@' for all of kTextureUse.
+constexpr const char* kRead[] = {
+    "extensions.KHR_lights_punctual.lights.name",
+    "extensions.KHR_lights_punctual.lights.type",
+    "extensions.KHR_lights_punctual.lights.color",
+    "extensions.KHR_lights_punctual.lights.intensity",
+    "extensions.KHR_lights_punctual.lights.spot.innerConeAngle",
+    "extensions.KHR_lights_punctual.lights.spot.outerConeAngle",
+    "nodes.extensions.KHR_lights_punctual.light",
+    "nodes.extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION",
+    "nodes.extensions.EXT_mesh_gpu_instancing.attributes.ROTATION",
+    "nodes.extensions.EXT_mesh_gpu_instancing.attributes.SCALE",
+    "meshes.primitives.attributes.POSITION",
+    "meshes.primitives.attributes.NORMAL",
+    "meshes.primitives.attributes.TANGENT",
+    "meshes.primitives.attributes.TEXCOORD_0",
+    "meshes.primitives.attributes.TEXCOORD_1",
+    "meshes.primitives.attributes.COLOR_0",
+    "meshes.primitives.attributes.JOINTS_#",
+    "meshes.primitives.attributes.WEIGHTS_#",
+    "meshes.primitives.targets.POSITION",
+    "meshes.primitives.targets.NORMAL",
+    "meshes.primitives.targets.TANGENT",
+    "meshes.primitives.targets.TEXCOORD_0",
+    "meshes.primitives.targets.TEXCOORD_1",
+    "meshes.primitives.targets.COLOR_0",
+    "materials.name",
+    "materials.alphaMode",
+    "materials.alphaCutoff",
+    "materials.doubleSided",
+    "materials.emissiveFactor",
+    "materials.emissiveTexture@",
+    "materials.normalTexture@",
+    "materials.normalTexture.scale",
+    "materials.pbrMetallicRoughness.baseColorFactor",
+    "materials.pbrMetallicRoughness.baseColorTexture@",
+    "materials.pbrMetallicRoughness.metallicFactor",
+    "materials.pbrMetallicRoughness.roughnessFactor",
+    "materials.pbrMetallicRoughness.metallicRoughnessTexture@",
+    "materials.extensions.KHR_materials_emissive_strength.emissiveStrength",
+    "materials.extensions.KHR_materials_ior.ior",
+    "materials.extensions.KHR_materials_specular.specularFactor",
+    "materials.extensions.KHR_materials_specular.specularTexture@",
+    "materials.extensions.KHR_materials_specular.specularColorFactor",
+    "materials.extensions.KHR_materials_specular.specularColorTexture@",
+    "materials.extensions.KHR_materials_transmission.transmissionFactor",
+    "materials.extensions.KHR_materials_transmission.transmissionTexture@",
+    "materials.extensions.KHR_materials_volume.thicknessFactor",
+    "materials.extensions.KHR_materials_volume.attenuationColor",
+    "materials.extensions.KHR_materials_volume.attenuationDistance",
+};
+constexpr const char* kTextureUse[] = {
+    ".index",
+    ".texCoord",
+    ".extensions.KHR_texture_transform.offset",
+    ".extensions.KHR_texture_transform.rotation",
+    ".extensions.KHR_texture_transform.scale",
+    ".extensions.KHR_texture_transform.texCoord",
+};
+// It is a promise about the types of attributes, and no object of the file has it.
+constexpr std::string_view kOnlyNamed = "KHR_mesh_quantization";
+constexpr size_t kMostNames = 30, kLongestName = 60;  // of a message
+
+// Members of an object that are read. One without any is a value, or an object that may hold anything.
+struct Known {
+  std::map<std::string, Known, std::less<>> members;
+};
+
+void add(Known& root, std::string_view path) {
+  Known* at = &root;
+  while (!path.empty()) {
+    const size_t dot = path.find('.');
+    at = &at->members[std::string(path.substr(0, dot))];
+    path.remove_prefix(dot == std::string_view::npos ? path.size() : dot + 1);
+  }
+}
+
+Known makeKnown() {
+  Known root;
+  for (const std::string_view path : kRead)
+    if (path.back() == '@')
+      for (const char* end : kTextureUse)
+        add(root, std::string(path.substr(0, path.size() - 1)) + end);
+    else
+      add(root, path);
+  return root;
+}
+
+const Known& known() {
+  static const Known root = makeKnown();
+  return root;
+}
+
+// JOINTS_3 is JOINTS_#.
+std::string numberless(std::string_view name) {
+  const size_t end = name.find_last_not_of("0123456789") + 1;
+  return std::string(name.substr(0, end)) + (end < name.size() ? "#" : "");
+}
+
+// Is told of the file's values one after another, and holds only where it is.
+class UnreadFinder : public nlohmann::json_sax<Json> {
+ public:
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool string(string_t& value) override {
+    if (path_ == ".extensionsUsed" && !isReadExtension(value)) unread_[kExtension].insert(value);
+    return true;
+  }
+  bool start_object(size_t) override { return open(); }
+  bool start_array(size_t) override { return open(); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(string_t& name) override;
+  bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override {
+    return false;
+  }
+  std::string text() const;
+
+ private:
+  enum Kind { kAttribute, kMaterial, kExtension, kKinds };
+  // An object or array that is open, and how long the path to it is.
+  struct Level {
+    const Known* known;  // null: what is in it has been told or is nobody's
+    size_t path;
+  };
+  bool open() {
+    levels_.push_back({next_, path_.size()});
+    return true;
+  }
+  bool close();
+  const Known* memberOf(const Level& level, const std::string& name);
+  bool tell(const std::string& name);
+
+  std::vector<Level> levels_;
+  const Known* next_ = &known();  // of the value that comes
+  std::string path_;              // ".meshes.primitives"
+  std::array<std::set<std::string>, kKinds> unread_;
+};
+
+bool UnreadFinder::close() {
+  levels_.pop_back();
+  if (levels_.empty()) return true;
+  next_ = levels_.back().known, path_.resize(levels_.back().path);
+  return true;
+}
+
+bool UnreadFinder::key(string_t& name) {
+  const Level& level = levels_.back();
+  path_.resize(level.path);
+  next_ = memberOf(level, name);
+  path_ += '.' + name.substr(0, kLongestName);
+  return true;
+}
+
+const Known* UnreadFinder::memberOf(const Level& level, const std::string& name) {
+  static const Known anything, noExtension{{{"", {}}}};
+  if (level.known == nullptr || name == "extras") return nullptr;
+  const auto& members = level.known->members;
+  const auto found = members.contains(name) ? members.find(name) : members.find(numberless(name));
+  if (found != members.end()) return &found->second;
+  if (name == "extensions") return &noExtension;
+  return !members.empty() && tell(name) ? nullptr : &anything;
+}
+
+// Whether a member of the object at path_ is of a kind that matters; then it is noted.
+bool UnreadFinder::tell(const std::string& name) {
+  constexpr std::string_view kExtensions = ".extensions.", kMaterials = ".materials.";
+  const std::string path = path_ + '.' + name.substr(0, kLongestName);
+  const auto note = [&](Kind kind, size_t from) {
+    return unread_[kind].insert(path.substr(from)), true;
+  };
+  if (const size_t at = path.rfind(kExtensions); at != std::string::npos)
+    return note(kExtension, at + kExtensions.size());
+  if (path_ == ".meshes.primitives.attributes" || path_ == ".meshes.primitives.targets")
+    return note(kAttribute, path_.size() + 1);
+  return path.starts_with(kMaterials) && note(kMaterial, kMaterials.size());
+}
+
+std::string UnreadFinder::text() const {
+  constexpr std::array<const char*, kKinds> kNames = {"vertex attributes ", "material properties ",
+                                                      "extensions "};
+  std::string all;
+  for (size_t kind = 0; kind < kKinds; ++kind) {
+    size_t named = 0;
+    for (const std::string& name : unread_[kind]) {
+      all += named > 0 ? ", " : (all.empty() ? "" : "; ") + std::string(kNames[kind]);
+      if (named++ == kMostNames) {
+        all += "...";
+        break;
+      }
+      all += name;
+    }
+  }
+  std::ranges::replace_if(
+      all, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+  return all;
+}
+
+}  // namespace
+
+bool isReadExtension(std::string_view name) {
+  static const std::set<std::string, std::less<>> names = [] {
+    std::set<std::string, std::less<>> all{std::string(kOnlyNamed)};
+    constexpr std::string_view kExtensions = "extensions.";
+    const auto note = [&](std::string_view path) {
+      for (size_t at = path.find(kExtensions); at != std::string_view::npos;
+           at = path.find(kExtensions)) {
+        path.remove_prefix(at + kExtensions.size());
+        all.emplace(path.substr(0, path.find('.')));
+      }
+    };
+    for (const char* path : kRead) note(path);
+    for (const char* path : kTextureUse) note(path);
+    return all;
+  }();
+  return names.contains(name);
+}
+
+std::string unreadOf(std::string_view json) {
+  UnreadFinder finder;
+  Json::sax_parse(json.begin(), json.end(), &finder);
+  return finder.text();
+}
+
+}  // namespace ninefold

@@ -1,0 +1,21 @@
+// gltf_unread.h: what a glTF file says that the reader does not read: vertex attributes, material
+// properties and extensions. Found by comparing the file's JSON with the table of all that is read, so
+// that what nobody has thought of is told too.
+// Errors: none; JSON that cannot be parsed is not this file's to tell.
+// Threads: pure.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace ninefold {
+
+// Whether the reader reads this extension, or need not.
+bool isReadExtension(std::string_view name);
+
+// In one line, without repetition and in order of the alphabet: "vertex attributes COLOR_1;
+// material properties occlusionTexture; extensions KHR_materials_sheen". Empty if all is read.
+// `json`: well-formed and of bounded depth (gltf_guard.h).
+std::string unreadOf(std::string_view json);
+
+}  // namespace ninefold
