@@ -43,7 +43,7 @@ Delivery deliveryOf(const Options& options) {
 
 Job makeJob(const Options& options) {
   Job job;
-  auto read = std::make_shared<const Scene>(readScene(options.scene));
+  auto read = std::make_shared<const Scene>(readScene(options.scene, options.clip));
   const Scene& scene = *read;
   job.settings = settingsFor(isLive(options) ? PictureView::beauty : options.view,
                              makeSettings(options, scene));

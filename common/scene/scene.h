@@ -111,7 +111,7 @@ struct PunctualLight {
   Vec3 position{0};                             // [m]
   Vec3 direction{0, 0, -1};                     // unit, where the light goes
   Vec3 intensity{1};                            // point, spot: I [W/sr]; directional: E0 [W/m^2]
-  float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner < outer <= pi/2
+  float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner <= outer <= pi/2
 };
 
 struct Scene {

@@ -88,9 +88,9 @@ void checkLights(const Scene& scene) {
     const Vec3 I = light.intensity;
     if (!isFinite(I) || I.x < 0 || I.y < 0 || I.z < 0)
       fail("light {}: its intensity must be at least 0 and finite", i);
-    const bool cone = light.innerCone >= 0 && light.innerCone < light.outerCone &&
+    const bool cone = light.innerCone >= 0 && light.innerCone <= light.outerCone &&
                       light.outerCone <= 0.5f * kPi + 1e-4f;
-    if (!cone) fail("light {}: its cone must have 0 <= inner < outer <= pi/2", i);
+    if (!cone) fail("light {}: its cone must have 0 <= inner <= outer <= pi/2", i);
   }
 }
 
