@@ -103,7 +103,7 @@ void makeGlass(const Reading& r, Material& m) {
 
 // F0 = ((n - 1) / (n + 1))^2.
 void reflectAtNormalIncidence(Vec3 F0, Material& m) {
-  const float root = std::sqrt(std::min(maxComponent(F0), 0.998f));
+  const float root = std::sqrt(std::min(maxComponent(F0), 0.9995f));
   m.ior = (1 + root) / (1 - root);
   m.specular = 1;
   m.specularColor = hue(F0);
@@ -123,10 +123,9 @@ void makeReflecting(const Reading& r, Material& m) {
   const bool mirror = ks > maxComponent(r.Kd) && (ks > 0.5f || r.isDark);
   makeGloss(r, r.Ks, m);
   m.roughness = 1 - std::sqrt(clamped(r.from.Ns.value_or(mirror ? 1000.0f : 1.0f), 1000) / 1000);
-  if (mirror)
-    reflectAtNormalIncidence(r.Ks, m);
-  else
-    m.metallic = r.from.Ka ? clamped(mean(*r.from.Ka)) : 1.0f;
+  if (mirror && !r.isDark) return reflectAtNormalIncidence(r.Ks, m);
+  if (mirror) m.baseColor = r.Ks;
+  m.metallic = r.from.Ka && !mirror ? clamped(mean(*r.from.Ka)) : 1.0f;
 }
 
 void makePhysical(const Reading& r, Material& m) {

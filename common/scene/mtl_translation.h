@@ -21,7 +21,7 @@
 //   told           Tf is given and not black, and o is not given or Kd is black; or o and Tf are
 //                  not given, Kd is black and Ni is above 1
 //   reflects       a mirror Ks over Kd if Ks is brighter than Kd, and either above 0.5 or Kd is
-//                  black; else a metal of colour Kd, as Blender writes one: its metallic is the
+//                  black (then Kd is left out); else a metal of colour Kd, as Blender writes one: its metallic is the
 //                  mean of Ka, 1 without Ka
 //   glass          solid, smooth, index Ni (1.5 if not above 1), tinted by Tf / max Tf, and by Kd
 //                  unless that is black: files fill Tf with any grey, its hue alone is trusted

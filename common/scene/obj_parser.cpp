@@ -13,6 +13,9 @@
 namespace ninefold {
 namespace {
 
+// ZBrush hides colours of vertices in comments.
+constexpr std::string_view kColourComment = "#MRGB";
+
 struct Numbers {
   std::array<double, 7> value{};  // the first ones
   int count = 0;                  // of all
@@ -44,7 +47,8 @@ class Parser {
 void Parser::run() {
   for (std::string_view line; lines_.next(line);) {
     const std::string_view keyword = nextWord(line);
-    if (!keyword.empty() && keyword[0] != '#') statement(keyword, line);
+    if (!keyword.empty() && (keyword[0] != '#' || keyword == kColourComment))
+      statement(keyword, line);
   }
   unread_.report("the OBJ file");
 }

@@ -22,7 +22,8 @@ bool isUtf16(std::string_view text) {
 
 TextLines::TextLines(std::string_view text) : rest_(text) {
   if (isUtf16(text)) fail("the file is UTF-16 text: save it as UTF-8");
-  if (text.find('\0') != std::string_view::npos) fail("not a text file: it has zero bytes");
+  if (text.find('\0') != std::string_view::npos)
+    fail("not a text file: it has zero bytes; if it is UTF-16, save it as UTF-8");
 }
 
 std::string_view TextLines::physicalLine() {

@@ -7,8 +7,9 @@ namespace {
 
 using ObjMaterial = ObjFolder;
 
-// F0 at normal incidence of the dielectric part.
+// F0 of a metal or of a dielectric.
 Vec3 normalReflectance(const Material& m) {
+  if (m.metallic == 1) return m.baseColor;
   const float r = (m.ior - 1) / (m.ior + 1);
   return r * r * m.specular * m.specularColor;
 }
@@ -126,7 +127,9 @@ TEST_F(ObjMaterial, MirrorsReflectKsOverKd) {
     EXPECT_NEAR(F0.y, 0.9f, 1e-4f);
     EXPECT_NEAR(F0.z, 0.85f, 1e-4f);
   }
-  EXPECT_NEAR(material("Kd 0 0 0\nKs 0.4 0.4 0.4\nillum 3\n").roughness, 0, 0);
+  EXPECT_EQ(material("Kd 0 0 0\nKs 0.4 0.4 0.4\nillum 3\n").roughness, 0);
+  EXPECT_EQ(normalReflectance(material("Kd 0.01 0.01 0.01\nKs 1 1 1\nKa 0 0 0\nillum 5\n")),
+            Vec3(1));
   EXPECT_NEAR(normalReflectance(material("Kd 0 0 0\nKs 0.4 0.4 0.4\nillum 3\n")).x, 0.4f, 1e-4f);
   EXPECT_NEAR(material("Kd 0 0 0\nKs 1 1 1\nNs 250\nillum 3\n").roughness, 0.5f, 1e-6f);
 }

@@ -89,7 +89,8 @@ TEST_F(ObjReader, NoGeometry) {
 }
 
 TEST_F(ObjReader, BinaryFilesAreRefused) {
-  EXPECT_EQ(error(std::string("v 0 0 0\0v", 9)), "not a text file: it has zero bytes");
+  EXPECT_EQ(error(std::string("v 0 0 0\0v", 9)),
+            "not a text file: it has zero bytes; if it is UTF-16, save it as UTF-8");
 }
 
 TEST_F(ObjReader, Utf16IsRefusedInOneLine) {

@@ -46,6 +46,10 @@ TEST_F(ObjVertexColour, BeyondTheirRangeAreClampedAndNamed) {
   EXPECT_CONTAINS(logOfFile(text), "colours of v beyond 0 to 1 (line 1)");
 }
 
+TEST_F(ObjVertexColour, InCommentsAreNamed) {
+  EXPECT_CONTAINS(logOfFile(kSquare + "#MRGB ff808080ff808080\nf 1 2 3\n"), "#MRGB (line 9)");
+}
+
 TEST_F(ObjVertexColour, AreNotThereIfNobodyHasOne) {
   EXPECT_TRUE(read(kColoured + kSquare + "f 5 6 7\n").meshes[0].colors.empty());
 }
