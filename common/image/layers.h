@@ -37,6 +37,8 @@ enum ExtraPlane : uint8_t {
   kObjectPlane = 8,    // instance index + 1; 0 where nothing was hit
   kCausticPlane = 16,  // the photons' part of E in the diffuse layer [W/m^2]
 };
+// What tells what is at a place of the picture.
+inline constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
 
 struct RgbPlane {
   std::vector<float> r, g, b;
