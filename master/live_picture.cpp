@@ -104,8 +104,7 @@ void LivePicture::paintTile(Desk& desk, const FrameView& view, const std::vector
 void LivePicture::showMean(const TaskRect& tile) {
   const Film& film = shownFilm().film();
   film.meanOfTile(tile, image_->radiance);
-  if (look_.view == PictureView::error)
-    paintError(film, film.frames() + 1, tile, image_->radiance);
+  if (look_.view == PictureView::error) paintError(film, film.frames() + 1, tile, image_->radiance);
 }
 
 void LivePicture::copyTile(const TaskRect& tile, const RgbImage& beauty) {

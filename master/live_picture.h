@@ -70,7 +70,7 @@ class LivePicture {
 
   const Setup setup_;
   IrradianceHistory history_;
-  uint32_t world_ = 0;  // LiveFrame::world of the frame that history_ has seen
+  uint32_t world_ = 0;   // LiveFrame::world of the frame that history_ has seen
   bool traced_ = false;  // history_ sees the frame: clients have not filtered it
   std::vector<std::unique_ptr<Desk>> desks_;
   std::mutex begin_;
@@ -78,8 +78,8 @@ class LivePicture {
   LiveLook look_;
   bool rested_ = false;  // summed up; in a still of codes nothing is
   RestFilm light_, painted_;
-  PictureView paintedView_ = PictureView::beauty;  // of painted_
-  std::shared_ptr<PickPlanes> picks_;  // of the frame, or of the first one of the rest
+  PictureView paintedView_ = PictureView::beauty;   // of painted_
+  std::shared_ptr<PickPlanes> picks_;               // of the frame, or of the first one of the rest
   std::shared_ptr<LiveImage> image_;                // that tiles come into
   std::vector<std::shared_ptr<LiveImage>> images_;  // all that there are
 };

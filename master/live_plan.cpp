@@ -105,7 +105,8 @@ LiveFrame LivePlan::open(Time now) {
   order.extraMask = planes();
   order.moving = moving_;
   order.delivery = moving_ ? inMotion_ : atRest_;
-  if (order.extraMask != 0) order.delivery.form = Delivery::Form::layers, order.delivery.exposure = 0;
+  if (order.extraMask != 0)
+    order.delivery.form = Delivery::Form::layers, order.delivery.exposure = 0;
   if (state_.scene != scene_ || (unsettled_ && !moving_)) {
     scene_ = state_.scene;
     ++order.scene;

@@ -49,7 +49,7 @@ class LiveRun {
     std::optional<float> exposure = {};   // [EV]: somebody looks at codes; none: at radiance only
     bool codesOnly = false;               // and at nothing else, unless frames are summed up
     std::optional<int64_t> frames = {};   // of a picture at rest, at most
-    bool person = false;  // somebody may click, and look at its error, at any time
+    bool person = false;                  // somebody may click, and look at its error, at any time
   };
   using OnPicture = std::function<void(const std::shared_ptr<const Shown>&)>;
   LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,

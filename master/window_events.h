@@ -19,7 +19,8 @@ struct WindowEvent {
   enum class Kind : uint8_t { keyDown, keyUp, buttonDown, buttonUp, move, scroll, focusLost };
   Kind kind = Kind::move;
   Time time{};
-  int key = 0;  // keyDown, keyUp: a letter or digit as its ASCII capital, '?' as typed, else one of key::
+  int key =
+      0;  // keyDown, keyUp: a letter or digit as its ASCII capital, '?' as typed, else one of key::
   Button button = Button::left;
   Modifiers modifiers;
   Vec2 pointer{0};    // in the window [screen units], y downwards

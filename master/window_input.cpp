@@ -90,7 +90,7 @@ DragMode WindowInput::dragMode(const Modifiers& modifiers) const {
 
 void WindowInput::onButton(const WindowEvent& event, float height, CameraControl& camera) {
   const bool down = event.kind == WindowEvent::Kind::buttonDown;
-  onMove(event, height, camera);  // the way there may have made no event of its own
+  if (event.pointer != pointer_) onMove(event, height, camera);  // it may have come without a word
   modifiers_ = event.modifiers;
   if (event.button == Button::right) right_ = down;
   if (event.button == Button::middle) middle_ = down;
@@ -98,9 +98,9 @@ void WindowInput::onButton(const WindowEvent& event, float height, CameraControl
   if (down) {
     pressedAt_ = pointer_;
   } else if (left_) {
-    dragging_ ? say(Command::Kind::dragEnd)
-              : commands_.push_back(
-                    {Command::Kind::select, pressedAt_, dragMode(modifiers_), 0, {}});
+    dragging_
+        ? say(Command::Kind::dragEnd)
+        : commands_.push_back({Command::Kind::select, pressedAt_, dragMode(modifiers_), 0, {}});
     dragging_ = false;
   }
   left_ = down;

@@ -11,11 +11,11 @@
 namespace ninefold {
 
 struct WindowKey {
-  const char* keys;      // as people read them
+  const char* keys;  // as people read them
   const char* does;
   enum class Use : uint8_t { told, fly, axis, view, command };
-  Use use = Use::told;   // told: by the pointer, or beside other keys
-  int key = 0;           // WindowEvent::key
+  Use use = Use::told;  // told: by the pointer, or beside other keys
+  int key = 0;          // WindowEvent::key
   FlyKey fly = FlyKey::forward;
   Command::Kind command = Command::Kind::close;
   bool control = false, shift = false;  // held with it; without `shift` it may be held or not

@@ -19,14 +19,13 @@ WindowSize firstSize(int pictureWidth, int pictureHeight, const WindowMemory& me
   if (isKnown)
     zoom = std::min({zoom, std::max(1.0f, static_cast<float>(screen.width) - column) / width,
                      static_cast<float>(screen.height) / height});
-  return within({static_cast<int>(column + zoom * width),
-                 static_cast<int>(std::max(least, zoom * height))});
+  return within(
+      {static_cast<int>(column + zoom * width), static_cast<int>(std::max(least, zoom * height))});
 }
 
 WindowArea areaOfPicture(WindowSize windowSize, float column, WindowSize pictureSize) {
   const Vec2 window(static_cast<float>(windowSize.width), static_cast<float>(windowSize.height));
-  const Vec2 picture(static_cast<float>(pictureSize.width),
-                     static_cast<float>(pictureSize.height));
+  const Vec2 picture(static_cast<float>(pictureSize.width), static_cast<float>(pictureSize.height));
   if (pictureSize.width == 0 || window.x <= 0 || window.y <= 0) return {Vec2(0), window};
   const Vec2 corner(2 * column <= window.x ? column : 0, 0);
   const Vec2 room = window - corner;

@@ -18,7 +18,7 @@ float autoExposure(const RgbImage& radiance) {
   const auto rank = static_cast<size_t>(kShare * static_cast<double>(luminances.size() - 1));
   const auto place = luminances.begin() + static_cast<std::ptrdiff_t>(rank);
   std::nth_element(luminances.begin(), place, luminances.end());
-  const double ev = std::log2(kWhite / static_cast<double>(*place));
+  const double ev = std::log2(kBright / static_cast<double>(*place));
   return static_cast<float>(std::round(10 * ev) / 10);
 }
 

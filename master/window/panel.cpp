@@ -32,7 +32,8 @@ void drawNumbers(const PanelView& view) {
   line(fmt::format("{}x{}  {:.0f} ms  {}", shown.image->width, shown.image->height, double(last),
                    shown.frame.moving ? (step.empty() ? "moving" : "moving: " + step) : "resting"));
   ImGui::PlotLines("##times", view.frameTimes.data(), static_cast<int>(view.frameTimes.size()), 0,
-                   nullptr, 0, 4 * view.target, ImVec2(ImGui::GetContentRegionAvail().x, scaled(48)));
+                   nullptr, 0, 4 * view.target,
+                   ImVec2(ImGui::GetContentRegionAvail().x, scaled(48)));
   line(fmt::format("{:.2f} Mrays/s   {:.0f} tasks/s", 1e-6 * view.raysPerSecond,
                    view.tasksPerSecond));
   if (!shown.frame.moving)
@@ -92,8 +93,7 @@ void drawPicture(const PanelView& view, PanelChanges& changes) {
   float exposure = view.exposure, target = view.target;
   bool automatic = view.autoExposure;
   slide(ImGui::SliderFloat("exposure", &exposure, -8, 8, "%.1f EV"), changes.exposure, exposure);
-  ImGui::SameLine();
-  slide(ImGui::Checkbox("auto", &automatic), changes.autoExposure, automatic);
+  slide(ImGui::Checkbox("auto exposure", &automatic), changes.autoExposure, automatic);
   slide(ImGui::SliderFloat("frame in motion", &target, 20, 500, "%.0f ms"), changes.target, target);
   float fov = view.settings.camera.verticalFov * 180 / kPi;
   slide(ImGui::SliderFloat("field of view", &fov, 5, 120, "%.0f deg"), changes.verticalFov,
@@ -168,7 +168,7 @@ PanelChanges drawPanel(const PanelView& view) {
   ImGui::SetNextWindowCollapsed(view.folded, ImGuiCond_Once);
   ImGui::SetNextWindowBgAlpha(0.75f);
   if (ImGui::Begin("ninefold", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize)) {
-    ImGui::PushItemWidth(scaled(140));
+    ImGui::PushItemWidth(scaled(130));
     drawNumbers(view);
     drawClients(view);
     if (ImGui::CollapsingHeader("Needs"))

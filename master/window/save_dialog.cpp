@@ -45,8 +45,8 @@ void SaveDialog::draw(Window& window) {
   ImGui::TextUnformatted("file (.glb)");
   ImGui::SetNextItemWidth(-1);
   if (std::exchange(isNew_, false)) ImGui::SetKeyboardFocusHere();
-  const bool entered = ImGui::InputText("##name", name_.data(), name_.size(),
-                                        ImGuiInputTextFlags_EnterReturnsTrue);
+  const bool entered =
+      ImGui::InputText("##name", name_.data(), name_.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   if (!question_.empty()) ImGui::TextWrapped("%s", question_.c_str());
   const bool pressed = ImGui::Button("save");
   ImGui::SameLine();

@@ -33,8 +33,7 @@ class Window {
  public:
   // Of the remembered size, else one at which a picture of that size and a panel fit, as far as the
   // screen goes.
-  Window(const std::string& title, int pictureWidth, int pictureHeight,
-         const WindowMemory& memory);
+  Window(const std::string& title, int pictureWidth, int pictureHeight, const WindowMemory& memory);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;

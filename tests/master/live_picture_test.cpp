@@ -230,19 +230,22 @@ TEST_F(LivePictureTest, LightIsSummedUpWhateverIsShownOfIt) {
     EXPECT_EQ(image->radiance == expectedMean(frames), !painted);
     EXPECT_EQ(picture.frames(), painted ? i - 1 : i + 1);
   }
-  // The mean of what two frames paint: each is the colour of a pixel's set, and these stay where they are.
-  const Vec3 color = atRest(frames[4], 5, {PictureView::sets, 0.0f})->radiance.rgb(0);
-  EXPECT_EQ(color, colorOf(0));
+  // What is painted is not mixed with what was painted before another view was chosen.
+  const Vec3 color = atRest(frameOf(5, 200, 130), 5, {PictureView::sets, 0.0f})->radiance.rgb(0);
+  EXPECT_EQ(color, colorOf(static_cast<uint32_t>(lightSetOfPhase(0, 0, 6))));
+  EXPECT_EQ(picture.frames(), 1);
 }
 
 // A frame may be given up with half of its tiles done, for another look, and begun anew.
 TEST_F(LivePictureTest, AFrameThatIsBegunAnewCountsOnce) {
-  std::vector<GatheredFrame> frames{frameOf(0, 200, 130), frameOf(1, 200, 130)};
+  std::vector<GatheredFrame> frames;
+  for (const uint32_t number : {0u, 1u}) frames.push_back(frameOf(number, 200, 130));
   atRest(frames[0], 0, {kBeauty, 0.0f});
   const std::vector<uint32_t> owners(frames[1].tasks.size());
   LiveFrame plan;
   plan.rested = 1;
-  for (const int tile : {0, 3}) picture.finishTile(0, frames[1], plan, {kBeauty, 0.0f}, owners, tile);
+  for (const int tile : {0, 3})
+    picture.finishTile(0, frames[1], plan, {kBeauty, 0.0f}, owners, tile);
   GatheredFrame again = frameOf(1, 200, 130);
   again.view.key.frame = 2;
   EXPECT_TRUE(atRest(again, 1, {kBeauty, 0.0f})->radiance == expectedMean(frames));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <map>
 
 #include "tests/scene/temp_folder.h"
 
@@ -13,8 +14,10 @@ namespace {
 const ScreenSpace kLarge{1920, 1080, 1};
 
 void expectArea(const WindowArea& area, Vec2 low, Vec2 high) {
-  EXPECT_NEAR(area.low.x, low.x, 0.01f), EXPECT_NEAR(area.low.y, low.y, 0.01f);
-  EXPECT_NEAR(area.high.x, high.x, 0.01f), EXPECT_NEAR(area.high.y, high.y, 0.01f);
+  EXPECT_NEAR(area.low.x, low.x, 0.01f);
+  EXPECT_NEAR(area.low.y, low.y, 0.01f);
+  EXPECT_NEAR(area.high.x, high.x, 0.01f);
+  EXPECT_NEAR(area.high.y, high.y, 0.01f);
 }
 
 TEST(WindowLayout, OpensWithThePictureBesideThePanel) {

@@ -61,7 +61,8 @@ TEST_F(GltfWriterTest, WhatIsNoExposureIsNone) {
   for (const char* extras : {"51", "\"bright\"", "[1]", "null", "-1e30"}) {
     const std::string path = folder.write(
         "extras.gltf", std::string(R"({"asset":{"version":"2.0"},"scene":0,"nodes":[{"mesh":0}],
-          "scenes":[{"nodes":[0],"extras":{"exposure":)") + extras + R"(}}],
+          "scenes":[{"nodes":[0],"extras":{"exposure":)") +
+                           extras + R"(}}],
           "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
           "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
           "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":
