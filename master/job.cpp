@@ -10,8 +10,9 @@ namespace {
 uint8_t extraPlanes(const Options& options, const Needs& needs) {
   if (!options.aovs) return planesOf(options.view);
   const bool photons = needs.specular() && options.settings.caustics != Caustics::off;
-  return static_cast<uint8_t>(kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane |
-                              (photons ? kCausticPlane : 0) | planesOf(options.view));
+  return static_cast<uint8_t>(
+      kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | (photons ? kCausticPlane : 0) |
+      (isUnfiltered(options.settings.method) ? kIrradiancePlane : 0) | planesOf(options.view));
 }
 
 std::string hashOf(const std::vector<Blob>& blobs) {
@@ -42,7 +43,7 @@ Delivery deliveryOf(const Options& options) {
 
 Job makeJob(const Options& options) {
   Job job;
-  auto read = std::make_shared<const Scene>(readScene(options.scene));
+  auto read = std::make_shared<const Scene>(readScene(options.scene, options.clip));
   const Scene& scene = *read;
   job.settings = settingsFor(isLive(options) ? PictureView::beauty : options.view,
                              makeSettings(options, scene));

@@ -166,6 +166,7 @@ void readAnimation(const RawOptions& raw, Options& o) {
 void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
+  o.clip = raw.text("clip");
   readAnimation(raw, o);
   assign(o.frameTime, raw.real("frame-time", 1, 10000));
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");

@@ -50,6 +50,7 @@ struct Options {
   bool window = false;
   std::optional<std::string> script;      // file
   std::optional<AnimationRange> animate;  // then stop.frames is for each picture
+  std::optional<std::string> clip;        // of the scene file's animations; nothing: the first
   PictureView view = PictureView::beauty;
   double frameTime = 100;  // target while something moves [ms]
 

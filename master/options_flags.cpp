@@ -70,6 +70,8 @@ constexpr Flag kRun[] = {
     {"animate", "T0:T1:FPS",
      "play the scene's animation from T0 to T1 [s] into --output out.####.exr, --frames N for each "
      "picture; with --window over and over"},
+    {"clip", "NAME",
+     "which of the file's animations plays (default: the first; the log names them)"},
     {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},
     {"script", "FILE",
      "replay the camera paths and edits of a JSON file (docs/script.md), in real time or, if it "

@@ -6,7 +6,8 @@
 //   sets                    which light set a pixel met
 //   error                   standard error of the mean so far, over the mean
 //   clients                 who rendered what
-//   weights                 what share of its window the discontinuity buffer averaged, diffuse layer
+//   weights                 what share of its window the discontinuity buffer averaged, diffuse layer;
+//                           only the pixel itself where light is not filtered
 //
 // A view asks for just the planes that it needs, and for the settings that leave only its part of
 // the light. Threads: pure functions. Errors: none.

@@ -31,7 +31,7 @@ namespace ninefold {
 
 // Raised whenever the meaning of any message changes. One cluster runs one release: there is no
 // range.
-inline constexpr uint32_t kProtocol = 1;
+inline constexpr uint32_t kProtocol = 2;
 // The release of this build, e.g. "0.1.0".
 std::string releaseName();
 
@@ -43,7 +43,7 @@ inline constexpr size_t kMaxEdits = 65536;  // things in one edit
 inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
-inline constexpr uint8_t kAllExtraPlanes = 31;           // every bit of ExtraPlane
+inline constexpr uint8_t kAllExtraPlanes = 63;           // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.
 inline constexpr Duration kResultsTogether = milliseconds(4);

@@ -133,8 +133,8 @@ void describe(A& a, Of<TextureImage> auto& image) {
 
 template <typename A>
 void describe(A& a, Of<Mesh> auto& mesh) {
-  a(mesh.name, mesh.positions, mesh.normals, mesh.uv0, mesh.uv1, mesh.tangents, mesh.triangles,
-    mesh.material);
+  a(mesh.name, mesh.positions, mesh.normals, mesh.uv0, mesh.uv1, mesh.tangents, mesh.colors,
+    mesh.triangles, mesh.material);
 }
 
 template <typename A>

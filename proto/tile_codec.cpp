@@ -8,7 +8,7 @@
 namespace ninefold {
 namespace {
 
-constexpr uint8_t kVersion = 1;
+constexpr uint8_t kVersion = 2;
 enum Storage : uint8_t { kStored = 0, kZstd = 1 };
 constexpr size_t kHeadBytes = 1 + 1 + 1 + 1 + 2 + 2 + 4;
 

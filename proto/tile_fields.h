@@ -33,6 +33,7 @@ void forEachExtraField(Coder& coder, Tile& tile) {
   if ((tile.extraMask & kDepthPlane) != 0) coder.length(extras.depth);
   if ((tile.extraMask & kObjectPlane) != 0) coder.words(extras.object);
   if ((tile.extraMask & kCausticPlane) != 0) coder.light(extras.caustic);
+  if ((tile.extraMask & kIrradiancePlane) != 0) coder.light(extras.irradiance);
 }
 
 // Calls one of the coder's functions for each field that the tile's masks name.

@@ -95,7 +95,8 @@ float environmentPdf(const Transport& t) {
 Radiance emittedRadiance(const Transport& t, const ShadingPoint& p) {
   const Material& m = t.scene.materials[static_cast<size_t>(p.surface.material)];
   if (isBlack(m.emission) || (!p.front && !m.doubleSided)) return Radiance(0);
-  return t.emitters.radianceOf(p.surface.material, p.surface.uv0, p.surface.uv1);
+  const SurfacePoint& s = p.surface;
+  return t.emitters.radianceOf(s.material, {s.uv0, s.uv1, s.color.w});
 }
 
 }  // namespace ninefold

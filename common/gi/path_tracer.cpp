@@ -18,6 +18,22 @@ struct Path {
   float lobePdf = 0;  // density of `direction`, 0 if it was the eye's or a smooth lobe's
   int diffuseCount = 0;
   int specularRun = 0;
+  bool caustic = false;  // the first vertex was D, the next S
+
+  // Light found now comes straight to the first D vertex.
+  bool isDirect() const { return diffuseCount == 1 && specularRun == 0; }
+};
+
+// Where light goes that a path has found.
+struct Sum {
+  const Transport& t;
+  PathLight light{};
+
+  void add(const Path& path, Radiance l) {
+    if (path.isDirect() && t.settings.directVpls == 0) return;
+    light.all += path.throughput * l;
+    if (path.caustic) light.caustic += path.throughput * l;
+  }
 };
 
 // f |cos| and density of the chosen way for a direction to a light.
@@ -57,6 +73,13 @@ Radiance escaped(const Transport& t, const Path& path) {
   return path.lobePdf == 0 ? l : balance(path.lobePdf, environmentPdf(t)) * l;
 }
 
+// Whether --caustics lets the path go on so.
+bool isWanted(const Transport& t, const Path& path, Way way) {
+  if (path.diffuseCount == 0 || t.settings.caustics == Caustics::all) return true;
+  if (way != Way::diffuse) return t.settings.caustics != Caustics::off;
+  return path.specularRun == 0;  // D S+ D
+}
+
 // Chooses a way at p; its probability goes into the throughput. False: absorbed, or over a limit.
 bool chooseWay(const Transport& t, const ShadingPoint& p, float u, int vertex, Path& path,
                Way& way) {
@@ -72,8 +95,9 @@ bool chooseWay(const Transport& t, const ShadingPoint& p, float u, int vertex, P
   const float share = way == Way::diffuse      ? albedo.diffuse
                       : way == Way::reflection ? albedo.reflection
                                                : albedo.transmission;
-  if (share <= 0) return false;
+  if (share <= 0 || !isWanted(t, path, way)) return false;
   path.throughput *= sum / (share * survival);
+  path.caustic |= vertex == 2 && path.diffuseCount == 1 && way != Way::diffuse;
   path.specularRun = way == Way::diffuse ? 0 : path.specularRun + 1;
   path.diffuseCount += way == Way::diffuse ? 1 : 0;
   return way == Way::diffuse ? t.allows(path.diffuseCount)
@@ -106,29 +130,31 @@ bool scatter(const Transport& t, const ShadingPoint& p, Way way, Vec2 u, float u
 
 }  // namespace
 
-Radiance tracePath(const Transport& t, Vec3 eye, Vec3 direction, const MediumStack& media,
-                   const PixelSampler& sampler, RayCounts& rays) {
+PathLight scatteredLight(const Transport& t, const ShadingPoint& first, const MediumStack& media,
+                         const PixelSampler& sampler, RayCounts& rays) {
   Path path;
-  path.origin = eye, path.direction = direction, path.media = media;
-  Radiance sum(0);
+  path.media = media;
+  ShadingPoint p = first;
+  Sum sum{t};
   for (int vertex = 1; vertex < kMaxVertices; ++vertex) {
+    const uint32_t d = 8 * static_cast<uint32_t>(vertex);
+    Way way{};
+    if (!chooseWay(t, p, sampler.get1D(d + 2), vertex, path, way)) break;
+    for (size_t stream = 0; stream < t.streams.count(); ++stream)
+      sum.add(path, directAtVertex(t, p, path.media, way, stream, sampler.get2D(d + 4), rays));
+    if (!scatter(t, p, way, sampler.get2D(d), sampler.get1D(d + 3), path)) break;
     ++rays.eye;
     const Hit hit =
         t.tracer.closest(path.origin, path.direction, std::numeric_limits<float>::infinity());
-    if (!hit) return sum + path.throughput * escaped(t, path);
-    const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -path.direction, path.media);
+    if (!hit) {
+      sum.add(path, escaped(t, path));
+      break;
+    }
+    p = t.shader.shade(t.tracer.surface(hit), -path.direction, path.media);
     path.throughput *= t.shader.attenuation(p, path.media, hit.t);
-    sum += path.throughput * met(t, path, hit, p);
-
-    const uint32_t d = 8 * static_cast<uint32_t>(vertex);
-    Way way{};
-    if (!chooseWay(t, p, sampler.get1D(d + 2), vertex, path, way)) return sum;
-    for (size_t stream = 0; stream < t.streams.count(); ++stream)
-      sum += path.throughput *
-             directAtVertex(t, p, path.media, way, stream, sampler.get2D(d + 4), rays);
-    if (!scatter(t, p, way, sampler.get2D(d), sampler.get1D(d + 3), path)) return sum;
+    sum.add(path, met(t, path, hit, p));
   }
-  return sum;
+  return sum.light;
 }
 
 }  // namespace ninefold

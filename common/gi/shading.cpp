@@ -137,8 +137,8 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
   p.ns = shadingNormal(s, p.ng);
   p.frame = Basis(facesNormal(p.ns, wo) ? p.ns : p.ng);
 
-  Vec3 base = m.baseColor;
-  float opacity = m.opacity;
+  Vec3 base = m.baseColor * Vec3(s.color);
+  float opacity = m.opacity * s.color.w;
   if (m.baseColorMap) {
     const Vec4 t = lookUp(*scene_, m.baseColorMap, s.uv0, s.uv1);
     base *= Vec3(t);

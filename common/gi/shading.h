@@ -7,7 +7,8 @@
 //             directions.
 // Transmitting (KHR_materials_transmission): exact Fresnel; (1-F) T baseColor goes through, D keeps
 // (1-T). Folded      a lobe for which foldsIntoDiffuse holds adds its mean reflection to D and is
-// gone. Blended     every part times the opacity; the rest passes straight on. Attenuation
+// gone. Colours of vertices multiply baseColor and the opacity.
+// Blended     every part times the opacity; the rest passes straight on. Attenuation
 // exp(-sigma t), sigma = -ln(attenuationColor)/attenuationDistance [1/m], inside solids.
 //
 // Source:  glTF 2.0, appendix B, and the KHR_materials extensions.

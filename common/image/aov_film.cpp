@@ -83,7 +83,8 @@ void AovFilm::addPatch(const Patch& patch, const PatchFilter& filter) {
     if ((extraMask_ & kAlbedoPlane) != 0) addRgb(patch, phase, extras.albedo, albedo_);
     if ((extraMask_ & kNormalPlane) != 0) addRgb(patch, phase, extras.normal, normal_);
     if ((extraMask_ & kCausticPlane) != 0) addRgb(patch, phase, extras.caustic, caustic_);
-    addRgb(patch, phase, filter.irradiance(phase), irradiance_);
+    const bool isWhole = (extraMask_ & kIrradiancePlane) != 0;
+    addRgb(patch, phase, isWhole ? extras.irradiance : filter.irradiance(phase), irradiance_);
     if ((extraMask_ & kDepthPlane) != 0)
       forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
         depth_[pixel] += static_cast<double>(extras.depth[from]);

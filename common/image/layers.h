@@ -35,7 +35,8 @@ enum ExtraPlane : uint8_t {
   kNormalPlane = 2,    // shading normal, unit; 0 where nothing was hit
   kDepthPlane = 4,     // distance along the camera's forward axis [m]; 0 where nothing was hit
   kObjectPlane = 8,    // instance index + 1; 0 where nothing was hit
-  kCausticPlane = 16,  // the photons' part of E in the diffuse layer [W/m^2]
+  kCausticPlane = 16,  // part of E in the diffuse layer that came by way of S [W/m^2]
+  kIrradiancePlane = 32,  // E there, of methods whose light is all in U [W/m^2]
 };
 // What tells what is at a place of the picture.
 inline constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
@@ -64,7 +65,7 @@ struct LayerPlanes {
 };
 
 struct ExtraPlanes {
-  RgbPlane albedo, normal, caustic;
+  RgbPlane albedo, normal, caustic, irradiance;
   std::vector<float> depth;
   std::vector<uint32_t> object;
 
@@ -72,6 +73,7 @@ struct ExtraPlanes {
     albedo.resize((mask & kAlbedoPlane) != 0 ? n : 0);
     normal.resize((mask & kNormalPlane) != 0 ? n : 0);
     caustic.resize((mask & kCausticPlane) != 0 ? n : 0);
+    irradiance.resize((mask & kIrradiancePlane) != 0 ? n : 0);
     depth.assign((mask & kDepthPlane) != 0 ? n : 0, 0);
     object.assign((mask & kObjectPlane) != 0 ? n : 0, 0);
   }

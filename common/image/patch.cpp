@@ -28,6 +28,7 @@ void forEachPlane(const TileResult& from, TileResult& to, const F& f) {
   if ((to.extraMask & kAlbedoPlane) != 0) rgb(from.extras.albedo, extras.albedo);
   if ((to.extraMask & kNormalPlane) != 0) rgb(from.extras.normal, extras.normal);
   if ((to.extraMask & kCausticPlane) != 0) rgb(from.extras.caustic, extras.caustic);
+  if ((to.extraMask & kIrradiancePlane) != 0) rgb(from.extras.irradiance, extras.irradiance);
   if ((to.extraMask & kDepthPlane) != 0) f(from.extras.depth, extras.depth);
   if ((to.extraMask & kObjectPlane) != 0) f(from.extras.object, extras.object);
 }

@@ -37,6 +37,8 @@ void interleave(const std::vector<const float*>& rows, int width, float* out) {
   for (; x < width; ++x) out[x] = rows[static_cast<size_t>(x % n)][x / n];
 }
 
+bool isLit(const RgbPlane& light, size_t i) { return light.r[i] + light.g[i] + light.b[i] > 0; }
+
 }  // namespace
 
 void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighbourWeight,
@@ -84,14 +86,15 @@ void PatchFilter::addLayer(const Patch& patch, int layer, int phase, float neigh
 void PatchFilter::paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const {
   grey.reset(patch.width(), patch.height());
   if (patch.isDark(kDiffuse)) return;
+  const float alone = 1.0f / static_cast<float>(patch.phases());
   std::vector<float> shares;
   for (int phase = 0; phase < patch.phases(); ++phase) {
     buffer_.shares(patch, kDiffuse, phase, neighbourWeight, shares);
-    const RgbPlane& reflectance = patch.phase(phase).layers[kDiffuse].reflectance;
+    const LayerPlanes& planes = patch.phase(phase).layers[kDiffuse];
     patch.forEachPixel(phase, [&](size_t from, int x, int y) {
       const size_t to = grey.at(x - patch.x0(), y - patch.y0());
-      const bool scatters = reflectance.r[from] + reflectance.g[from] + reflectance.b[from] > 0;
-      const float share = scatters ? shares[from] : 0;
+      const bool glows = patch.glows(kDiffuse) && isLit(planes.unfiltered, from);
+      const float share = planes.distance[from] > 0 ? shares[from] : (glows ? alone : 0);
       grey.pixels.r[to] = grey.pixels.g[to] = grey.pixels.b[to] = share;
     });
   }

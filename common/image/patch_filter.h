@@ -25,7 +25,7 @@ class PatchFilter {
   const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }
 
   // After compose: into each of the tile's pixels, as grey, what share of the window the diffuse
-  // layer's E' there is the mean of; 0 where nothing scatters diffusely.
+  // layer's light there is the mean of. U is nobody's but the pixel's; 0 where there is no light.
   void paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const;
 
  private:

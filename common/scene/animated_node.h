@@ -23,6 +23,7 @@ struct AnimatedNode {
   DMat4 asRead{1};             // its world matrix in the file, in file coordinates
   std::optional<DMat4> fixed;  // its local matrix, if only what is above it moves
   AnimationTrack translation, rotation, scale;  // if not fixed
+  double largestScale = 1;                      // of any axis at any key, without its sign
   bool hasInstances = false;
   int light = -1, camera = -1;  // indices into the scene's lists; -1 = none
 };

@@ -7,8 +7,6 @@
 namespace ninefold {
 namespace {
 
-constexpr double kSmallestScale = 1e-5;
-
 // Where a time lies in a track: between key i and the next, or on key i.
 struct Place {
   size_t i;
@@ -62,11 +60,8 @@ DVec4 rotationAt(const AnimationTrack& track, double time) {
 
 DMat4 localAt(const AnimatedNode& node, double time) {
   if (node.fixed) return *node.fixed;
-  DVec3 scale(valueAt(node.scale, time));
-  for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(scale[axis]) < kSmallestScale)
-      scale[axis] = std::copysign(kSmallestScale, scale[axis]);
-  return placement(DVec3(valueAt(node.translation, time)), rotationAt(node.rotation, time), scale);
+  return placement(DVec3(valueAt(node.translation, time)), rotationAt(node.rotation, time),
+                   liftedScale(DVec3(valueAt(node.scale, time)), node.largestScale));
 }
 
 // World matrices of all nodes that move, in file coordinates.

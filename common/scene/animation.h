@@ -9,7 +9,7 @@
 //   linear   v_i + s (v_j - v_i), rotations along the shorter great arc
 //   cubic    (2s^3 - 3s^2 + 1) v_i + d (s^3 - 2s^2 + s) out_i + (3s^2 - 2s^3) v_j + d (s^3 - s^2) in_j
 // Before the first and after the last key the value stays. What is scaled to nothing is scaled to
-// almost nothing, since a motion must be invertible.
+// almost nothing, since a motion must be invertible (gltf_transform.h).
 //
 // Source:  glTF 2.0 specification, 3.11 and appendix C.
 // Proved:  tests/scene/animation_test.cpp.   Threads: pure functions of plain data.   Errors: none.

@@ -23,9 +23,10 @@ float spotSolidAngle(const PunctualLight& light) {
 
 }  // namespace
 
-TextureCoordinates coordinatesAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics) {
+TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics) {
   const Triangle& t = mesh.triangles[triangle];
-  return {interpolate(mesh.uv0, t, barycentrics), interpolate(mesh.uv1, t, barycentrics)};
+  return {interpolate(mesh.uv0, t, barycentrics), interpolate(mesh.uv1, t, barycentrics),
+          colorAt(mesh, t, barycentrics.x, barycentrics.y).w};
 }
 
 Flux punctualFlux(const PunctualLight& light, float R) {
@@ -52,8 +53,8 @@ TriangleRadiance::Value TriangleRadiance::of(const Mesh& mesh, uint32_t triangle
 Radiance TriangleRadiance::mean(const Mesh& mesh, uint32_t triangle) const {
   Radiance sum(0);
   const auto add = [&](int i, int j) {
-    const TextureCoordinates at = coordinatesAt(mesh, triangle, Vec2(i, j) / (3.0f * kParts));
-    sum += emitters_->radianceOf(mesh.material, at.uv0, at.uv1);
+    const TexturePlace at = placeAt(mesh, triangle, Vec2(i, j) / (3.0f * kParts));
+    sum += emitters_->radianceOf(mesh.material, at);
   };
   for (int i = 0; i < kParts; ++i)
     for (int j = 0; i + j < kParts; ++j) {
@@ -71,7 +72,7 @@ float TriangleRadiance::peak(const Material& m, const Mesh& mesh, uint32_t trian
   const TexturePeaks& peaks = peaks_.try_emplace(use.image, image).first->second;
   Vec2 low(std::numeric_limits<float>::infinity()), high = -low;
   for (const Vec2 corner : {Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)}) {
-    const TextureCoordinates at = coordinatesAt(mesh, triangle, corner);
+    const TexturePlace at = placeAt(mesh, triangle, corner);
     const Vec2 uv = textureCoordinates(use, use.uvSet == 0 ? at.uv0 : at.uv1);
     low = glm::min(low, uv), high = glm::max(high, uv);
   }

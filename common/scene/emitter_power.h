@@ -9,10 +9,7 @@
 
 namespace ninefold {
 
-struct TextureCoordinates {
-  Vec2 uv0{0}, uv1{0};
-};
-TextureCoordinates coordinatesAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
+TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
 
 // Flux of a punctual light in a scene of radius R [W].
 Flux punctualFlux(const PunctualLight& light, float R);

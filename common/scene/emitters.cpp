@@ -15,11 +15,12 @@ namespace {
 
 // Share of the light of a textured emitter's texel that is let through by the surface's own
 // opacity.
-float coverage(const Scene& scene, const Material& m, Vec2 uv0, Vec2 uv1) {
+float coverage(const Scene& scene, const Material& m, const TexturePlace& at) {
   if (m.alphaMode == AlphaMode::opaque) return 1.0f;
-  const float alpha = m.baseColorMap ? lookUp(scene, m.baseColorMap, uv0, uv1).w : 1.0f;
-  if (m.alphaMode == AlphaMode::mask) return m.opacity * alpha < m.alphaCutoff ? 0.0f : 1.0f;
-  return std::clamp(m.opacity * alpha, 0.0f, 1.0f);
+  float alpha = m.opacity * at.alpha;
+  if (m.baseColorMap) alpha *= lookUp(scene, m.baseColorMap, at.uv0, at.uv1).w;
+  if (m.alphaMode == AlphaMode::mask) return alpha < m.alphaCutoff ? 0.0f : 1.0f;
+  return std::clamp(alpha, 0.0f, 1.0f);
 }
 
 EmitterKind kindOf(LightKind kind) {
@@ -157,10 +158,9 @@ bool Emitters::append(const Emitter& emitter, float itsPower, std::vector<float>
 EmitterPoint Emitters::pointAt(uint32_t emitter, Vec2 b) const {
   const Emitter& e = emitters_[emitter];
   const Mesh& mesh = scene_->meshes[static_cast<size_t>(scene_->instances[e.instance].mesh)];
-  const TextureCoordinates at = coordinatesAt(mesh, e.triangle, b);
   EmitterPoint p;
   p.position = pointOnTriangle(e.a, e.b, e.c, b.x, b.y);
-  p.radiance = radianceOf(mesh.material, at.uv0, at.uv1);
+  p.radiance = radianceOf(mesh.material, placeAt(mesh, e.triangle, b));
   p.error = triangleError(e.a, e.b, e.c, e.normal, p.position);
   return p;
 }
@@ -176,11 +176,11 @@ int Emitters::find(uint32_t instance, uint32_t triangle) const {
   return twice == doubles_.end() ? -1 : static_cast<int>(twice->second);
 }
 
-Radiance Emitters::radianceOf(int material, Vec2 uv0, Vec2 uv1) const {
+Radiance Emitters::radianceOf(int material, const TexturePlace& at) const {
   const Material& m = scene_->materials[static_cast<size_t>(material)];
   if (isBlack(m.emission)) return Radiance(0);
-  const Radiance L = coverage(*scene_, m, uv0, uv1) * m.emission;
-  return m.emissionMap ? L * Vec3(lookUp(*scene_, m.emissionMap, uv0, uv1)) : L;
+  const Radiance L = coverage(*scene_, m, at) * m.emission;
+  return m.emissionMap ? L * Vec3(lookUp(*scene_, m.emissionMap, at.uv0, at.uv1)) : L;
 }
 
 Intensity Emitters::intensity(const PunctualLight& light, Vec3 direction) {

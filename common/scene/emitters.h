@@ -48,6 +48,12 @@ struct EmitterPoint {
 
 class TriangleRadiance;  // emitter_power.h
 
+// What decides about a material's look at a place of a triangle.
+struct TexturePlace {
+  Vec2 uv0{0}, uv1{0};
+  float alpha = 1;  // of the vertices' colours
+};
+
 class Emitters {
  public:
   // `environment` replaces the scene's own. R = scene.bounds.radius().
@@ -62,9 +68,9 @@ class Emitters {
   EmitterPoint pointAt(uint32_t emitter, Vec2 barycentrics) const;  // barycentrics of b and c
   // Entry of an emissive triangle, or -1.
   int find(uint32_t instance, uint32_t triangle) const;
-  // Radiance that an emissive triangle sends from (uv0, uv1), one side. The surface's own opacity
-  // (alpha mask, blending) is in it.
-  Radiance radianceOf(int material, Vec2 uv0, Vec2 uv1) const;
+  // Radiance that an emissive triangle sends from a place, one side. The surface's own opacity (alpha
+  // mask, blending) is in it.
+  Radiance radianceOf(int material, const TexturePlace& at) const;
   // I(omega) of a punctual light towards unit `direction` (from the light) [W/sr].
   static Intensity intensity(const PunctualLight& light, Vec3 direction);
 

@@ -118,7 +118,7 @@ GltfAccessor::GltfAccessor(const tinygltf::Model& model, int accessor, int compo
   base_.type = a.componentType;
   if (a.bufferView >= 0)
     base_ = checkedArray(model, a.bufferView, a.byteOffset, a.count, a.componentType, components_);
-  else if (!a.sparse.isSparse || a.count > kMaxZeros)
+  else if (a.count > kMaxZeros)
     fail("{}: claims {} elements but has no data", what_, a.count);
   if (a.sparse.isSparse) readSparse(model, accessor);
 }

@@ -35,6 +35,8 @@ class GltfAccessor {
   // First component of an unsigned integer accessor.
   uint32_t index(size_t i) const;
   bool isUnsignedInteger() const;
+  // Integers are fractions of their largest value, also where the file forgets to say so.
+  void takeAsNormalized() { normalized_ = true; }
 
  private:
   // A run of equally spaced elements.

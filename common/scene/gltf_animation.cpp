@@ -58,15 +58,60 @@ AnimationTrack orConstant(AnimationTrack track, const std::vector<double>& rest,
   return constant(otherwise);
 }
 
+// Those without a name are told by their number.
+std::string nameOfClip(const tinygltf::Model& model, size_t i) {
+  const std::string& name = model.animations[i].name;
+  return name.empty() ? std::to_string(i) : name;
+}
+
+std::string namesOfClips(const tinygltf::Model& model) {
+  std::string names;
+  for (size_t i = 0; i < model.animations.size(); ++i)
+    names += (i == 0 ? "" : ", ") + nameOfClip(model, i);
+  return names;
+}
+
+std::optional<size_t> chosenClip(const tinygltf::Model& model,
+                                 const std::optional<std::string>& clip) {
+  const size_t count = model.animations.size();
+  if (clip) {
+    for (size_t i = 0; i < count; ++i)
+      if (nameOfClip(model, i) == *clip) return i;
+    if (count == 0) fail("the file has no animation, so --clip {} names none", *clip);
+    fail("it has no animation '{}'; there is: {}", *clip, namesOfClips(model));
+  }
+  if (count == 0) return std::nullopt;
+  if (count > 1)
+    log("{} animations in the file: {} plays; --clip NAME chooses among {}", count,
+        nameOfClip(model, 0), namesOfClips(model));
+  return 0;
+}
+
+// The largest of the keys, of any axis.
+double largestOf(const AnimationTrack& track) {
+  const size_t step = track.kind == Kind::cubic ? 3 : 1;
+  double largest = 0;
+  for (size_t i = step / 2; i < track.values.size(); i += step)
+    largest = std::max(largest, maxAxis(DVec3(track.values[i])));
+  return largest;
+}
+
+DVec3 restScale(const tinygltf::Node& node) {
+  return node.scale.size() == 3 ? DVec3(node.scale[0], node.scale[1], node.scale[2]) : DVec3(1);
+}
+
 }  // namespace
 
-GltfAnimations::GltfAnimations(const tinygltf::Model& model) : model_(&model) {
-  for (size_t a = 0; a < model.animations.size(); ++a)
-    for (size_t c = 0; c < model.animations[a].channels.size(); ++c) try {
-        read(model.animations[a], model.animations[a].channels[c]);
-      } catch (const Error& error) {
-        fail("animation {} '{}', channel {}: {}", a, model.animations[a].name, c, error.what());
-      }
+GltfAnimations::GltfAnimations(const tinygltf::Model& model, const std::optional<std::string>& clip)
+    : model_(&model) {
+  const std::optional<size_t> chosen = chosenClip(model, clip);
+  if (!chosen) return;
+  const tinygltf::Animation& animation = model.animations[*chosen];
+  for (size_t c = 0; c < animation.channels.size(); ++c) try {
+      read(animation, animation.channels[c]);
+    } catch (const Error& error) {
+      fail("animation {} '{}', channel {}: {}", *chosen, animation.name, c, error.what());
+    }
   if (morphs_) warn("animated morph weights are not supported: left out");
 }
 
@@ -93,6 +138,21 @@ void GltfAnimations::read(const tinygltf::Animation& animation,
   keys_ += track.times.size();
 }
 
+double GltfAnimations::largestScale(int index) const {
+  const double rest = maxAxis(restScale(model_->nodes[static_cast<size_t>(index)]));
+  const auto moved = tracks_.find(index);
+  return moved == tracks_.end() ? rest : std::max(rest, largestOf(moved->second.scale));
+}
+
+DMat4 GltfAnimations::localMatrix(int index) const {
+  tinygltf::Node node = model_->nodes[static_cast<size_t>(index)];
+  if (node.matrix.empty() && node.scale.size() == 3) {
+    const DVec3 scale = liftedScale(restScale(node), largestScale(index));
+    node.scale = {scale.x, scale.y, scale.z};
+  }
+  return ninefold::localMatrix(node);
+}
+
 int GltfAnimations::enter(int index, int parent, const DMat4& above, const DMat4& toWorld) {
   const auto moved = tracks_.find(index);
   if (parent < 0 && moved == tracks_.end()) return -1;
@@ -100,8 +160,9 @@ int GltfAnimations::enter(int index, int parent, const DMat4& above, const DMat4
   AnimatedNode& entry = nodes_.emplace_back();
   entry.node = index, entry.parent = parent, entry.above = above, entry.asRead = toWorld;
   if (moved == tracks_.end()) {
-    entry.fixed = localMatrix(node);
+    entry.fixed = localMatrix(index);
   } else {
+    entry.largestScale = largestScale(index);
     Tracks& tracks = moved->second;
     entry.translation = orConstant(std::move(tracks.translation), node.translation, DVec4(0));
     entry.rotation = orConstant(std::move(tracks.rotation), node.rotation, DVec4(0, 0, 0, 1));

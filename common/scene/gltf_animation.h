@@ -1,11 +1,13 @@
-// gltf_animation.h: the animations of a glTF file: which nodes they move, and how. All animations of the
-// file play at once; where two move the same property of a node, the first one does.
+// gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The others do
+// nothing. Where two of its channels move the same property of a node, the first one does.
 //
 // Morph weights are left out with a warning. Refers to the model.
 // Errors: throws Error that names animation and channel. Threads: one owner.
 #pragma once
 
 #include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/scene/animated_node.h"
@@ -20,7 +22,12 @@ namespace ninefold {
 
 class GltfAnimations {
  public:
-  explicit GltfAnimations(const tinygltf::Model& model);
+  // `clip`: the name of the animation; the first if it is not given. Errors: Error for a name that the
+  // file does not have.
+  GltfAnimations(const tinygltf::Model& model, const std::optional<std::string>& clip);
+
+  // As read, but invertible where the node has an axis without length (gltf_transform.h).
+  DMat4 localMatrix(int node) const;
 
   // A node that the scene reaches, parents first. Its place in the list of those that move, or -1;
   // `parent`: that of the node above.
@@ -32,6 +39,7 @@ class GltfAnimations {
   struct Tracks {
     AnimationTrack translation, rotation, scale;
   };
+  double largestScale(int node) const;
   void read(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel);
 
   const tinygltf::Model* model_;

@@ -1,9 +1,11 @@
 // gltf_file.h: the parsed but unchecked content of a glTF file. Every file that it names is read
 // through the SceneFolder; images stay as the compressed bytes that they are.
+// Images that cannot be had are no error here: nothing may use them.
 // Errors: throws Error.
 // Threads: reentrant.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -16,8 +18,13 @@ class Model;
 
 namespace ninefold {
 
-// An unknown required extension is an error that names it; unknown optional ones give one warning.
-std::shared_ptr<const tinygltf::Model> parseGltf(std::span<const unsigned char> file,
-                                                 const SceneFolder& folder);
+struct GltfFile {
+  std::shared_ptr<const tinygltf::Model> model;
+  std::map<int, std::string> badImages;  // by index: why it cannot be had
+};
+
+// An unknown required extension, or another version than 2, is an error that names it; unknown optional
+// extensions give one warning.
+GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folder);
 
 }  // namespace ninefold

@@ -2,6 +2,7 @@
 
 #include "common/scene/gltf_accessor.h"
 #include "common/scene/gltf_value.h"
+#include "common/scene/material_check.h"
 
 namespace ninefold {
 namespace {
@@ -27,6 +28,14 @@ AlphaMode alphaModeOf(const std::string& name) {
   return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
+// ", only that of ..." for who has another image.
+std::string extensionsOf(const tinygltf::Texture& texture) {
+  std::string names;
+  for (const auto& [name, value] : texture.extensions)
+    names += (names.empty() ? ", only that of " : ", ") + name;
+  return names;
+}
+
 float numberIn(const tinygltf::Value& object, const char* key, float otherwise) {
   return static_cast<float>(numberOr(object, key, static_cast<double>(otherwise)));
 }
@@ -49,6 +58,7 @@ Material GltfMaterials::read(int index) {
   try {
     readCore(from, m);
     readExtensions(from, m);
+    clampFactors(m, "material " + std::to_string(index) + " '" + from.name + "'");
   } catch (const Error& e) {
     fail("material {} '{}': {}", index, from.name, e.what());
   }
@@ -147,11 +157,14 @@ int GltfMaterials::image(int texture, bool srgb) {
     fail("texture {} does not exist", texture);
   const int source = model_->textures[static_cast<size_t>(texture)].source;
   if (source < 0 || static_cast<size_t>(source) >= model_->images.size())
-    fail("texture {} names no PNG or JPEG image: export it as one of them", texture);
+    fail("texture {} names no PNG or JPEG image{}: export it as one of them", texture,
+         extensionsOf(model_->textures[static_cast<size_t>(texture)]));
   const tinygltf::Image& from = model_->images[static_cast<size_t>(source)];
   const std::string name =
       "image " + std::to_string(source) + " '" + (from.name.empty() ? from.uri : from.name) + "'";
   const auto bytes = [&]() -> std::span<const unsigned char> {
+    if (const auto bad = badImages_->find(source); bad != badImages_->end())
+      fail("{}", bad->second);
     if (from.bufferView < 0) return from.image;
     const BytesOfView view = bytesOfView(*model_, from.bufferView, name);
     return {view.data, view.size};

@@ -1,12 +1,13 @@
 // gltf_material.h: glTF materials and their textures, read when the first mesh that is used asks
 // for one.
-// Errors: throws Error, naming the material. Refers to model and scene.
+// Errors: throws Error, naming the material. Refers to file and scene.
 // Threads: one.
 #pragma once
 
 #include <map>
 #include <set>
 
+#include "common/scene/gltf_file.h"
 #include "common/scene/image_library.h"
 
 namespace tinygltf {
@@ -19,8 +20,11 @@ namespace ninefold {
 
 class GltfMaterials {
  public:
-  GltfMaterials(const tinygltf::Model& model, Scene& scene)
-      : model_(&model), scene_(&scene), images_(scene.images.own()) {}
+  GltfMaterials(const GltfFile& file, Scene& scene)
+      : model_(file.model.get()),
+        badImages_(&file.badImages),
+        scene_(&scene),
+        images_(scene.images.own()) {}
 
   // Index into scene.materials of the file's material; -1 asks for glTF's default one.
   int use(int material);
@@ -37,6 +41,7 @@ class GltfMaterials {
   int image(int texture, bool srgb);
 
   const tinygltf::Model* model_;
+  const std::map<int, std::string>* badImages_;
   Scene* scene_;
   ImageLibrary images_;
   std::map<int, int> known_;

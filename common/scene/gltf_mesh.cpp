@@ -44,6 +44,36 @@ std::vector<V> attribute(const tinygltf::Model& model, const tinygltf::Primitive
   return values;
 }
 
+// COLOR_0, linear; without alpha it is opaque.
+std::vector<Vec4> colorsOf(const tinygltf::Model& model, const tinygltf::Primitive& from,
+                           size_t vertices, const std::vector<uint32_t>& kept,
+                           const std::string& what) {
+  const auto found = from.attributes.find("COLOR_0");
+  if (found == from.attributes.end()) return {};
+  GltfAccessor accessor(model, found->second, 3, what + " COLOR_0");
+  if (accessor.count() != vertices)
+    fail("{}: COLOR_0 has {} elements for {} vertices", what, accessor.count(), vertices);
+  accessor.takeAsNormalized();
+  std::vector<Vec4> colors;
+  colors.reserve(kept.size());
+  for (const uint32_t i : kept) {
+    const Vec4 color = accessor.element(i);
+    colors.emplace_back(Vec3(color), accessor.components() > 3 ? color.w : 1.0f);
+  }
+  return colors;
+}
+
+// Compressed, and nothing else there to read.
+void checkNotDraco(const tinygltf::Model& model, const tinygltf::Primitive& from, int position,
+                   const std::string& what) {
+  constexpr const char* kDraco = "KHR_draco_mesh_compression";
+  const bool isThere = position >= 0 && static_cast<size_t>(position) < model.accessors.size();
+  if (isThere && from.extensions.contains(kDraco) &&
+      model.accessors[static_cast<size_t>(position)].bufferView < 0)
+    fail("{}: needs the glTF extension {}, which is not supported: export without it", what,
+         kDraco);
+}
+
 }  // namespace
 
 const std::vector<int>& GltfMeshes::use(int mesh) {
@@ -74,6 +104,7 @@ void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const std::strin
                                Mesh& mesh) {
   const auto position = from.attributes.find("POSITION");
   if (position == from.attributes.end()) fail("{}: has no POSITION", what);
+  checkNotDraco(*model_, from, position->second, what);
   const size_t vertices = GltfAccessor(*model_, position->second, 3, what + " POSITION").count();
   mesh.triangles = trianglesOf(from, vertices, what);
   const std::vector<uint32_t> kept = compactVertices(mesh.triangles);
@@ -82,6 +113,7 @@ void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const std::strin
   mesh.uv0 = attribute<Vec2>(*model_, from, "TEXCOORD_0", vertices, kept, what);
   mesh.uv1 = attribute<Vec2>(*model_, from, "TEXCOORD_1", vertices, kept, what);
   mesh.tangents = attribute<Vec4>(*model_, from, "TANGENT", vertices, kept, what);
+  mesh.colors = colorsOf(*model_, from, vertices, kept, what);
   flatTriangles_ += cleanMesh(mesh, what);
   if (!from.targets.empty() || from.attributes.count("JOINTS_0") != 0) ++deformed_;
   if (mesh.triangles.empty()) return;

@@ -17,8 +17,8 @@ namespace ninefold {
 
 class GltfMeshes {
  public:
-  GltfMeshes(const tinygltf::Model& model, Scene& scene)
-      : model_(&model), scene_(&scene), materials_(model, scene) {}
+  GltfMeshes(const GltfFile& file, Scene& scene)
+      : model_(file.model.get()), scene_(&scene), materials_(file, scene) {}
 
   // Indices into scene.meshes; empty if the mesh has no triangles.
   const std::vector<int>& use(int mesh);

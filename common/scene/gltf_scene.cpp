@@ -17,27 +17,50 @@
 namespace ninefold {
 namespace {
 
+// Angles out of order or range become the nearest ones that make sense.
+void setCone(const tinygltf::Light& from, PunctualLight& light) {
+  constexpr float kRounding = 1e-4f;
+  const auto outer = static_cast<float>(from.spot.outerConeAngle),
+             inner = static_cast<float>(from.spot.innerConeAngle);
+  if (!std::isfinite(outer) || !std::isfinite(inner))
+    fail("light '{}': its cone is not a finite number", light.name);
+  light.outerCone = std::clamp(outer, 0.0f, 0.5f * kPi);
+  light.innerCone = std::clamp(inner, 0.0f, light.outerCone);
+  if (std::abs(light.outerCone - outer) > kRounding ||
+      std::abs(light.innerCone - inner) > kRounding)
+    warn("light '{}': cone angles {:.4g} and {:.4g} are read as {:.4g} and {:.4g}", light.name,
+         inner, outer, light.innerCone, light.outerCone);
+}
+
+// Flattened to a line or a point: no triangle has any area.
+bool isNothing(const DMat4& m) {
+  const DVec3 x(m[0]), y(m[1]), z(m[2]);
+  const double lengths = glm::dot(x, x) + glm::dot(y, y) + glm::dot(z, z);
+  const DVec3 a = glm::cross(x, y), b = glm::cross(y, z), c = glm::cross(z, x);
+  return glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) <= 1e-24 * lengths * lengths;
+}
+
 class SceneBuilder {
  public:
-  explicit SceneBuilder(const tinygltf::Model& model)
-      : model_(&model),
-        meshes_(model, draft_.scene),
-        animations_(model),
-        seen_(model.nodes.size(), 0) {}
+  SceneBuilder(const GltfFile& file, const std::optional<std::string>& clip)
+      : model_(file.model.get()),
+        meshes_(file, draft_.scene),
+        animations_(*model_, clip),
+        seen_(model_->nodes.size(), 0) {}
 
   SceneDraft build();
 
  private:
   struct Visit {
     int node;
-    DMat4 parent;
-    int mover = -1;  // the nearest node above in animations_
+    DMat4 parent, exactParent;  // world matrices; the first can be inverted, see gltf_transform.h
+    int mover = -1;             // the nearest node above in animations_
   };
   std::vector<int> roots() const;
   std::optional<float> exposure() const;
   void enter(int node);
   void visit(const Visit& visit, std::vector<Visit>& open);
-  void addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld);
+  void addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld, bool nothing);
   void addCamera(const tinygltf::Node& node, const DMat4& toWorld);
   void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
 
@@ -91,7 +114,8 @@ SceneDraft SceneBuilder::build() {
     log("{} scenes in the file: the default one is read", model_->scenes.size());
   std::vector<Visit> open;
   const std::vector<int> nodes = roots();
-  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) open.push_back({*node, DMat4(1)});
+  for (auto node = nodes.rbegin(); node != nodes.rend(); ++node)
+    open.push_back({*node, DMat4(1), DMat4(1)});
   while (!open.empty()) {
     const Visit next = open.back();
     open.pop_back();
@@ -114,14 +138,15 @@ SceneDraft SceneBuilder::build() {
 
 void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
   const tinygltf::Node& node = model_->nodes[static_cast<size_t>(visit.node)];
-  const DMat4 toWorld = visit.parent * localMatrix(node);
+  const DMat4 exact = visit.exactParent * localMatrix(node);
+  const DMat4 toWorld = visit.parent * animations_.localMatrix(visit.node);
   const size_t instances = draft_.scene.instances.size(), lights = draft_.scene.lights.size(),
                cameras = draft_.scene.cameras.size();
-  if (node.mesh >= 0) addMesh(node, visit.node, toWorld);
+  const int mover = animations_.enter(visit.node, visit.mover, visit.parent, toWorld);
+  if (node.mesh >= 0) addMesh(node, visit.node, toWorld, mover < 0 && isNothing(exact));
   if (node.camera >= 0) addCamera(node, toWorld);
   if (const auto* e = extensionOf(node, "KHR_lights_punctual"))
     addLight(node, integerOr(*e, "light", -1), toWorld);
-  const int mover = animations_.enter(visit.node, visit.mover, visit.parent, toWorld);
   if (mover >= 0) {
     AnimatedNode& moved = animations_[mover];
     moved.hasInstances = draft_.scene.instances.size() > instances;
@@ -129,22 +154,26 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
     if (draft_.scene.cameras.size() > cameras) moved.camera = static_cast<int>(cameras);
   }
   for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-    open.push_back({*child, toWorld, mover});
+    open.push_back({*child, toWorld, exact, mover});
 }
 
-void SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld) {
+void SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld,
+                           bool nothing) {
   const std::vector<int>& meshes = meshes_.use(node.mesh);
   if (meshes.empty()) return;
   const std::string& name =
       node.name.empty() ? model_->meshes[static_cast<size_t>(node.mesh)].name : node.name;
   const auto add = [&](const DMat4& matrix) {
-    for (const int mesh : meshes) draft_.addInstance(mesh, index, name, matrix);
+    if (nothing) ++draft_.flatInstances;
+    for (const int mesh : meshes)
+      if (!nothing) draft_.addInstance(mesh, index, name, matrix);
   };
   const auto* e = extensionOf(node, "EXT_mesh_gpu_instancing");
   if (e == nullptr) return add(toWorld);
   const CopyMatrices copies(*model_, *e);
   if (copies.count() > kMaxInstances) fail("more than {} instances: merge objects", kMaxInstances);
-  for (size_t i = 0; i < copies.count(); ++i) add(toWorld * copies.matrix(i));
+  for (size_t i = 0; i < copies.count(); ++i)
+    copies.vanishes(i) ? void(++draft_.flatInstances) : add(toWorld * copies.matrix(i));
 }
 
 void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {
@@ -181,18 +210,17 @@ void SceneBuilder::addLight(const tinygltf::Node& node, int index, const DMat4& 
   light.intensity = Vec3(strength);
   for (int c = 0; c < 3 && from.color.size() == 3; ++c)
     light.intensity[c] *= static_cast<float>(from.color[static_cast<size_t>(c)]);
-  if (light.kind == LightKind::spot) {
-    light.innerCone = static_cast<float>(from.spot.innerConeAngle);
-    light.outerCone = static_cast<float>(from.spot.outerConeAngle);
-  }
+  if (light.kind == LightKind::spot) setCone(from, light);
   draft_.scene.lights.push_back(light);
   draft_.lightPositions.emplace_back(toWorld[3]);
 }
 
 }  // namespace
 
-SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder) {
-  return SceneBuilder(*parseGltf(file, folder)).build();
+SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder,
+                    const std::optional<std::string>& clip) {
+  const GltfFile parsed = parseGltf(file, folder);
+  return SceneBuilder(parsed, clip).build();
 }
 
 }  // namespace ninefold

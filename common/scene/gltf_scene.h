@@ -5,7 +5,9 @@
 // Threads: reentrant.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_folder.h"
@@ -13,6 +15,8 @@
 namespace ninefold {
 
 // `file`: content of a .gltf or .glb; `folder`: where its other files are.
-SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder);
+// `clip`: the animation that plays; the first if it is not named.
+SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder,
+                    const std::optional<std::string>& clip);
 
 }  // namespace ninefold

@@ -36,6 +36,17 @@ DMat4 placement(DVec3 translation, DVec4 rotation, DVec3 scale) {
   return m;
 }
 
+double maxAxis(DVec3 scale) {
+  return std::max({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
+}
+
+DVec3 liftedScale(DVec3 scale, double largest) {
+  const double least = kSmallestScale * (largest > 0 ? largest : 1);
+  for (int axis = 0; axis < 3; ++axis)
+    if (std::abs(scale[axis]) < least) scale[axis] = std::copysign(least, scale[axis]);
+  return scale;
+}
+
 Vec3 unitOr(DVec3 v, Vec3 otherwise) {
   const double length = glm::length(v);
   return length > 0 && std::isfinite(length) ? Vec3(v / length) : otherwise;
@@ -75,9 +86,19 @@ CopyMatrices::CopyMatrices(const tinygltf::Model& model, const tinygltf::Value& 
 }
 
 DMat4 CopyMatrices::matrix(size_t i) const {
+  const DVec3 scale = scaleOf(i);
   return placement(translation_ ? DVec3(translation_->element(i)) : DVec3(0),
                    rotation_ ? DVec4(rotation_->element(i)) : DVec4(0, 0, 0, 1),
-                   scale_ ? DVec3(scale_->element(i)) : DVec3(1));
+                   liftedScale(scale, maxAxis(scale)));
+}
+
+DVec3 CopyMatrices::scaleOf(size_t i) const {
+  return scale_ ? DVec3(scale_->element(i)) : DVec3(1);
+}
+
+bool CopyMatrices::vanishes(size_t i) const {
+  const DVec3 scale = scaleOf(i);
+  return (scale.x == 0) + (scale.y == 0) + (scale.z == 0) >= 2;
 }
 
 }  // namespace ninefold

@@ -17,6 +17,12 @@ namespace ninefold {
 
 DMat4 localMatrix(const tinygltf::Node& node);
 
+// What is scaled to nothing is scaled to almost nothing, since a motion must be invertible: an axis gets at
+// least this share of the largest scale that its node ever has.
+inline constexpr double kSmallestScale = 1e-5;
+DVec3 liftedScale(DVec3 scale, double largest);
+double maxAxis(DVec3 scale);  // without its sign
+
 // Scale, then rotation by a quaternion (x, y, z, w) of any length but 0, then translation.
 DMat4 placement(DVec3 translation, DVec4 rotation, DVec3 scale);
 
@@ -28,9 +34,13 @@ class CopyMatrices {
  public:
   CopyMatrices(const tinygltf::Model& model, const tinygltf::Value& extension);
   size_t count() const { return count_; }
+  // Invertible, unless the copy vanishes: then two axes or all have no length.
   DMat4 matrix(size_t i) const;
+  bool vanishes(size_t i) const;
 
  private:
+  DVec3 scaleOf(size_t i) const;
+
   std::optional<GltfAccessor> translation_, rotation_, scale_;
   size_t count_ = 0;
 };

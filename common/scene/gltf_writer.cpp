@@ -150,6 +150,7 @@ class Writer {
     };
     put("NORMAL", mesh.normals, "VEC3"), put("TANGENT", mesh.tangents, "VEC4");
     put("TEXCOORD_0", mesh.uv0, "VEC2"), put("TEXCOORD_1", mesh.uv1, "VEC2");
+    put("COLOR_0", mesh.colors, "VEC4");
     addAccessor(mesh.triangles, kUnsigned, "SCALAR", 3);
     return {{"attributes", attributes}, {"indices", lastAccessor()}, {"material", mesh.material}};
   }

@@ -1,6 +1,7 @@
 #include "common/scene/material_check.h"
 
 #include "common/base/error.h"
+#include "common/base/log.h"
 
 namespace ninefold {
 namespace {
@@ -40,7 +41,34 @@ void checkMaps(const Scene& scene, const Material& m, const std::string& what) {
   checkUse(scene, m.specularColorMap, true, what, "specular colour");
 }
 
+// Not a number stays for the check.
+void clampFactor(float& value, float high, const std::string& what, const char* name) {
+  constexpr float kRounding = 1e-3f;
+  const float clamped = std::clamp(value, 0.0f, high);
+  if (std::abs(clamped - value) > kRounding)
+    warn("{}: its {} is {:.4g} and read as {:.4g}", what, name, value, clamped);
+  if (!std::isnan(value)) value = clamped;
+}
+
+void clampColour(Vec3& value, float high, const std::string& what, const char* name) {
+  for (int c = 0; c < 3; ++c) clampFactor(value[c], high, what, name);
+}
+
 }  // namespace
+
+void clampFactors(Material& m, const std::string& what) {
+  constexpr float kAny = std::numeric_limits<float>::max();
+  clampColour(m.baseColor, 1, what, "base colour");
+  clampFactor(m.opacity, 1, what, "opacity");
+  clampFactor(m.alphaCutoff, kAny, what, "alpha cutoff");
+  clampFactor(m.metallic, 1, what, "metallic factor");
+  clampFactor(m.roughness, 1, what, "roughness");
+  clampColour(m.emission, kAny, what, "emission");
+  clampFactor(m.transmission, 1, what, "transmission");
+  clampFactor(m.specular, 1, what, "specular factor");
+  clampColour(m.specularColor, kAny, what, "specular colour");
+  clampColour(m.attenuationColor, 1, what, "attenuation colour");
+}
 
 void checkMaterial(const Scene& scene, const Material& m, const std::string& what) {
   constexpr float kAny = std::numeric_limits<float>::max();

@@ -96,6 +96,7 @@ size_t cleanMesh(Mesh& mesh, const std::string& what) {
   checkFinite(mesh.uv0, what, "texture coordinate");
   checkFinite(mesh.uv1, what, "texture coordinate");
   checkFinite(mesh.tangents, what, "tangent");
+  checkFinite(mesh.colors, what, "colour");
   const size_t dropped = dropFlatTriangles(mesh);
   const std::vector<uint32_t> kept = compactVertices(mesh.triangles);
   keepOnly(mesh.positions, kept);
@@ -103,6 +104,8 @@ size_t cleanMesh(Mesh& mesh, const std::string& what) {
   keepOnly(mesh.uv0, kept);
   keepOnly(mesh.uv1, kept);
   keepOnly(mesh.tangents, kept);
+  keepOnly(mesh.colors, kept);
+  for (Vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
   cleanNormals(mesh);
   cleanTangents(mesh);
   return dropped;

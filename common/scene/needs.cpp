@@ -33,6 +33,11 @@ bool blends(const Scene& scene, const Material& m) {
          m.opacity * channelRange(scene, m.baseColorMap, 3).low < 1;
 }
 
+bool blendsByVertex(const Scene& scene, const Mesh& mesh) {
+  return scene.materials[static_cast<size_t>(mesh.material)].alphaMode == AlphaMode::blend &&
+         std::ranges::any_of(mesh.colors, [](const Vec4& color) { return color.w < 1; });
+}
+
 bool isTextured(const Material& m) {
   return m.baseColorMap || m.metallicRoughnessMap || m.normalMap || m.emissionMap ||
          m.transmissionMap || m.specularMap || m.specularColorMap;
@@ -75,6 +80,9 @@ Needs needsOf(const Scene& scene, Radiance environment) {
     used[static_cast<size_t>(scene.meshes[static_cast<size_t>(instance.mesh)].material)] = 1;
   for (size_t i = 0; i < used.size(); ++i)
     if (used[i] != 0) addMaterial(scene, scene.materials[i], needs);
+  for (const Instance& instance : scene.instances)
+    if (blendsByVertex(scene, scene.meshes[static_cast<size_t>(instance.mesh)]))
+      needs.transmission = needs.smoothSpecular = true;
   needs.punctualLights =
       std::any_of(scene.lights.begin(), scene.lights.end(),
                   [](const PunctualLight& light) { return !isBlack(light.intensity); });
@@ -105,16 +113,13 @@ std::vector<std::string> describe(const Needs& needs) {
 
 std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
   std::vector<std::string> lines;
-  if (settings.method == Method::pathTrace) {
-    if (needs.punctualLights && needs.smoothSpecular)
-      lines.emplace_back(
-          "path-trace cannot find light that comes from point, spot or directional lights by way "
-          "of "
-          "smooth mirrors, glass or transparent surfaces: it is missing");
-    return lines;
-  }
+  const bool traced = settings.method == Method::pathTrace;
+  if (traced && needs.punctualLights && needs.smoothSpecular)
+    lines.emplace_back(
+        "path-trace cannot find light that comes from point, spot or directional lights by way of "
+        "smooth mirrors, glass or transparent surfaces: it is missing");
   if (!needs.specular()) return lines;
-  if (settings.caustics == Caustics::off || settings.photons == 0)
+  if (settings.caustics == Caustics::off || (settings.photons == 0 && !traced))
     lines.emplace_back("caustics are off: light by way of mirrors and glass is missing");
   else if (settings.caustics == Caustics::direct)
     lines.emplace_back(

@@ -42,6 +42,9 @@ inline uint8_t layerMaskOf(const Needs& needs, Method method) {
   return method == Method::pathTrace ? uint8_t{1} : needs.layerMask();
 }
 
+// Whether all of a method's light is radiance U: then nothing of it is filtered.
+inline bool isUnfiltered(Method method) { return method == Method::pathTrace; }
+
 Needs needsOf(const Scene& scene, Radiance environment);
 
 // One line for each need: what is on or off, and why. First lines of the log.

@@ -12,6 +12,8 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
+#include <string>
 
 #include "common/scene/scene.h"
 
@@ -24,7 +26,9 @@ inline constexpr uint64_t kMaxImageSide = 16384;
 inline constexpr uint64_t kMaxFileBytes = 4ull << 30;
 inline constexpr uint64_t kMaxInstances = 1'000'000;
 
-Scene readScene(const std::filesystem::path& file);
+// `clip`: which of the file's animations plays; the first if it is not named.
+Scene readScene(const std::filesystem::path& file,
+                const std::optional<std::string>& clip = std::nullopt);
 
 // The checks that every scene passes, from a file or from the wire; throws Error. Used by both.
 void validate(const Scene& scene);

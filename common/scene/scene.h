@@ -83,9 +83,18 @@ struct Mesh {
   std::vector<Vec3> normals;   // empty (flat shading) or one per vertex, unit
   std::vector<Vec2> uv0, uv1;  // empty or one per vertex
   std::vector<Vec4> tangents;  // empty or one per vertex, w = sign of the bitangent
+  std::vector<Vec4> colors;  // empty or one per vertex, linear, in [0, 1]: times colour and opacity
   std::vector<Triangle> triangles;
   int material = 0;
 };
+
+// Colour at barycentrics (u, v) of a triangle; exact where its corners have the same.
+inline Vec4 colorAt(const Mesh& mesh, const Triangle& t, float u, float v) {
+  if (mesh.colors.empty()) return Vec4(1);
+  const Vec4 first = mesh.colors[t.x];
+  const Vec4 color = first + u * (mesh.colors[t.y] - first) + v * (mesh.colors[t.z] - first);
+  return glm::clamp(color, 0.0f, 1.0f);
+}
 
 struct Instance {
   std::string name;
@@ -103,7 +112,7 @@ struct PunctualLight {
   Vec3 position{0};                             // [m]
   Vec3 direction{0, 0, -1};                     // unit, where the light goes
   Vec3 intensity{1};                            // point, spot: I [W/sr]; directional: E0 [W/m^2]
-  float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner < outer <= pi/2
+  float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner <= outer <= pi/2
 };
 
 struct Scene {

@@ -33,6 +33,9 @@ void checkMesh(const Scene& scene, const Mesh& mesh, const std::string& what) {
   checkPerVertex(mesh.uv0, mesh, what, "texture coordinates");
   checkPerVertex(mesh.uv1, mesh, what, "texture coordinates");
   checkPerVertex(mesh.tangents, mesh, what, "tangents");
+  checkPerVertex(mesh.colors, mesh, what, "colours");
+  for (const Vec4& c : mesh.colors)
+    if (glm::clamp(c, 0.0f, 1.0f) != c) fail("{}: one of its colours is outside of 0 to 1", what);
   for (const Vec3& n : mesh.normals)
     if (!isUnit(n)) fail("{}: one of its normals is not of unit length", what);
   for (const Triangle& t : mesh.triangles)
@@ -85,9 +88,9 @@ void checkLights(const Scene& scene) {
     const Vec3 I = light.intensity;
     if (!isFinite(I) || I.x < 0 || I.y < 0 || I.z < 0)
       fail("light {}: its intensity must be at least 0 and finite", i);
-    const bool cone = light.innerCone >= 0 && light.innerCone < light.outerCone &&
+    const bool cone = light.innerCone >= 0 && light.innerCone <= light.outerCone &&
                       light.outerCone <= 0.5f * kPi + 1e-4f;
-    if (!cone) fail("light {}: its cone must have 0 <= inner < outer <= pi/2", i);
+    if (!cone) fail("light {}: its cone must have 0 <= inner <= outer <= pi/2", i);
   }
 }
 

@@ -25,9 +25,9 @@ void rejectOpenTexels(const RTCFilterFunctionNArguments* arguments) {
 }  // namespace
 
 bool AlphaMask::isOpen(uint32_t triangle, float u, float v) const {
-  float alpha = material->opacity;
+  const Triangle& t = mesh->triangles[triangle];
+  float alpha = material->opacity * colorAt(*mesh, t, u, v).w;
   if (material->baseColorMap) {
-    const Triangle& t = mesh->triangles[triangle];
     alpha *= lookUp(*scene, material->baseColorMap, interpolateUv(mesh->uv0, t, u, v),
                     interpolateUv(mesh->uv1, t, u, v))
                  .w;

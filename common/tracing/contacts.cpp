@@ -24,7 +24,7 @@ int opacity(const Material& m) {
 
 // Calls visit(instance, triangle) for every triangle whose box is near p.
 template <typename Visit>
-void forEachNear(RTCScene hierarchy, Vec3 p, float radius, Visit visit) {
+void forEachNear(const Hierarchies& parts, Vec3 p, float radius, Visit visit) {
   RTCPointQuery query{p.x, p.y, p.z, 0, radius};
   RTCPointQueryContext context;
   rtcInitPointQueryContext(&context);
@@ -32,7 +32,7 @@ void forEachNear(RTCScene hierarchy, Vec3 p, float radius, Visit visit) {
     (*static_cast<Visit*>(found->userPtr))(found->geomID, found->primID);
     return false;
   };
-  rtcPointQuery(hierarchy, &query, &context, callback, &visit);
+  for (RTCScene part : parts) rtcPointQuery(part, &query, &context, callback, &visit);
 }
 
 Vec3 lowOf(const Tracer::Corners& t) { return glm::min(t.a, glm::min(t.b, t.c)); }
@@ -74,11 +74,12 @@ bool isInside(glm::dvec2 uv) {
 }  // namespace
 
 Contacts::Contacts(const Scene& scene, const Geometries& geometries,
-                   const std::vector<AlphaMask>& masks, RTCScene hierarchy, const Contacts* before)
+                   const std::vector<AlphaMask>& masks, const Hierarchies& parts,
+                   const Contacts* before)
     : scene_(&scene),
       geometries_(geometries),
       masks_(&masks),
-      hierarchy_(hierarchy),
+      parts_(parts),
       margin_(kMargin * scene.bounds.radius()),
       from_(geometries.size()),
       touching_(geometries.size()) {
@@ -147,8 +148,7 @@ Contacts::Marks Contacts::findFrom(uint32_t instance) const {
       marks.emplace_back(instance, i);
       marks.emplace_back(otherInstance, otherTriangle);
     };
-    forEachNear(hierarchy_, 0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_,
-                visit);
+    forEachNear(parts_, 0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_, visit);
   }
   return marks;
 }
@@ -171,7 +171,7 @@ std::vector<Contacts::Contact> Contacts::at(const Hit& hit, Vec3 p) const {
       return;
     found.push_back({instance, triangle, u, v, sameSide, distance + error});
   };
-  forEachNear(hierarchy_, p, margin_, visit);
+  forEachNear(parts_, p, margin_, visit);
   // One face of each side of an instance, also on the edge between two.
   const auto key = [](const Contact& c) { return std::tuple(c.instance, c.sameSide, c.triangle); };
   std::sort(found.begin(), found.end(),
@@ -213,7 +213,7 @@ Vec3 Contacts::clearOf(Vec3 p, Vec3 direction) const {
       side = direction;
     moved = offsetOrigin(moved, f.normal, 2 * error, side);
   };
-  forEachNear(hierarchy_, p, margin_, visit);
+  forEachNear(parts_, p, margin_, visit);
   return moved;
 }
 

@@ -23,16 +23,17 @@
 #include <utility>
 #include <vector>
 
+#include "common/tracing/packet.h"
 #include "common/tracing/part.h"
 
 namespace ninefold {
 
 class Contacts {
  public:
-  // `hierarchy` holds all geometries, is committed, and its triangles are numbered as theirs.
+  // `parts` hold all geometries, are committed, and their triangles are numbered as theirs.
   // `before`: of the same scene before an edit, or null.
   Contacts(const Scene& scene, const Geometries& geometries, const std::vector<AlphaMask>& masks,
-           RTCScene hierarchy, const Contacts* before);
+           const Hierarchies& parts, const Contacts* before);
 
   Hit which(const Hit& hit, Vec3 direction) const {
     return touches(hit) ? foremost(hit, direction) : hit;
@@ -75,7 +76,7 @@ class Contacts {
   const Scene* scene_;
   const Geometries geometries_;
   const std::vector<AlphaMask>* masks_;
-  RTCScene hierarchy_;
+  const Hierarchies parts_;
   float margin_;  // larger than any two errors [m]
   std::vector<std::shared_ptr<const Marks>>
       from_;                                 // by instance: what is in contact with it; or null

@@ -124,6 +124,7 @@ void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint
 void InstanceGeometry::setTexture(const Triangle& t, const Vec3& weights, SurfacePoint& p) const {
   p.uv0 = mesh_->uv0.empty() ? Vec2(0) : interpolate(mesh_->uv0, t, weights);
   p.uv1 = mesh_->uv1.empty() ? Vec2(0) : interpolate(mesh_->uv1, t, weights);
+  if (!mesh_->colors.empty()) p.color = colorAt(*mesh_, t, weights.y, weights.z);
 }
 
 Vec3 InstanceGeometry::shadingNormal(const Triangle& t, const Vec3& weights,

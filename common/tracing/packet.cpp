@@ -42,17 +42,41 @@ void copyHalf(void* eight, const void* sixteen, int half, size_t fields) {
                 kHalf * sizeof(float));
 }
 
-void intersectHalf(RTCScene scene, const int* valid, bool coherent, int half, RTCRayHit16& query) {
+void intersectHalf(const Hierarchies& parts, const int* valid, bool coherent, int half,
+                   RTCRayHit16& query) {
   RTCRayHit8 eight;
   copyHalf(&eight.ray, &query.ray, half, kRayFields);
   std::fill_n(eight.hit.geomID, kHalf, RTC_INVALID_GEOMETRY_ID);
-  embree::intersect8(scene, valid, &eight, coherent);
+  for (RTCScene part : parts) embree::intersect8(part, valid, &eight, coherent);
   const int first = half * kHalf;
   std::copy_n(eight.ray.tfar, kHalf, query.ray.tfar + first);
   std::copy_n(eight.hit.u, kHalf, query.hit.u + first);
   std::copy_n(eight.hit.v, kHalf, query.hit.v + first);
   std::copy_n(eight.hit.primID, kHalf, query.hit.primID + first);
   std::copy_n(eight.hit.geomID, kHalf, query.hit.geomID + first);
+}
+
+void occludedHalf(RTCScene part, const int* valid, bool coherent, int half, RayPacket& rays) {
+  RTCRay8 eight;
+  copyHalf(&eight, &rays, half, kRayFields);
+  embree::occluded8(part, valid, &eight, coherent);
+  std::copy_n(eight.tfar, kHalf, rays.farT + half * kHalf);
+}
+
+void occludedBy(RTCScene part, bool wide, bool coherent, uint32_t active, RayPacket& rays) {
+  const LaneMask valid(active);
+  if (wide) {
+    embree::occluded16(part, valid.lane, reinterpret_cast<RTCRay16*>(&rays), coherent);
+    return;
+  }
+  occludedHalf(part, valid.lane, coherent, 0, rays);
+  occludedHalf(part, valid.lane + kHalf, coherent, 1, rays);
+}
+
+uint32_t blockedLanes(const RayPacket& rays) {
+  uint32_t blocked = 0;
+  for (int i = 0; i < kPacket; ++i) blocked |= uint32_t(rays.farT[i] < 0) << i;
+  return blocked;
 }
 
 }  // namespace
@@ -78,28 +102,28 @@ bool traceable(Vec3 origin, Vec3 direction, float tFar) {
          small(direction.y) && small(direction.z) && magnitude(tFar) <= kInfinity;
 }
 
-void intersectPacket(RTCScene scene, bool wide, bool coherent, const RayPacket& rays,
+void intersectPacket(const Hierarchies& parts, bool wide, bool coherent, const RayPacket& rays,
                      uint32_t active, RTCRayHit16& query) {
   std::memcpy(&query.ray, &rays, sizeof rays);
   std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
   const LaneMask valid(active);
-  if (wide) return embree::intersect16(scene, valid.lane, &query, coherent);
-  intersectHalf(scene, valid.lane, coherent, 0, query);
-  intersectHalf(scene, valid.lane + kHalf, coherent, 1, query);
-}
-
-void occludedPacket(RTCScene scene, bool wide, bool coherent, uint32_t active, RayPacket& rays) {
-  const LaneMask valid(active);
   if (wide) {
-    embree::occluded16(scene, valid.lane, reinterpret_cast<RTCRay16*>(&rays), coherent);
+    for (RTCScene part : parts) embree::intersect16(part, valid.lane, &query, coherent);
     return;
   }
-  for (int half = 0; half < 2; ++half) {
-    RTCRay8 eight;
-    copyHalf(&eight, &rays, half, kRayFields);
-    embree::occluded8(scene, valid.lane + half * kHalf, &eight, coherent);
-    std::copy_n(eight.tfar, kHalf, rays.farT + half * kHalf);
+  intersectHalf(parts, valid.lane, coherent, 0, query);
+  intersectHalf(parts, valid.lane + kHalf, coherent, 1, query);
+}
+
+uint32_t occludedPacket(const Hierarchies& parts, bool wide, bool coherent, uint32_t active,
+                        RayPacket& rays) {
+  uint32_t open = active;
+  for (RTCScene part : parts) {
+    occludedBy(part, wide, coherent, open, rays);
+    open &= ~blockedLanes(rays);
+    if (open == 0) break;
   }
+  return active & ~open;
 }
 
 }  // namespace ninefold

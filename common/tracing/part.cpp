@@ -3,6 +3,8 @@
 namespace ninefold {
 namespace {
 
+constexpr size_t kMovingParts = 7;
+
 Hierarchy emptyHierarchy(RTCDevice device) {
   Hierarchy hierarchy(rtcNewScene(device));
   rtcSetSceneFlags(hierarchy.get(), RTC_SCENE_FLAG_ROBUST);
@@ -48,19 +50,14 @@ bool Part::isOf(const Geometries& all, const std::vector<uint32_t>& instances) c
   return true;
 }
 
-Hierarchy joinParts(RTCDevice device, const std::vector<std::shared_ptr<const Part>>& parts) {
-  Hierarchy whole = emptyHierarchy(device);
-  for (const auto& part : parts) {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, part->hierarchy());
-    rtcSetGeometryTimeStepCount(geometry, 1);
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(whole.get(), geometry);
-    rtcReleaseGeometry(geometry);
+std::vector<std::vector<uint32_t>> partition(const Scene& scene, const std::vector<bool>& moved) {
+  std::vector<std::vector<uint32_t>> sets(1 + kMovingParts);
+  for (uint32_t i = 0; i < moved.size(); ++i) {
+    const auto node = static_cast<size_t>(scene.instances[i].node);
+    sets[moved[i] ? 1 + node % kMovingParts : 0].push_back(i);
   }
-  rtcCommitScene(whole.get());
-  throwOnError(device, "joining ray hierarchies");
-  return whole;
+  std::erase_if(sets, [](const auto& set) { return set.empty(); });
+  return sets;
 }
 
 }  // namespace ninefold

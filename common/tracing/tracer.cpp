@@ -1,6 +1,5 @@
 #include "common/tracing/tracer.h"
 
-#include <map>
 #include <new>
 #include <optional>
 
@@ -34,9 +33,8 @@ struct Tracer::Impl {
   bool wide;  // Embree has 16-wide kernels here
   Geometries geometries;
   std::vector<AlphaMask> masks;
-  std::vector<std::shared_ptr<const Part>> parts;  // all that never moved, then by node what did
-  Hierarchy whole;                                 // null if there is one part
-  RTCScene hierarchy = nullptr;                    // what is traced
+  std::vector<std::shared_ptr<const Part>> parts;
+  Hierarchies hierarchies;  // of the parts
   std::optional<Contacts> contacts;
 
   Impl(const Scene& s, Isa isa)
@@ -67,21 +65,12 @@ struct Tracer::Impl {
     for (const auto& geometry : geometries)
       masks.push_back({&scene, &geometry->mesh(),
                        &scene.materials[static_cast<size_t>(geometry->mesh().material)]});
-    for (const std::vector<uint32_t>& instances : partition(moved))
+    for (const std::vector<uint32_t>& instances : partition(scene, moved)) {
       parts.push_back(part(before, instances));
-    if (parts.size() > 1) whole = joinParts(device->get(), parts);
-    hierarchy = whole ? whole.get() : parts.front()->hierarchy();
-    contacts.emplace(scene, geometries, masks, hierarchy,
+      hierarchies.push_back(parts.back()->hierarchy());
+    }
+    contacts.emplace(scene, geometries, masks, hierarchies,
                      before != nullptr ? &*before->contacts : nullptr);
-  }
-
-  std::vector<std::vector<uint32_t>> partition(const std::vector<bool>& moved) const {
-    std::vector<std::vector<uint32_t>> sets(1);
-    std::map<int, std::vector<uint32_t>> nodes;
-    for (uint32_t i = 0; i < moved.size(); ++i)
-      (moved[i] ? nodes[scene.instances[i].node] : sets[0]).push_back(i);
-    for (auto& [node, instances] : nodes) sets.push_back(std::move(instances));
-    return sets;
   }
 
   std::shared_ptr<const Part> part(const Impl* before,
@@ -110,7 +99,7 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
   RTCRayHit query{};
   query.ray = singleRay(origin, direction, tFar);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  embree::intersect1(impl_->hierarchy, &query);
+  for (RTCScene part : impl_->hierarchies) embree::intersect1(part, &query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit::none();
   return impl_->contacts->which(
       {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar}, direction);
@@ -120,7 +109,7 @@ void Tracer::closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coheren
   if (log_ != nullptr) log_->packets.push_back({rays, active, false, coherent});
   RTCRayHit16 query;
   const uint32_t lanes = traceable(rays, active);
-  intersectPacket(impl_->hierarchy, impl_->wide, coherent, rays, lanes, query);
+  intersectPacket(impl_->hierarchies, impl_->wide, coherent, rays, lanes, query);
   const RTCHit16& hit = query.hit;
   for (int i = 0; i < kPacket; ++i) {
     if ((active >> i & 1) == 0) continue;
@@ -137,17 +126,17 @@ bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
   if (log_ != nullptr) log_->singles.push_back({origin, direction, tFar, true});
   if (!traceable(origin, direction, tFar)) return false;
   RTCRay ray = singleRay(origin, direction, tFar);
-  embree::occluded1(impl_->hierarchy, &ray);
-  return ray.tfar < 0;
+  for (RTCScene part : impl_->hierarchies) {
+    embree::occluded1(part, &ray);
+    if (ray.tfar < 0) return true;
+  }
+  return false;
 }
 
 uint32_t Tracer::occluded16(RayPacket& rays, uint32_t active, bool coherent) const {
   if (log_ != nullptr) log_->packets.push_back({rays, active, true, coherent});
   const uint32_t lanes = traceable(rays, active);
-  occludedPacket(impl_->hierarchy, impl_->wide, coherent, lanes, rays);
-  uint32_t blocked = 0;
-  for (int i = 0; i < kPacket; ++i) blocked |= uint32_t(rays.farT[i] < 0) << i;
-  return blocked & lanes;
+  return occludedPacket(impl_->hierarchies, impl_->wide, coherent, lanes, rays);
 }
 
 SurfacePoint Tracer::surface(const Hit& hit) const {

@@ -223,7 +223,7 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
       {"total", msg::BlobChunk{someHash(1), 0, kMaxPackedBytes + 1, Bytes(1, std::byte{0})}},
       {"done", msg::Progress{Phase::fetching, 6, 5}},
       {"phase", msg::Progress{static_cast<Phase>(7), 1, 5}},
-      {"extra mask", msg::Tasks{1, {}, {{0, 0, 32}}}},
+      {"extra mask", msg::Tasks{1, {}, {{0, 0, 64}}}},
       {"phase", msg::Tasks{1, {}, {{0, 256, 0}}}},
       {"photon radius", msg::Tasks{1, {0, 0, 0, NAN}, {{0, 0, 0}}}},
       {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, {}, {}}},

@@ -51,6 +51,7 @@ class TileMaker {
     for (size_t i = 0; i < extras.albedo.r.size(); ++i) set(extras.albedo, i, fractions());
     for (size_t i = 0; i < extras.normal.r.size(); ++i) set(extras.normal, i, direction());
     for (size_t i = 0; i < extras.caustic.r.size(); ++i) set(extras.caustic, i, light());
+    for (size_t i = 0; i < extras.irradiance.r.size(); ++i) set(extras.irradiance, i, light());
     for (float& depth : extras.depth) depth = decades(-2, 3);
     for (uint32_t& object : extras.object) object = static_cast<uint32_t>(random_());
   }

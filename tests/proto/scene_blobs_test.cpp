@@ -23,6 +23,7 @@ Mesh grid(const char* name, int side, uint32_t seed) {
     mesh.normals.push_back(Vec3(0, 1, 0));
     mesh.uv0.push_back(Vec2(uniform(random), uniform(random)));
     mesh.tangents.push_back(Vec4(1, 0, 0, -1));
+    mesh.colors.push_back(Vec4(0.1f, 0.5f, 1, 0.25f));
   }
   for (uint32_t i = 0; i + 1 < static_cast<uint32_t>(side); ++i)
     mesh.triangles.push_back(Triangle(i, i + 1, i + static_cast<uint32_t>(side)));

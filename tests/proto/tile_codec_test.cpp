@@ -66,6 +66,7 @@ TEST(TileCodec, RoundTripStaysWithinTheStatedBounds) {
     expectNormals(sent.extras.normal, got.extras.normal);
     expectLengths(sent.extras.depth, got.extras.depth);
     expectLight(sent.extras.caustic, got.extras.caustic);
+    expectLight(sent.extras.irradiance, got.extras.irradiance);
     EXPECT_EQ(sent.extras.object, got.extras.object);
   }
 }

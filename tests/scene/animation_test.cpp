@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <tuple>
 
 #include "common/scene/reader.h"
 #include "common/scene/world.h"
@@ -199,6 +200,104 @@ TEST(Animation, SaysWhatIsWrongAndWhere) {
 TEST(Animation, WhatCannotBePlayedIsLeftOut) {
   const Scene scene = AnimatedFile().move(0, "weights", "LINEAR", {0, 1}, {0, 1}, 1).read();
   EXPECT_TRUE(scene.animated.empty());
+}
+
+// Scaled to nothing as it is read, by its own node, by the one above, or along an axis: when the animation
+// says so it is there, in its whole size.
+TEST(Animation, LiftsWhatIsReadWithoutSize) {
+  const std::string parent =
+      R"({"name": "thing", "mesh": 0}, {"children": [0], "scale": [0, 0, 0]})";
+  for (const auto& [nodes, roots, node] :
+       {std::tuple(std::string(
+                       R"({"mesh": 0, "scale": [0, 0, 0]}, {"mesh": 0, "translation": [9, 0, 0]})"),
+                   "[0, 1]", 0),
+        std::tuple(std::string(
+                       R"({"mesh": 0, "scale": [1, 0, 1]}, {"mesh": 0, "translation": [9, 0, 0]})"),
+                   "[0, 1]", 0),
+        std::tuple(parent + R"(, {"mesh": 0, "translation": [9, 0, 0]})", "[1, 2]", 1)})
+    for (const char* kind : {"STEP", "LINEAR"}) {
+      const Scene scene = AnimatedFile(nodes, roots)
+                              .move(node, "scale", kind, {0, 1}, {0, 0, 0, 1, 1, 1}, 3)
+                              .read();
+      ASSERT_EQ(scene.instances.size(), 2u) << nodes;
+      expectNear(placeAt(scene, 1, DVec3(2, 2, 0)), DVec3(2, 2, 0));
+      EXPECT_LT(glm::length(placeAt(scene, 0, DVec3(2, 2, 0))), 1e-4) << nodes;
+    }
+}
+
+// A small scale that is not animated stays what it is.
+TEST(Animation, LeavesSmallThingsSmall) {
+  const Scene scene =
+      AnimatedFile(R"({"mesh": 0, "scale": [1e-6, 1e-6, 1e-6]}, {"mesh": 0})", "[0, 1]")
+          .move(0, "translation", "STEP", {0, 1}, {0, 0, 0, 1, 0, 0}, 3)
+          .read();
+  expectNear(placeAt(scene, 1, DVec3(2, 0, 0)), DVec3(1 + 2e-6, 0, 0));
+}
+
+// Nothing lifts these: a point and a line are left out, a sheet is shown.
+TEST(Animation, WithoutOneWhatHasNoAreaIsLeftOut) {
+  const auto count = [](const std::string& scale) {
+    const TempFolder folder;
+    const std::string json = with(kTriangleJson, R"({"name": "thing", "mesh": 0})",
+                                  R"({"mesh": 0}, {"mesh": 0, "scale": )" + scale + "}");
+    return readScene(folder.write("scene.glb",
+                                  triangleGlb(with(json, "\"nodes\": [0]", "\"nodes\": [0, 1]"))))
+        .instances.size();
+  };
+  EXPECT_EQ(count("[0, 0, 0]"), 1u);
+  EXPECT_EQ(count("[0, 0, 1]"), 1u);
+  EXPECT_EQ(count("[1, 1, 0]"), 2u);  // the triangle lies in z = 0
+}
+
+// Two animations; only the one that is chosen moves anything.
+std::string twoClips(const std::string& first, const std::string& second) {
+  std::string json = with(
+      kTriangleJson, R"("type": "SCALAR"})",
+      R"("type": "SCALAR"}, {"bufferView": 2, "componentType": 5126, "count": 2, "type": "SCALAR"},
+                 {"bufferView": 3, "componentType": 5126, "count": 2, "type": "VEC3"})");
+  json = with(json, R"("byteLength": 12})",
+              R"("byteLength": 12}, {"buffer": 0, "byteOffset": 48, "byteLength": 8},
+                 {"buffer": 0, "byteOffset": 56, "byteLength": 24})");
+  const auto clip = [](const std::string& name, const char* path) {
+    return "{" + name + R"("samplers": [{"input": 2, "output": 3}], "channels": [{"sampler": 0,
+              "target": {"node": 0, "path": ")" +
+           path + "\"}}]}";
+  };
+  return with(json, R"([{"byteLength": 48}])",
+              R"([{"byteLength": 80}], "animations": [)" + clip(first, "translation") + ", " +
+                  clip(second, "scale") + "]");
+}
+
+Bytes twoClipBytes() {
+  Bytes bytes = triangleBytes();
+  append<float>(bytes, {0, 1, 1, 1, 1, 3, 3, 3});
+  return bytes;
+}
+
+TEST(Animation, PlaysOneClipAlone) {
+  const TempFolder folder;
+  const auto file = folder.write(
+      "scene.glb", glb(twoClips(R"("name": "walk", )", R"("name": "grow", )"), twoClipBytes()));
+  testing::internal::CaptureStderr();
+  const Scene first = readScene(file);
+  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
+                  "walk plays; --clip NAME chooses among walk, grow");
+  const Scene walk = readScene(file, "walk"), grow = readScene(file, "grow");
+  for (const Scene* scene : {&first, &walk})
+    expectNear(placeAt(*scene, 1, DVec3(2, 0, 0)), DVec3(5, 3, 3));
+  expectNear(placeAt(grow, 1, DVec3(2, 0, 0)), DVec3(6, 0, 0));
+  EXPECT_CONTAINS(errorOf([&] { readScene(file, "run"); }),
+                  "it has no animation 'run'; there is: walk, grow");
+}
+
+TEST(Animation, ClipsWithoutANameAreToldByTheirNumber) {
+  const TempFolder folder;
+  const auto file = folder.write("scene.glb", glb(twoClips("", ""), twoClipBytes()));
+  expectNear(placeAt(readScene(file, "1"), 1, DVec3(2, 0, 0)), DVec3(6, 0, 0));
+  const auto still = folder.write("still.glb", triangleGlb());
+  EXPECT_CONTAINS(errorOf([&] { readScene(still, "walk"); }), "the file has no animation");
+  const auto obj = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_CONTAINS(errorOf([&] { readScene(obj, "walk"); }), "an .obj file has no animation");
 }
 
 }  // namespace

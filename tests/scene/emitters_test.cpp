@@ -184,8 +184,8 @@ TEST(Emitters, MaskedTexelsDoNotShine) {
   scene.materials[0].baseColorMap.nearest = true;
   scene.materials[0].alphaMode = AlphaMode::mask;
   const Emitters emitters(scene, Radiance(0));
-  EXPECT_EQ(emitters.radianceOf(0, Vec2(0.2f, 0), Vec2(0)), Vec3(1));
-  EXPECT_EQ(emitters.radianceOf(0, Vec2(0.8f, 0), Vec2(0)), Vec3(0));
+  EXPECT_EQ(emitters.radianceOf(0, {Vec2(0.2f, 0), Vec2(0)}), Vec3(1));
+  EXPECT_EQ(emitters.radianceOf(0, {Vec2(0.8f, 0), Vec2(0)}), Vec3(0));
 }
 
 // A lamp that is in the file twice is seen once, so it counts once; the side that it shows is part of
