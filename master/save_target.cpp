@@ -16,7 +16,8 @@ std::string SaveTarget::suggestion() const {
 }
 
 std::optional<std::string> SaveTarget::choose(const std::string& name) {
-  if (!name.ends_with(".glb") || fs::path(name).filename() == ".glb") return "the name must end in .glb";
+  if (!name.ends_with(".glb") || fs::path(name).filename() == ".glb")
+    return "the name must end in .glb";
   std::error_code problem;
   if (fs::exists(name, problem) && name != warned_) {
     warned_ = name;

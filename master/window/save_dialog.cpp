@@ -30,8 +30,11 @@ void SaveDialog::choose() {
 void SaveDialog::write() {
   const std::string path = *target_.file();
   try {
-    writeGltf(path, scene_());
-    notice_.say("the edited scene is in " + std::filesystem::absolute(path).string());
+    const Scene scene = scene_();
+    writeGltf(path, scene);
+    const char* loss = scene.animated.empty() ? "" : " without its animation";
+    notice_.say(
+        fmt::format("the edited scene is in {}{}", std::filesystem::absolute(path).string(), loss));
     written_();
   } catch (const Error& error) {
     target_.forget();
