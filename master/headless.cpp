@@ -74,7 +74,7 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;
   setup.surfaceTest = options.surfaceTest;
-  setup.exposure = options.exposure;
+  if (!options.autoExposure) setup.exposure = job.exposure;
   setup.workers = workers;
   return setup;
 }

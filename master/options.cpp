@@ -92,7 +92,10 @@ void readPicture(const RawOptions& raw, Options& o) {
   o.camera = raw.text("camera").value_or("");
   o.environment = readEnvironment(raw);
   assign(o.surfaceTest, choice(raw, "filter", std::array{"none", "paper", "surface"}));
-  assign(o.exposure, raw.real("exposure", -double{kMostExposure}, double{kMostExposure}));
+  o.autoExposure = raw.text("exposure") == "auto";
+  if (!o.autoExposure)
+    if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
+      o.exposure = static_cast<float>(*ev);
   o.aovs = raw.isOn("aovs");
 }
 

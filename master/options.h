@@ -60,7 +60,8 @@ struct Options {
 
   std::optional<std::string> output;  // .exr, .png or .hdr
   bool aovs = false;
-  float exposure = 0;  // [EV]
+  std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0
+  bool autoExposure = false;      // instead: auto_exposure.h
   std::optional<std::string> stats;
 };
 

@@ -26,7 +26,9 @@ constexpr Flag kPicture[] = {
     {"environment", "none|COLOR",
      "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; white 1, with a warning, "
      "if the scene has no light at all)"},
-    {"exposure", "EV", "brightness of .png files, -50 to 50 (default 0)"},
+    {"exposure", "EV|auto",
+     "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
+     "what the scene says, else 0)"},
     {"view", "NAME",
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
      "error, clients, objects or weights"},

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "common/base/log.h"
+#include "common/image/auto_exposure.h"
 #include "common/image/image_file.h"
 #include "master/cluster_setup.h"
 #include "master/invitation.h"
@@ -21,10 +22,11 @@ constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure 
 constexpr Duration kStep = milliseconds(4);   // between two looks at the script
 
 // Codes are made as for a window, so that latencies are those that a person at one would feel.
-LiveRun::Pace paceOf(const Options& options, const Script& script) {
+// An exposure that is not known yet is made of radiance.
+LiveRun::Pace paceOf(const Options& options, const Job& job, const Script& script) {
   LiveRun::Pace pace{fromSeconds(1e-3 * options.frameTime), !script.rate};
-  pace.codesOnly = wantsCodesOnly(options);
-  if (pace.codesOnly) pace.exposure = options.exposure;
+  pace.codesOnly = wantsCodesOnly(options) && !options.autoExposure;
+  if (pace.codesOnly) pace.exposure = job.exposure;
   if (script.rate) pace.frames = script.frames;
   return pace;
 }
@@ -36,7 +38,7 @@ class ScriptRun {
         job_(makeJob(options)),
         player_(*scriptOf(options, *job_.scene), job_.scene, job_.settings.camera),
         log_(Clock::now()),
-        live_(options, job_, loadKeys(options), paceOf(options, script()),
+        live_(options, job_, loadKeys(options), paceOf(options, job_, script()),
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
@@ -123,14 +125,25 @@ class ScriptRun {
       writeStats(*options_.stats, log_.json(options_.scene, live_.cluster().tally()));
   }
 
-  void write(const std::string& path, const Shown& shown) const {
-    if (path.ends_with(".png"))
+  void write(const std::string& path, const Shown& shown) {
+    if (path.ends_with(".png") && options_.autoExposure)
+      writeExposed(path, shown);
+    else if (path.ends_with(".png"))
       writePng(path, shown.image->display);
     else
       writeImage(path, {shown.image->radiance, {}, {}});
   }
 
+  // By the first picture for all, so that nothing flickers.
+  void writeExposed(const std::string& path, const Shown& shown) {
+    if (!exposure_) exposure_ = isFalseColor(shown.view) ? 0 : autoExposure(shown.image->radiance);
+    DisplayImage codes;
+    ToneMap(*exposure_).apply(shown.image->radiance, codes);
+    writePng(path, codes);
+  }
+
   const Options& options_;
+  std::optional<float> exposure_;  // of options_.autoExposure
   Job job_;
   ScriptPlayer player_;
   std::mutex mutex_;

@@ -21,6 +21,7 @@
 #include "common/base/release.h"
 #include "common/image/layers.h"
 #include "common/image/surface_test.h"
+#include "common/image/tone_map.h"
 #include "common/scene/edit.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
@@ -41,7 +42,6 @@ inline constexpr size_t kMaxEdits = 65536;  // things in one edit
 inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
-inline constexpr float kMostExposure = 50;               // [EV], and its negative
 inline constexpr uint8_t kAllExtraPlanes = 63;           // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.

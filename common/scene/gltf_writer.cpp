@@ -35,6 +35,7 @@ class Writer {
     for (const PunctualLight& light : scene_.lights) addLight(light);
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"name", scene_.name}, {"nodes", roots_}}});
+    if (scene_.exposure) json_["scenes"][0]["extras"]["exposure"] = *scene_.exposure;
     json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
     if (!extensions_.empty()) json_["extensionsUsed"] = extensions_;
     return container();

@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -124,6 +125,7 @@ struct Scene {
   std::vector<Camera> cameras;        // at least one after reading
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
   Radiance environment{0};            // constant radiance from outside
+  std::optional<float> exposure;      // [EV] that it is meant to be shown with; not on the wire
   DVec3 origin{0};                    // file coordinates = scene coordinates + origin
   Bounds bounds;                      // of all instances, in scene coordinates
 };

@@ -134,7 +134,8 @@ TEST(Options, EveryFlagIsRead) {
   EXPECT_EQ(o.stop.seconds, 1.5);
   EXPECT_EQ(o.stop.untilError, 0.01);
   EXPECT_TRUE(o.aovs);
-  EXPECT_FLOAT_EQ(o.exposure, -1.5f);
+  EXPECT_EQ(o.exposure, -1.5f);
+  EXPECT_FALSE(o.autoExposure);
   EXPECT_EQ(o.surfaceTest, SurfaceTest::none);
   EXPECT_EQ(o.settings.randomization, Randomization::random);
   EXPECT_EQ(o.settings.seed, UINT64_MAX);
@@ -155,6 +156,12 @@ TEST(Options, ClientsFilterWhatTheyCan) {
             std::string::npos);
   EXPECT_EQ(parse("room.glb --wire-level auto").wireLevel, Delivery::kAdaptive);
   EXPECT_NE(complaint("room.glb --wire-level 20"), "");
+}
+
+TEST(Options, TheExposureIsTheScenesOrGivenOrThePictures) {
+  EXPECT_EQ(parse("room.glb").exposure, std::nullopt);
+  EXPECT_TRUE(parse("room.glb --exposure auto").autoExposure);
+  EXPECT_EQ(parse("room.glb --exposure 0").exposure, 0.0f);
 }
 
 TEST(Options, EqualSignsWorkToo) {
@@ -221,6 +228,7 @@ TEST(Options, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
       {"--until-error", "0"},
       {"--until-error", "2"},
       {"--exposure", "1000"},
+      {"--exposure", "automatic"},
       {"--seed", "-1"},
       {"--isa", "sse"},
       {"--local-clients", "-1"},
