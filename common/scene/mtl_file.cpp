@@ -1,6 +1,7 @@
 #include "common/scene/mtl_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "common/base/log.h"
@@ -72,14 +73,14 @@ class Parser {
   void number(std::string_view word, std::string_view rest, std::optional<float>& to);
   void readMap(std::string_view word, std::string_view rest, MtlMap& to);
   void leftOut(const std::string& why);
-  void noteAmbient(const std::vector<MtlMaterial>& materials);
+  void noteLeftOut(const std::vector<MtlMaterial>& materials);
 
   TextLines lines_;
   const std::string* file_;
   const FileExists* exists_;
   UnreadKeys unread_;
   int linesLeftOut_ = 0;
-  std::map<size_t, uint64_t> ambientLines_;  // by number of materials so far
+  std::map<size_t, uint64_t> ambientLines_, transparencyLines_;  // by number of materials so far
 };
 
 bool isAllZero(std::string_view rest) {
@@ -100,9 +101,10 @@ std::vector<MtlMaterial> Parser::run() {
     } else {
       statement(word, line, materials.back());
       if (lowerCase(word) == "ka") ambientLines_[materials.size()] = lines_.number();
+      if (lowerCase(word) == "tr") transparencyLines_[materials.size()] = lines_.number();
     }
   }
-  noteAmbient(materials);
+  noteLeftOut(materials);
   unread_.report("material library '" + *file_ + "'");
   return materials;
 }
@@ -118,12 +120,24 @@ void Parser::statement(std::string_view word, std::string_view rest, MtlMaterial
 
 // Ambient light is what a renderer of indirect light computes. Only what reflects reads Ka, as how
 // metallic it is.
-void Parser::noteAmbient(const std::vector<MtlMaterial>& materials) {
-  for (const auto& [count, line] : ambientLines_) {
-    const float illum = materials[count - 1].illum.value_or(2);
-    const bool isRead = illum == 3 || illum == 5 || illum == 6 || illum == 8;
-    const auto& Ka = materials[count - 1].Ka;
-    if (!isRead && Ka && !isBlack(*Ka)) unread_.add("Ka", line);
+bool leavesAmbientOut(const MtlMaterial& m) {
+  const float illum = m.illum.value_or(2);
+  return m.Ka && !isBlack(*m.Ka) && illum != 3 && illum != 5 && illum != 6 && illum != 8;
+}
+
+bool contradicts(const MtlMaterial& m) {
+  const auto part = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
+  return m.d && m.Tr && std::abs(part(*m.d) + part(*m.Tr) - 1) > 1e-3f;
+}
+
+// What a material's other lines decide.
+void Parser::noteLeftOut(const std::vector<MtlMaterial>& materials) {
+  for (const auto& [count, line] : ambientLines_)
+    if (leavesAmbientOut(materials[count - 1])) unread_.add("Ka", line);
+  for (const auto& [count, line] : transparencyLines_) {
+    const MtlMaterial& m = materials[count - 1];
+    if (contradicts(m)) unread_.add("Tr where d is not 1 - Tr", line);
+    if (!m.d && m.Tr && *m.Tr >= 1) unread_.add("Tr 1 without d, which nobody would see", line);
   }
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/base/log.h"
-
 namespace ninefold {
 namespace {
 
@@ -37,17 +35,8 @@ struct Reading {
 };
 
 float opacityOf(const MtlMaterial& from) {
-  if (from.d) {
-    if (from.Tr && std::abs(clamped(*from.d) + clamped(*from.Tr) - 1) > 1e-3f)
-      warn("material '{}': d {} and Tr {} contradict each other (Tr is 1 - d): d counts", from.name,
-           *from.d, *from.Tr);
-    return clamped(*from.d);
-  }
-  if (!from.Tr) return 1;
-  if (*from.Tr < 1) return 1 - clamped(*from.Tr);
-  warn("material '{}': Tr 1 alone would be invisible: it counts as opaque; write d 0 to hide it",
-       from.name);
-  return 1;
+  if (from.d) return clamped(*from.d);
+  return from.Tr && *from.Tr < 1 ? 1 - clamped(*from.Tr) : 1.0f;
 }
 
 // A colour whose absence, or blackness under a map, means white.

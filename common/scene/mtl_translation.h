@@ -30,14 +30,14 @@
 //   its map, else 0), roughness Pr (1 under its map, else by Ns), Ks of an ordinary surface (0.5 if
 //   absent), transmission = mean Tf, tinted by Kd, blended by o; illum says nothing.
 //
-//   d and Tr both: d counts. Tr 1 alone is opaque: MeshLab writes opacity as Tr, and what could not
+//   d and Tr both: d counts. Tr 1 alone is opaque, with a warning: MeshLab writes opacity as Tr, and what could not
 //   be seen at all nobody would write. "Black" is 0.02 at most, and no map.
 //   map_d, map_Pr ...: obj_textures.h.
 //
 // Where programs differ: Blender makes a metal of illum 4 and 7 too; it and MeshLab never refract by
 // illum. Colours are clamped to [0, 1], Ke to >= 0.
 // Source:  Wavefront's Advanced Visualizer manual, appendix B4; Walter et al. 2007 for alpha of Ns.
-// Threads: pure, but for the log. Errors: none.
+// Threads: pure. Errors: none.
 #pragma once
 
 #include "common/scene/mtl_file.h"
