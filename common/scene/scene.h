@@ -123,6 +123,7 @@ struct Scene {
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;        // at least one after reading
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
+  std::string deformed;               // the first object whose shape the animation changes
   Radiance environment{0};            // constant radiance from outside
   DVec3 origin{0};                    // file coordinates = scene coordinates + origin
   Bounds bounds;                      // of all instances, in scene coordinates
