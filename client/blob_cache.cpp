@@ -12,6 +12,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/base/process.h"
+#include "common/base/written_file.h"
 #include "proto/scene_blobs.h"
 
 namespace ninefold {
@@ -55,20 +56,6 @@ std::optional<Bytes> readWhole(const fs::path& path, uint64_t maxBytes) {
   return bytes;
 }
 
-bool writeWhole(int fd, ByteView bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
-    if (n <= 0) return false;
-    bytes = bytes.subspan(static_cast<size_t>(n));
-  }
-  return true;
-}
-
-bool writeAside(const fs::path& temporary, const fs::path& path, ByteView bytes) {
-  const UniqueFd fd(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  return fd && writeWhole(fd.get(), bytes) && ::rename(temporary.c_str(), path.c_str()) == 0;
-}
-
 }  // namespace
 
 BlobCache::BlobCache(fs::path folder, uint64_t maxBytes)
@@ -104,10 +91,14 @@ void BlobCache::store(const BlobInfo& verified, ByteView compressed) {
   if (compressed.size() > maxBytes_) return;
   makeRoom(compressed.size());
   const fs::path path = pathOf(verified.hash);
-  const fs::path temporary = fmt::format("{}.{}", path.string(), ::getpid());
-  if (writeAside(temporary, path, compressed)) return;
-  warn("cannot keep a part of the scene in {}: {}", folder_.string(), ::strerror(errno));
-  ::unlink(temporary.c_str());
+  std::error_code ignored;
+  fs::remove(path, ignored);  // what is not ours, and a link above all
+  try {
+    writeFile(path, textOf(compressed), {.mode = 0600});
+  } catch (const Error& error) {
+    if (!std::exchange(toldFull_, true))
+      warn("{}; going on without keeping the scene", error.what());
+  }
 }
 
 void BlobCache::makeRoom(uint64_t bytes) const {

@@ -5,8 +5,8 @@
 // damaged file is deleted and counts as absent. Files appear whole (written aside, then renamed).
 // When the folder would exceed its bound, the blobs used longest ago go. Private: folder mode 0700,
 // files 0600; a folder that others may enter is refused. Threads: one at a time; several processes
-// may share a folder. Errors: the constructor throws Error; later failures to write are a warning,
-// the cache is a help only.
+// may share a folder. Errors: the constructor throws Error; the first failure to write later is a
+// warning: the cache is a help only.
 #pragma once
 
 #include <filesystem>
@@ -36,6 +36,7 @@ class BlobCache {
 
   const std::filesystem::path folder_;
   const uint64_t maxBytes_;
+  bool toldFull_ = false;
 };
 
 }  // namespace ninefold

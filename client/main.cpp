@@ -2,8 +2,6 @@
 #include <sys/prctl.h>
 
 #include <csignal>
-
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <thread>
@@ -11,6 +9,9 @@
 #include "client/identity.h"
 #include "client/program.h"
 #include "common/base/log.h"
+#include "common/base/program.h"
+#include "common/base/release.h"
+#include "common/base/standard_streams.h"
 
 namespace ninefold::client {
 namespace {
@@ -23,16 +24,29 @@ std::shared_ptr<const Key> takeKey(const Options& options) {
                                                      : Key::load(*options.keyFile));
 }
 
+// Without one the scene comes from the master each time.
+std::optional<BlobCache> openCache(const Options& options) {
+  if (!options.cache) return std::nullopt;
+  try {
+    return std::make_optional<BlobCache>(*options.cache);
+  } catch (const Error& error) {
+    warn("{}; going on without a cache", error.what());
+    return std::nullopt;
+  }
+}
+
+int print(const std::string& text) {
+  writeOutput(text);
+  return 0;
+}
+
 int run(const Options& options) {
   if (options.local()) dieWithTheMaster();
   nameLog(options.local() ? "client " + options.name : "client");
   const auto key = takeKey(options);
-  std::optional<BlobCache> cache;
-  if (options.cache) cache.emplace(*options.cache);
   EventLoop loop;
-  Program program(loop, options, introduce(options), key, std::move(cache));
+  Program program(loop, options, introduce(options), key, openCache(options));
   const int status = program.run();
-  std::fflush(nullptr);
   // Workers may be deep in tasks that nobody waits for any more; all that counts is done.
   std::_Exit(status);
 }
@@ -42,17 +56,11 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ninefold;
-  try {
+  return runProgram("ninefold-client", [&] {
     const client::Options options = client::parseOptions(
         argc, argv, processVariable, static_cast<int>(std::thread::hardware_concurrency()));
-    if (!options.help) return client::run(options);
-    std::fputs(client::helpText().c_str(), stdout);
-    return 0;
-  } catch (const UsageError& error) {
-    std::fprintf(stderr, "ninefold-client: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ninefold-client: %s\n", error.what());
-    return 1;
-  }
+    if (options.help) return client::print(client::helpText());
+    if (options.version) return client::print(versionText("ninefold-client"));
+    return client::run(options);
+  });
 }

@@ -41,8 +41,14 @@ po::options_description publicFlags() {
   po::options_description flags("Options", kHelpWidth);
   for (const Flag& flag : kFlags)
     flags.add_options()(flag.name, po::value<std::string>()->value_name(flag.value), flag.help);
-  flags.add_options()("help", "print this and end");
+  flags.add_options()("help", "print this and end, as -h does")("version",
+                                                                "print the release and end");
   return flags;
+}
+
+// The only short flag.
+std::pair<std::string, std::string> readShortHelp(const std::string& word) {
+  return {word == "-h" ? "help" : "", ""};
 }
 
 using Values = std::map<std::string, std::string>;
@@ -57,6 +63,7 @@ Values parseFlags(int argc, const char* const* argv) {
     po::store(po::command_line_parser(argc, argv)
                   .options(flags)
                   .positional(none)
+                  .extra_parser(readShortHelp)
                   .style(allow_long | long_allow_adjacent | long_allow_next)
                   .run(),
               parsed);
@@ -65,7 +72,7 @@ Values parseFlags(int argc, const char* const* argv) {
   }
   Values values;
   for (const auto& [flag, value] : parsed)
-    values[flag] = flag == "help" ? "1" : value.as<std::string>();
+    values[flag] = flag == "help" || flag == "version" ? "1" : value.as<std::string>();
   return values;
 }
 
@@ -104,7 +111,8 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   Values values = parseFlags(argc, argv);
   Options options;
   options.help = values.contains("help");
-  if (options.help) return options;
+  options.version = values.contains("version");
+  if (options.help || options.version) return options;
   options.keyDescriptor = getNumber(values, "key-descriptor", -1, 3, 1 << 20);
   // The master says all that its own clients need to know; what it was told itself is not for them.
   if (!options.local()) addVariables(values, variable);
@@ -132,10 +140,11 @@ std::string helpText() {
           "Renders for a ninefold-master. Everything else, the scene included, comes from there.\n"
           "\n"
        << publicFlags()
-       << "\nEach flag but --help may also be given by the environment: NINEFOLD_KEY_FILE for\n"
+       << "\nEach flag but --help and --version may also be given by the environment: "
+          "NINEFOLD_KEY_FILE for\n"
           "--key-file. Flags win.\n"
-          "Exit status: 0 the master is done, 1 a failure (one line on stderr says what to do), 2 "
-          "wrong usage.\n";
+          "Exit status: 0 the master is done, or a signal ended the client; 1 a failure (one line "
+          "on\nstderr says what to do), 2 wrong usage, 3 a task that did not end.\n";
   return text.str();
 }
 

@@ -1,10 +1,12 @@
 #include "client/program.h"
 
 #include <signal.h>
+#include <unistd.h>
 
 #include <functional>
 
 #include "common/base/log.h"
+#include "common/base/process.h"
 
 namespace ninefold::client {
 namespace {
@@ -26,14 +28,19 @@ SessionOptions sessionOptions(const Options& options, msg::Hello hello) {
 }
 
 bool isFinal(ConnectProblem problem) {
-  return problem == ConnectProblem::wrongKey || problem == ConnectProblem::badAddress ||
-         problem == ConnectProblem::notNinefold;
+  return problem == ConnectProblem::wrongKey || problem == ConnectProblem::notNinefold;
+}
+
+// No destructors: a thread is where it does not come back from.
+[[noreturn]] void endHung(const std::string& task, Duration time) {
+  warn("this client ends: not done after {:.0f} s is {}", seconds(time), task);
+  ::_exit(kHungStatus);
 }
 
 }  // namespace
 
 Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
-                 std::shared_ptr<const Key> key, std::optional<BlobCache> cache)
+                 std::shared_ptr<const Key> key, std::optional<BlobCache> cache, Rig rig)
     : loop_(loop),
       master_(parseEndpoint(options.master, "--master")),
       local_(options.local()),
@@ -41,11 +48,13 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
       recorder_(options.record ? std::make_unique<Recorder>(*options.record, hello) : nullptr),
       session_(sessionOptions(options, std::move(hello)), now()),
       threads_(options.threads),
+      rig_(std::move(rig)),
+      watchdog_(options.threads, rig_.grace, endHung),
       builder_(std::move(cache), options.isa, options.threads, answers()),
       workers_(options.threads, kTasksPerThread * static_cast<size_t>(options.threads)) {
-  loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
-    // Ctrl-C at the master's terminal reaches its local clients too, but is the master's to handle.
-    if (local_ && signal == SIGINT) return;
+  loop_.onSignal(endingSignals(), [this](int signal) {
+    // What happens to the master's terminal reaches its local clients too, but is the master's to handle.
+    if (local_ && signal != SIGTERM) return;
     session_.stop("stopped by a signal");
     carryOut();
   });
@@ -54,7 +63,17 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
 int Program::run() {
   tick();
   loop_.run();
+  keepRecording();
   return status_;
+}
+
+void Program::keepRecording() {
+  try {
+    if (recorder_) recorder_->finish();
+  } catch (const Error& error) {
+    log("{}", error.what());
+    status_ = 1;
+  }
 }
 
 void Program::tick() {
@@ -159,7 +178,7 @@ void Program::startEarly() {
 
 void Program::start(const act::StartTasks& action, const std::shared_ptr<RenderJob>& job) {
   const msg::Tasks& tasks = action.tasks;
-  const Order order{action.line, tasks.frame, tasks.neighbourWeight, tasks.urgent};
+  const Order order{action.line, tasks.frame, tasks.neighbourWeight, tasks.urgent, tasks.allowed};
   for (const msg::TaskItem& item : tasks.items) {
     const auto work = [this, job, order, item](int thread) { runTask(*job, order, item, thread); };
     if (!workers_.start(order.frame.frame, work)) return session_.tasksRefused(now());
@@ -168,13 +187,17 @@ void Program::start(const act::StartTasks& action, const std::shared_ptr<RenderJ
 
 // On a worker's thread.
 void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread) {
+  watchdog_.begin(thread, order.allowed, [&] { return job.describe(order.frame, item); });
   try {
+    if (rig_.beforeTask) rig_.beforeTask(order.frame, item);
     RenderJob::Done done = job.run(order.frame, item, order.neighbourWeight, level_, thread, now);
+    watchdog_.end(thread);
     if (recorder_) recorder_->add(done.result);
     const auto next = [this] { return workers_.nextFrame(); };
     if (results_.add({order.line, order.urgent, std::move(done)}, next, now()))
       later([this] { handOver(); });
   } catch (const std::exception& error) {  // no memory, most likely
+    watchdog_.end(thread);
     later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", order.frame.frame, item.tile,
                                     item.phase, error.what())] { session_.taskFailed(line); });
   }

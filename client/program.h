@@ -1,6 +1,8 @@
 // program.h: the client around its session: the connection, the workers and the builder, and
 // nothing that decides. Carries the session's actions out and tells it what became of them.
 //
+// A task that does not end ends the process with kHungStatus and one line (watchdog.h).
+//
 // Threads: everything runs in the loop's thread; workers and builder post what they have to it.
 // Owner: main. Errors: ends with a status and one line, see run.
 #pragma once
@@ -15,6 +17,7 @@
 #include "client/result_group.h"
 #include "client/scene_builder.h"
 #include "client/session.h"
+#include "client/watchdog.h"
 #include "client/workers.h"
 #include "proto/connection.h"
 #include "proto/recording.h"
@@ -22,10 +25,16 @@
 
 namespace ninefold::client {
 
+// For tests: what happens before each task, on its thread, and how patient the watchdog is.
+struct Rig {
+  std::function<void(const FrameKey&, const msg::TaskItem&)> beforeTask = nullptr;
+  Duration grace = Watchdog::kGrace;
+};
+
 class Program {
  public:
   Program(EventLoop& loop, const Options& options, msg::Hello hello, std::shared_ptr<const Key> key,
-          std::optional<BlobCache> cache);
+          std::optional<BlobCache> cache, Rig rig = {});
 
   // Until the session ends; the exit status. Prints the last line.
   int run();
@@ -55,9 +64,11 @@ class Program {
     FrameKey frame;
     float neighbourWeight;
     bool urgent;
+    Duration allowed;
   };
   void runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread);
   void handOver();
+  void keepRecording();
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.
   template <typename Event>
@@ -75,6 +86,8 @@ class Program {
   std::deque<act::StartTasks> early_;                    // tasks whose job is being prepared
   std::unique_ptr<EventLoop::Timer> timer_;
   const int threads_;
+  const Rig rig_;
+  Watchdog watchdog_;
   ResultGroup results_;
   WireLevel wireLevel_;
   std::atomic<int> level_ = WireLevel::kLight;  // of the next results

@@ -3,6 +3,8 @@
 #include "common/gi/light_set.h"
 #include "common/sampling/whole_tile.h"
 #include "common/scene/needs.h"
+#include "common/scene/replay_line.h"
+#include "proto/tile_names.h"
 
 namespace ninefold {
 namespace {
@@ -91,12 +93,22 @@ RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
   result.tile = item.tile;
   result.phase = item.phase;
   result.setsMade = work.setsMade;
-  result.replaced = encoded.replaced;
+  result.replaced = work.replaced.count + encoded.replaced.count;
+  result.replacedIn = work.replaced.fields | encoded.replaced.fields;
   result.rays = work.rays;
   result.encoded = std::move(encoded.bytes);
   const Duration busy = now() - start - work.waited;
   result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(busy).count());
   return {std::move(result), encoded.rawBytes};
+}
+
+std::string RenderJob::describe(const FrameKey& frame, const msg::TaskItem& item) const {
+  const int set =
+      lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, settings_.interleave.sets());
+  const TracedScene& scene = *light_->scene;
+  return fmt::format("frame {}, tile {}, set {} (again{}: {})", frame.frame, item.tile, set,
+                     scene.scene == scene.asFetched ? "" : ", but for edits of the scene",
+                     replayLine(*scene.scene, settings_, frame.frame));
 }
 
 void RenderJob::trace(const Task& task, Desk& desk, Work& work, Time (*now)()) {
@@ -120,6 +132,7 @@ void RenderJob::traceAndFilter(const Task& task, float neighbourWeight, Desk& de
     if (rect.count() == 0) return;
     part.rect = rect;
     trace(part, desk, work, now);
+    work.replaced += replaceUnusable(desk.tile);  // a pixel must not spoil its neighbours
     desk.patch.place(part.phase, rect, desk.tile);
   };
   for (part.phase = 0; part.phase < settings_.interleave.sets(); ++part.phase) {

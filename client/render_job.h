@@ -64,6 +64,8 @@ class RenderJob {
   // `level`: of zstd, if the job leaves that to the client.
   Done run(const FrameKey& frame, const msg::TaskItem& item, float neighbourWeight, int level,
            int thread, Time (*now)());
+  // A task of it, for people, and the command that does it again.
+  std::string describe(const FrameKey& frame, const msg::TaskItem& item) const;
 
  private:
   struct Desk {  // of one thread
@@ -80,6 +82,7 @@ class RenderJob {
     Duration waited{0};  // for light sets that another thread makes
     uint32_t setsMade = 0;
     RayCounts rays;
+    Replaced replaced;  // before the filter
   };
   void trace(const Task& task, Desk& desk, Work& work, Time (*now)());
   void traceAndFilter(const Task& task, float neighbourWeight, Desk& desk, Work& work,

@@ -45,7 +45,7 @@ class Session {
 
   // The connection.
   void connected(Time now);
-  // `final`: trying again would not help (wrong key, no such name).
+  // `final`: trying again would not help (wrong key, no Ninefold master there).
   void connectFailed(const std::string& line, bool final, Time now);
   void disconnected(const std::string& reason, Time now);
   void received(Message&& message, Time now);

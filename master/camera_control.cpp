@@ -10,6 +10,11 @@ constexpr double kSmallest = 1e-6;  // of the scene's radius: nearest that an ey
 
 bool isFinite(double a, double b) { return std::isfinite(a) && std::isfinite(b); }
 
+bool isSameView(Camera a, const Camera& b) {
+  a.name = b.name;
+  return a == b;
+}
+
 }  // namespace
 
 CameraControl::CameraControl(const Camera& home, const Bounds& scene)
@@ -131,11 +136,13 @@ void CameraControl::frame(const Bounds& things) {
 }
 
 void CameraControl::go(const Camera& camera) {
-  held_ = Duration{0};
-  anchor_ = DVec3(camera.eye);
-  forward_ = glm::normalize(DVec3(camera.forward));
-  up_ = DVec3(camera.up);
-  verticalFov_ = camera.verticalFov;
+  settle();
+  if (!isSameView(camera, this->camera())) {  // to the bit, else a picture at rest would begin anew
+    anchor_ = DVec3(camera.eye);
+    forward_ = glm::normalize(DVec3(camera.forward));
+    up_ = DVec3(camera.up);
+    verticalFov_ = camera.verticalFov;
+  }
   // The pivot comes onto the line of sight, as far away as it was deep.
   const double depth = glm::dot(pivot_ - anchor_, forward_);
   pivot_ = anchor_ + std::max(depth, 0.1 * sceneRadius_) * forward_;

@@ -58,20 +58,21 @@ void ClientSession::on(msg::BlobRequest&& m, Time) {
   send(offer_.piece(m));
 }
 
-void ClientSession::on(msg::Progress&& m, Time) {
+void ClientSession::on(msg::Progress&& m, Time now) {
   if (!inside() || ready()) return;
   const bool building = m.phase == Phase::building;
+  if (building && !buildsSince_) buildsSince_ = now;
   status_.state = building ? ClientState::building : ClientState::syncing;
   const double total = static_cast<double>(m.total);
   status_.synced = building || m.total == 0 ? 1.0 : static_cast<double>(m.done) / total;
 }
 
-void ClientSession::on(msg::Ready&& m, Time) {
+void ClientSession::on(msg::Ready&& m, Time now) {
   if (!inside() || m.sceneVersion != JobOffer::kScene || m.jobVersion > offer_.job())
     fail("ready for something that was not offered");
   if (ready()) return;  // later jobs need no answer
   status_ = {ClientState::ready, 1.0};
-  push(todo::Join{m.jobVersion});
+  push(todo::Join{m.jobVersion, now - buildsSince_.value_or(now)});
 }
 
 void ClientSession::on(msg::Result&& m, Time) {

@@ -30,8 +30,9 @@ struct Send {
 struct Warn {
   std::string line;
 };
-struct Join {        // ready to render
-  uint32_t job = 0;  // the first that it can do; it can do all later ones
+struct Join {             // ready to render
+  uint32_t job = 0;       // the first that it can do; it can do all later ones
+  Duration sceneTime{0};  // that it took to build the scene, or a little less
 };
 struct Heard {};
 struct RoundTrip {
@@ -107,6 +108,7 @@ class ClientSession {
   ClientStatus status_;
   std::vector<todo::Action> actions_;
   Time heard_, lastTick_, nextPing_;
+  std::optional<Time> buildsSince_;
 };
 
 }  // namespace ninefold

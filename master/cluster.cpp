@@ -13,9 +13,7 @@ constexpr Duration kTick = milliseconds(20);
 constexpr Duration kTimeToEnd = milliseconds(900);
 
 LocalClients::Plan withMaster(LocalClients::Plan plan, const Endpoint& master) {
-  const bool v6 = master.host.find(':') != std::string::npos;
-  plan.arguments.push_back(v6 ? fmt::format("--master=[{}]:{}", master.host, master.port)
-                              : fmt::format("--master={}:{}", master.host, master.port));
+  plan.arguments.push_back("--master=" + addressText(master));
   return plan;
 }
 
@@ -29,7 +27,9 @@ void append(std::string& text, int count, const char* what) {
 Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
     : remoteMayJoin_(setup.remoteMayJoin),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
-      local_(withMaster(std::move(setup.local), server_.endpoint())) {
+      local_(withMaster(std::move(setup.local), server_.endpoint()),
+             [this](const std::string& name) { return workOf(name); }),
+      stall_(setup.patience) {
   watchSignals();  // before anybody is told that the master listens
 }
 
@@ -43,10 +43,13 @@ void Cluster::start() {
 }
 
 void Cluster::watchSignals() {
-  loop_.onSignal({SIGINT, SIGTERM}, [this](int signal) {
+  loop_.onSignal(endingSignals(), [this](int signal) {
     int none = 0;
+    signal_.compare_exchange_strong(none, signal);
+    // A terminal that closes sends more than one; only who asks twice is in a hurry.
+    const bool isAsked = signal == SIGINT || signal == SIGTERM;
     // Local clients follow: the kernel kills them with us.
-    if (!signal_.compare_exchange_strong(none, signal)) std::_Exit(128 + signal);
+    if (isAsked && ++asked_ > 1) std::_Exit(128 + signal);
   });
 }
 
@@ -65,8 +68,8 @@ void Cluster::tick() {
   local_.poll(now);
   server_.tick(now);
   if (isOver(now)) return loop_.stop();
-  if (local_.exhausted() && !remoteMayJoin_ && server_.readyClients() == 0)
-    fail("all local clients ended and none can be started; see the lines above");
+  watchForStall(now);
+  if (local_.exhausted() && server_.readyClients() == 0) failWithoutClients();
   {
     const std::lock_guard lock(mutex_);
     clients_ = server_.clients(now);
@@ -75,6 +78,31 @@ void Cluster::tick() {
     firstDispatch_ = tally_.firstDispatch;
   }
   timer_ = loop_.after(kTick, [this] { tick(); });
+}
+
+LocalClients::Work Cluster::workOf(const std::string& name) const {
+  const std::optional<ClientReport> work = server_.workOf(name, Clock::now());
+  if (!work) return {.oldestTask = "no task"};
+  return {work->tasks, work->oldest ? nameOf(*work->oldest) : "no task"};
+}
+
+void Cluster::watchForStall(Time now) {
+  const bool nothingMoves = server_.nothingMoves() && !local_.isStarting(now);
+  if (stall_.look(nothingMoves, now))
+    warn("nothing has moved for {:.0f} s: all clients are stuck{}",
+         seconds(now - server_.lastMove()), remoteMayJoin_ ? "; others may join" : "");
+  if (stall_.isOver())
+    fail(fmt::format(
+        "all clients are stuck and nothing has moved for {:.0f} s: {}; --patience S waits longer",
+        seconds(now - server_.lastMove()), server_.stuckTasks(now)));
+}
+
+// A window waits for remote clients, if there may be any.
+void Cluster::failWithoutClients() {
+  if (local_.hang() && (!remoteMayJoin_ || !stall_.isEndless()))
+    fail(*local_.hang());
+  else if (!remoteMayJoin_)
+    fail("all local clients ended and none can be started; see the lines above");
 }
 
 bool Cluster::isOver(Time now) const {
@@ -102,18 +130,21 @@ std::optional<Time> Cluster::firstDispatch() const {
 }
 
 std::string Cluster::describeClients() const {
-  int connecting = 0, building = 0, ready = 0, lost = 0;
+  int connecting = 0, building = 0, ready = 0, stuck = 0, lost = 0;
   std::string syncing;
   for (const ClientInfo& client : clients_) {
     connecting += client.status.state == ClientState::connecting ? 1 : 0;
     building += client.status.state == ClientState::building ? 1 : 0;
-    ready += client.status.state == ClientState::ready ? 1 : 0;
+    const bool isReady = client.status.state == ClientState::ready;
+    stuck += isReady && client.isStuck() ? 1 : 0;
+    ready += isReady && !client.isStuck() ? 1 : 0;
     lost += client.status.state == ClientState::lost ? 1 : 0;
     if (client.status.state == ClientState::syncing)
       syncing += fmt::format(", {} syncing {:.0f}%", client.name, 100 * client.status.synced);
   }
   std::string text;
   append(text, ready, "ready");
+  append(text, stuck, "stuck");
   append(text, building, "building the scene");
   append(text, connecting, "connecting");
   append(text, lost, "lost");

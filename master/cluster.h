@@ -17,6 +17,7 @@
 
 #include "master/local_clients.h"
 #include "master/server.h"
+#include "master/stall_watch.h"
 
 namespace ninefold {
 
@@ -24,6 +25,7 @@ struct ClusterSetup {
   ServerSetup server;
   LocalClients::Plan local;    // without the master's address, which only listening tells
   bool remoteMayJoin = false;  // a cluster key exists
+  std::optional<Duration> patience = {};  // with clients that are all stuck; none: without end
 };
 
 class Cluster {
@@ -42,7 +44,7 @@ class Cluster {
   // A tile was placed, or could not be.
   void decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed);
 
-  // The first SIGINT or SIGTERM, 0 if none came. A second one ends the program at once.
+  // The first of endingSignals(), 0 if none came. A second SIGINT or SIGTERM ends the program at once.
   int signal() const { return signal_; }
   // Why the run cannot go on, if it cannot.
   std::optional<std::string> failure() const;
@@ -59,6 +61,7 @@ class Cluster {
 
   // After join().
   const Server& server() const { return server_; }
+  uint64_t stalls() const { return stall_.stalls(); }
 
  private:
   void run();
@@ -66,15 +69,20 @@ class Cluster {
   void watchSignals();
   bool isOver(Time now) const;
   void fail(const std::string& line);
+  void watchForStall(Time now);
+  void failWithoutClients();
+  LocalClients::Work workOf(const std::string& name) const;
   std::string describeClients() const;  // needs the lock
 
   EventLoop loop_;
   const bool remoteMayJoin_;
   Server server_;
   LocalClients local_;
+  StallWatch stall_;
   std::unique_ptr<EventLoop::Timer> timer_;
   std::optional<Time> endBy_;  // set by stop
   std::atomic<int> signal_ = 0;
+  int asked_ = 0;  // to end, by people; the loop's thread
 
   mutable std::mutex mutex_;
   std::optional<std::string> failure_;  // guarded by mutex_

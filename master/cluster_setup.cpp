@@ -21,7 +21,9 @@ ClusterSetup clusterSetup(const Options& options, const Listener::Keys& keys) {
   local.key = keys.local;
   local.count = options.localClients;
   ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients};
-  return {std::move(server), std::move(local), keys.cluster != nullptr};
+  const auto patience =
+      options.window ? std::nullopt : std::optional(fromSeconds(options.patience));
+  return {std::move(server), std::move(local), keys.cluster != nullptr, patience};
 }
 
 }  // namespace ninefold

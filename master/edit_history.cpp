@@ -34,7 +34,10 @@ void EditHistory::apply(const SceneEdit& edit, uint64_t action) {
   undone_.clear();
   if (done_.empty() || done_.back().number != action) {
     done_.push_back({action, {}, {}});
-    if (done_.size() > kMostActions) done_.erase(done_.begin());
+    if (done_.size() > kMostActions) {
+      forgotten_ = done_.front().number;
+      done_.erase(done_.begin());
+    }
   }
   // What the action touched before keeps the value that it had then.
   SceneEdit before = valuesNow(edit);

@@ -27,6 +27,9 @@ class EditHistory {
   std::optional<SceneEdit> undo();
   std::optional<SceneEdit> redo();
 
+  // Of the scene as a person's actions left it: after undo and redo the number that it had.
+  uint64_t revision() const { return done_.empty() ? forgotten_ : done_.back().number; }
+
   const SceneEdit& all() const { return all_; }  // merged, over the scene as it was read
   // The things that `like` names, as they are now.
   SceneEdit valuesNow(const SceneEdit& like) const;
@@ -41,6 +44,7 @@ class EditHistory {
   std::shared_ptr<const Scene> asRead_;
   SceneEdit all_;
   std::vector<Action> done_, undone_;
+  uint64_t forgotten_ = 0;  // the last action that cannot be undone any more
 };
 
 }  // namespace ninefold

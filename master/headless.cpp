@@ -2,17 +2,18 @@
 
 #include <unistd.h>
 
-#include <cstdio>
 #include <thread>
 
 #include "common/base/cpu_time.h"
 #include "common/base/log.h"
 #include "common/base/process.h"
+#include "common/base/standard_streams.h"
 #include "master/assembly.h"
 #include "master/cluster_setup.h"
 #include "master/frame_plan.h"
 #include "master/invitation.h"
 #include "master/job.h"
+#include "master/output_files.h"
 #include "master/picture.h"
 #include "master/progress.h"
 #include "master/run_record.h"
@@ -73,7 +74,7 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;
   setup.surfaceTest = options.surfaceTest;
-  setup.exposure = options.exposure;
+  if (!options.autoExposure) setup.exposure = job.exposure;
   setup.workers = workers;
   return setup;
 }
@@ -127,7 +128,7 @@ int HeadlessRun::run() {
   cluster_.stop("the picture is done");
   if (picture_.frames() > 0) writePicture();
   cluster_.join();
-  if (picture_.frames() > 0) writeStatistics();
+  if (picture_.frames() > 0 || cluster_.failure()) writeStatistics();
   if (const auto failure = cluster_.failure()) fail("{}", *failure);
   if (picture_.frames() == 0) warn("stopped before any frame was complete: nothing is written");
   return cluster_.signal() == 0 ? 0 : 128 + cluster_.signal();
@@ -145,7 +146,7 @@ void HeadlessRun::gatherFrames() {
   }
   enough_ = true;
   const std::string end = progress_.finish(progressState(), Clock::now());
-  std::fputs(end.c_str(), stderr);
+  sayToPeople(end);
 }
 
 bool HeadlessRun::isDone() {
@@ -159,8 +160,7 @@ Duration HeadlessRun::elapsed() const {
 }
 
 void HeadlessRun::tellProgress() {
-  if (const auto text = progress_.update(progressState(), Clock::now()))
-    std::fputs(text->c_str(), stderr);
+  if (const auto text = progress_.update(progressState(), Clock::now())) sayToPeople(*text);
 }
 
 ProgressState HeadlessRun::progressState() const {
@@ -184,6 +184,7 @@ void HeadlessRun::writePicture() const {
 void HeadlessRun::writeStatistics() const {
   if (!options_.stats) return;
   RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), workers_);
+  stats.stalls = cluster_.stalls();
   stats.frames = picture_.frames();
   stats.relativeError = picture_.relativeError();
   stats.imageHash = picture_.imageHash();
@@ -191,7 +192,7 @@ void HeadlessRun::writeStatistics() const {
   stats.preset = nameOf(options_.preset);
   stats.settings = job_.settings;
   stats.surfaceTest = options_.surfaceTest;
-  writeStats(*options_.stats, stats);
+  writeStats(*options_.stats, toJson(stats));
 }
 
 }  // namespace
@@ -199,7 +200,7 @@ void HeadlessRun::writeStatistics() const {
 int runHeadless(const Options& options) {
   // What can be told at once comes before a scene is read, which may take long.
   checkGuests(options);
-  if (options.output) checkOutputPath(*options.output);
+  checkFiles(options);
   Listener::Keys keys = loadKeys(options);
   const Job job = makeJob(options);
   HeadlessRun run(options, job, std::move(keys));

@@ -11,7 +11,7 @@
 
 namespace ninefold {
 
-// The exit status: 0 done, 130 or 143 after Ctrl-C or SIGTERM.
+// The exit status: 0 done, 128 + N after signal N (cluster.h).
 int runHeadless(const Options& options);
 
 }  // namespace ninefold

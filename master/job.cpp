@@ -58,6 +58,7 @@ Job makeJob(const Options& options) {
                   : FrameShape{grid, layerMaskOf(job.needs, job.settings.method),
                                extraPlanes(options, job.needs)};
   job.sceneRadius = scene.bounds.radius();
+  job.exposure = options.exposure.value_or(scene.exposure.value_or(0));
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
   std::vector<Blob> blobs = packScene(scene);
   job.sceneHash = hashOf(blobs);

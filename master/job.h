@@ -21,6 +21,7 @@ struct Job {
   FrameShape shape;              // of what clients send then
   Metres firstPhotonRadius = 0;  // [m]
   Metres sceneRadius = 0;        // R [m]
+  float exposure = 0;            // [EV], unless options.autoExposure
   std::string sceneHash;         // SHA-256 over the names of its blobs
   std::unique_ptr<JobOffer> offer;
   std::shared_ptr<const Scene> scene;  // kept if isLive(options)

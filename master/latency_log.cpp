@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
+#include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "common/base/error.h"
 
 namespace ninefold {
 namespace {
@@ -41,7 +39,7 @@ void LatencyLog::add(const Shown& shown) {
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
 }
 
-void LatencyLog::write(const std::string& path, const std::string& scene) const {
+std::string LatencyLog::json(const std::string& scene, const ServerTally& tally) const {
   std::vector<double> latency, moving;
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
   for (const Entry& e : entries_) {
@@ -55,10 +53,10 @@ void LatencyLog::write(const std::string& path, const std::string& scene) const 
   nlohmann::ordered_json all{{"scene", scene},
                              {"latency_ms", summary(latency)},
                              {"moving_frame_ms", summary(moving)},
+                             {"clients_stuck", tally.tasks.clientsStuck},
+                             {"values_not_finite", tally.replaced},
                              {"frames", std::move(frames)}};
-  std::ofstream file(path);
-  file << all.dump(1) << "\n";
-  if (!file.flush()) fail("cannot write {}", path);
+  return all.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace ninefold

@@ -13,8 +13,7 @@ class LatencyLog {
  public:
   explicit LatencyLog(Time start) : start_(start) {}
   void add(const Shown& shown);
-  // JSON. Throws Error if the file cannot be written.
-  void write(const std::string& path, const std::string& scene) const;
+  std::string json(const std::string& scene, const ServerTally& tally) const;
 
  private:
   struct Entry {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/image/image.h"
@@ -9,13 +10,19 @@
 
 namespace ninefold {
 
+// What is at each place of a picture.
+struct PickPlanes {
+  std::vector<uint32_t> objects;  // as kObjectPlane
+  std::vector<float> depth;       // as kDepthPlane
+};
+
 struct LiveImage {
   int width = 0, height = 0;
-  RgbImage radiance;              // empty if clients sent codes
-  float exposure = 0;             // [EV] of `display`
-  DisplayImage display;           // of the radiance; empty if nobody looks
-  std::vector<uint32_t> objects;  // as kObjectPlane, if the frame carried it and depth; else empty
-  std::vector<float> depth;       // as kDepthPlane, likewise
+  RgbImage radiance;     // empty if clients sent codes
+  float exposure = 0;    // [EV] of `display`
+  DisplayImage display;  // of the radiance; empty if nobody looks
+  // Of the frame, or of an earlier one at rest, which shows the same; null if neither carried them.
+  std::shared_ptr<const PickPlanes> picks;
 
   size_t at(int x, int y) const { return pixelCount(width, y) + static_cast<size_t>(x); }
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "common/sampling/whole_tile.h"
 #include "master/picture.h"
@@ -9,15 +10,14 @@
 namespace ninefold {
 namespace {
 
-constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
+bool hasPicks(const FrameShape& shape) { return (shape.extraMask & kPickPlanes) == kPickPlanes; }
 
 }  // namespace
 
-LivePicture::LivePicture(SurfaceTest test, int workers, float depthScale, bool reuses)
-    : depthScale_(depthScale), reuses_(reuses) {
-  for (int i = 0; i < workers; ++i) {
-    desks_.push_back(std::make_unique<Desk>(test));
-    desks_.back()->filter.keepIrradiance(reuses);
+LivePicture::LivePicture(const Setup& setup) : setup_(setup) {
+  for (int i = 0; i < setup.workers; ++i) {
+    desks_.push_back(std::make_unique<Desk>(setup.test));
+    desks_.back()->filter.keepIrradiance(setup.reuses);
   }
 }
 
@@ -28,23 +28,23 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   look_ = look;
   const TileGrid& grid = frame.view.shape.grid;
   rested_ = !plan.moving && frame.view.shape.layerMask != kDisplayMask;
-  const bool wantsError = look.view == PictureView::error;  // views change at a rest's beginning
-  const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height() &&
-                    keepsError_ == wantsError;
-  if (rested_ && !fits)
-    film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError);
-  else if (rested_ && plan.rested == 0)
-    film_->clear();
-  traced_ = reuses_ && !isFiltered(frame.view.shape);
+  if (rested_) beginRest(grid, plan.rested == 0);
+  traced_ = setup_.reuses && !isFiltered(frame.view.shape);
   if (traced_) {
     if (plan.world != world_) history_.forget();
     world_ = plan.world;
     history_.begin(frame.view.camera, grid.width(), grid.height());
   }
-  takeImage(frame.view.shape);
+  takeImage(frame.view.shape, !rested_ || plan.rested == 0);
 }
 
-void LivePicture::takeImage(const FrameShape& shape) {
+void LivePicture::beginRest(const TileGrid& grid, bool isFirst) {
+  light_.begin(grid, setup_.keepsError || look_.view == PictureView::error, isFirst);
+  const bool isNew = isFirst || look_.view != std::exchange(paintedView_, look_.view);
+  if (isPainted(look_.view)) painted_.begin(grid, false, isNew);
+}
+
+void LivePicture::takeImage(const FrameShape& shape, bool isFirst) {
   const auto isFree = [](const auto& image) { return image.use_count() == 1; };
   image_.reset();
   const auto found = std::ranges::find_if(images_, isFree);
@@ -56,9 +56,14 @@ void LivePicture::takeImage(const FrameShape& shape) {
   image_->radiance.reshape(coded ? 0 : width, coded ? 0 : height);
   image_->exposure = look_.exposure.value_or(0);
   image_->display.reshape(look_.exposure ? width : 0, look_.exposure ? height : 0);
-  const bool picks = (shape.extraMask & kPickPlanes) == kPickPlanes;
-  image_->objects.resize(picks ? pixelCount(width, height) : 0);
-  image_->depth.resize(image_->objects.size());
+  if (hasPicks(shape)) {
+    picks_ = std::make_shared<PickPlanes>();
+    picks_->objects.resize(pixelCount(width, height));
+    picks_->depth.resize(pixelCount(width, height));
+  } else if (isFirst) {
+    picks_.reset();
+  }
+  image_->picks = picks_;
 }
 
 void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
@@ -73,28 +78,33 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
   if (isFiltered(shape))
     frame.task(tile, 0).copyRadiance(desk.beauty);
   else
-    finishLayers(desk, frame, plan.moving,
-                 &owners[static_cast<size_t>(shape.grid.interleave().sets() * tile)], tile);
-  rested_ ? sumUp(rect, desk.beauty) : copyTile(rect, desk.beauty);
+    finishLayers(desk, frame, plan.moving, tile);
+  if (rested_) light_.addTile(tile, rect, desk.beauty);
+  if (!isFiltered(shape)) paintTile(desk, frame.view, owners, tile);
+  if (rested_ && isPainted(look_.view)) painted_.addTile(tile, rect, desk.beauty);
+  rested_ ? showMean(rect) : copyTile(rect, desk.beauty);
   if (look_.exposure) toneMap(rect);
 }
 
-void LivePicture::finishLayers(Desk& desk, const GatheredFrame& frame, bool moving,
-                               const uint32_t* owners, int tile) {
+void LivePicture::finishLayers(Desk& desk, const GatheredFrame& frame, bool moving, int tile) {
   const FrameView& view = frame.view;
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty);
   if (traced_) history_.blend(desk.patch, desk.filter, moving, desk.beauty);
-  paint(look_.view, desk.patch, desk.filter, view.neighbourWeight, view.key.rotation, depthScale_,
-        owners, desk.beauty);
-  keepPickPlanes(desk.patch);
+  if (hasPicks(view.shape)) keepPickPlanes(desk.patch);
 }
 
-void LivePicture::sumUp(const TaskRect& tile, const RgbImage& beauty) {
-  film_->addTile(tile.i0, tile.j0, beauty);
-  film_->meanOfTile(tile, image_->radiance);
-  if (look_.view == PictureView::error)
-    paintError(*film_, film_->frames() + 1, tile, image_->radiance);
+void LivePicture::paintTile(Desk& desk, const FrameView& view, const std::vector<uint32_t>& owners,
+                            int tile) {
+  const auto firstTask = static_cast<size_t>(view.shape.grid.interleave().sets() * tile);
+  paint(look_.view, desk.patch, desk.filter, view.neighbourWeight, view.key.rotation,
+        setup_.depthScale, &owners[firstTask], desk.beauty);
+}
+
+void LivePicture::showMean(const TaskRect& tile) {
+  const Film& film = shownFilm().film();
+  film.meanOfTile(tile, image_->radiance);
+  if (look_.view == PictureView::error) paintError(film, film.frames() + 1, tile, image_->radiance);
 }
 
 void LivePicture::copyTile(const TaskRect& tile, const RgbImage& beauty) {
@@ -119,23 +129,23 @@ void LivePicture::toneMap(const TaskRect& tile) {
 }
 
 void LivePicture::keepPickPlanes(const Patch& patch) {
-  if (image_->objects.empty()) return;
   for (int phase = 0; phase < patch.phases(); ++phase) {
     const ExtraPlanes& extras = patch.phase(phase).extras;
     patch.forEachPixel(phase, [&](size_t from, int x, int y) {
-      image_->objects[image_->at(x, y)] = extras.object[from];
-      image_->depth[image_->at(x, y)] = extras.depth[from];
+      picks_->objects[image_->at(x, y)] = extras.object[from];
+      picks_->depth[image_->at(x, y)] = extras.depth[from];
     });
   }
 }
 
 void LivePicture::frameDone() {
-  if (rested_) film_->frameDone();
+  if (rested_) light_.frameDone();
+  if (rested_ && isPainted(look_.view)) painted_.frameDone();
   if (traced_) history_.frameDone();
 }
 
 double LivePicture::relativeError() const {
-  return rested_ ? film_->relativeError() : std::numeric_limits<double>::infinity();
+  return rested_ ? shownFilm().film().relativeError() : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace ninefold

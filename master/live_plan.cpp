@@ -1,5 +1,9 @@
 #include "master/live_plan.h"
 
+#include <utility>
+
+#include "common/image/layers.h"
+
 namespace ninefold {
 LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
@@ -22,6 +26,13 @@ FramePlan LivePlan::planOfRest() const {
 }
 
 std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
+  if (!moving_ && setup_.motion && state.hasLightOf(state_)) {
+    const bool isSeenAsBefore = state.isSeenAs(state_);
+    state_ = state;
+    if (isSeenAsBefore) return std::nullopt;
+    urgent_ = true;
+    return supersede();
+  }
   if (state == state_) return std::nullopt;
   Settings asSeenFromHere = state.settings;
   asSeenFromHere.camera = state_.settings.camera;
@@ -39,8 +50,21 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   if (moving_) return std::nullopt;
   moving_ = true;
   quality_.begin();
+  return supersede();
+}
+
+// The plan goes on with the frames that are given up.
+std::optional<uint32_t> LivePlan::supersede() {
   if (open_.empty()) return std::nullopt;
+  plan_ = open_.begin()->second.before;
   open_.clear();
+  return nextFrame_;
+}
+
+uint32_t LivePlan::giveUp() {
+  open_.clear();
+  dirty_ = moving_;
+  plan_ = planOfRest();
   return nextFrame_;
 }
 
@@ -49,13 +73,19 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
   if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;
   LiveFrame frame = open(now);
   frame.rested = plan_.opened();
-  frame.order.urgent = frame.rested == 0;  // else the last picture of the motion stays for long
+  // Else the last picture of the motion, or of another look, stays for long.
+  frame.order.urgent = std::exchange(urgent_, false) || frame.rested == 0;
+  const FramePlan before = plan_;
   const FrameKey key = plan_.next();
   frame.neighbourWeight = plan_.neighbourWeight(key.frame);
+  hold(frame, key, before);
+  return frame;
+}
+
+void LivePlan::hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before) {
   frame.order.key = key;
   frame.order.key.frame = nextFrame_++;
-  open_[frame.order.key.frame] = frame;
-  return frame;
+  open_.emplace(frame.order.key.frame, Open{frame, before});
 }
 
 std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
@@ -70,9 +100,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   frame.moving = frame.order.urgent = true;
   frame.quality = quality_.current();
   frame.changed = firstUnshown_;
-  frame.order.key = planOfRest().next();  // the first frame's random bits
-  frame.order.key.frame = nextFrame_++;
-  open_[frame.order.key.frame] = frame;
+  hold(frame, planOfRest().next(), plan_);  // the first frame's random bits
   dirty_ = false;
   return frame;
 }
@@ -81,9 +109,11 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
 LiveFrame LivePlan::open(Time now) {
   FrameOrder order = latest_;
   order.settings = settingsAt(moving_ ? quality_.current() : Quality{});
-  order.extraMask = state_.extraMask;
+  order.extraMask = planes();
   order.moving = moving_;
   order.delivery = moving_ ? inMotion_ : atRest_;
+  if (order.extraMask != 0)
+    order.delivery.form = Delivery::Form::layers, order.delivery.exposure = 0;
   if (state_.scene != scene_ || (unsettled_ && !moving_)) {
     scene_ = state_.scene;
     ++order.scene;
@@ -97,6 +127,11 @@ LiveFrame LivePlan::open(Time now) {
   frame.order = order;
   frame.changed = changed_, frame.opened = now, frame.world = world_;
   return frame;
+}
+
+uint8_t LivePlan::planes() const {
+  const bool picks = moving_ ? state_.picks : setup_.picks && plan_.opened() == 0;
+  return static_cast<uint8_t>(state_.extraMask | (picks ? kPickPlanes : 0));
 }
 
 Settings LivePlan::settingsAt(const Quality& quality) const {
@@ -119,7 +154,7 @@ Settings LivePlan::settingsAt(const Quality& quality) const {
 std::optional<LiveFrame> LivePlan::completed(uint32_t frame, Time now) {
   const auto found = open_.find(frame);
   if (found == open_.end()) return std::nullopt;
-  const LiveFrame done = found->second;
+  const LiveFrame done = found->second.frame;
   open_.erase(found);
   // All of the time since it was opened, the end of the frame before included. Frames that nobody
   // waits for share the cluster with others: their time tells nothing.

@@ -2,7 +2,8 @@
 // the time go in, frames come out. Pure.
 //
 //   rest     frames of full quality, one after another, as FramePlan says; the film sums them up,
-//            for ever or as many as a still is to have
+//            for ever or as many as a still is to have. If somebody may click, the first of them
+//            carries pick planes, which hold for all
 //   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
 //            at motion_quality's step, with the random bits of the first frame, so that nothing
 //            flickers, through the middle of each pixel, caustics from lights alone; at most kInMotion
@@ -12,6 +13,10 @@
 // The newest state wins: what changed while a frame was rendered is in the next one, and changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
 // motion the open frame is finished, else a hand that never rests would never see one.
+//
+// What only is looked at in another way (LiveState::look, its planes) rests on: open frames are opened anew,
+// with the new look, and the film keeps all that are complete. Whether pick planes are wanted in motion is
+// no change of the picture at all.
 //
 // Threads: plain value, one owner. Errors: none. Proved: tests/master/live_plan_test.cpp.
 #pragma once
@@ -31,7 +36,16 @@ struct LiveState {
   uint8_t extraMask = 0;
   uint32_t scene = 0;  // edits made so far
   uint32_t look = 0;   // what the picture is made to show of it
+  bool picks = false;  // frames in motion carry pick planes
   bool operator==(const LiveState&) const = default;
+
+  // Whether frames of both are estimates of the same light.
+  bool hasLightOf(const LiveState& other) const {
+    return settings == other.settings && scene == other.scene;
+  }
+  bool isSeenAs(const LiveState& other) const {
+    return hasLightOf(other) && extraMask == other.extraMask && look == other.look;
+  }
 };
 
 struct LiveFrame {
@@ -57,6 +71,7 @@ class LivePlan {
     bool motion = true;  // false: every state is shown as at rest, however long that takes
     std::optional<int64_t> frames;  // of a state at rest; nothing: without end
     Delivery delivery;              // of the first job
+    bool picks = false;             // somebody may click
   };
   LivePlan(const Setup& setup, Time now);
 
@@ -64,8 +79,10 @@ class LivePlan {
   // Nothing happens if it is what is shown already. Gives back the first frame that is still wanted
   // if open ones are not.
   std::optional<uint32_t> change(const LiveState& state, Time now);
+  // The open frames cannot be rendered any more: others are to show the same. The first of those.
+  uint32_t giveUp();
   void setTarget(Duration target) { quality_.setTarget(target); }
-  // Of frames that open from now on. No change of the picture.
+  // Of frames that open from now on. No change of the picture. Frames with planes come as layers.
   void setDelivery(const Delivery& atRest, const Delivery& inMotion) {
     atRest_ = atRest, inMotion_ = inMotion;
   }
@@ -79,7 +96,14 @@ class LivePlan {
   const MotionQuality& quality() const { return quality_; }
 
  private:
+  struct Open {
+    LiveFrame frame;
+    FramePlan before;  // the plan without it and those after it
+  };
+  std::optional<uint32_t> supersede();
   LiveFrame open(Time now);
+  uint8_t planes() const;
+  void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
   Settings settingsAt(const Quality& quality) const;
   std::optional<LiveFrame> nextInMotion(Time now);
@@ -90,6 +114,7 @@ class LivePlan {
   Delivery atRest_, inMotion_;
   FramePlan plan_;
   bool moving_ = false, dirty_ = false;
+  bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
   bool unsettled_ = false;  // it was announced as moving
@@ -97,7 +122,7 @@ class LivePlan {
   Time firstUnshown_{};     // the first change that no frame shows yet
   uint32_t nextFrame_ = 0;
   FrameOrder latest_;  // whose job is current
-  std::map<uint32_t, LiveFrame> open_;
+  std::map<uint32_t, Open> open_;
 };
 
 }  // namespace ninefold

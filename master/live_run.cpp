@@ -8,7 +8,6 @@ namespace ninefold {
 namespace {
 
 constexpr Duration kLook = milliseconds(20);  // how late the end may be noticed
-constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
 
 LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace pace) {
   LivePlan::Setup setup;
@@ -19,6 +18,7 @@ LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace 
   setup.motion = pace.motion;
   setup.frames = pace.frames;
   setup.delivery = job.delivery;
+  setup.picks = pace.person;
   return setup;
 }
 
@@ -30,14 +30,16 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       onPicture_(std::move(onPicture)),
-      picture_(options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius, pace.motion),
+      picture_({options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius, pace.motion,
+                pace.person}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
       view_(options.view),
       pace_(pace),
       cluster_(clusterSetup(options, keys), *job.offer,
-               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); }}),
+               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); },
+                [this] { return giveUp(); }}),
       assembly_(
           workers_,
           [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
@@ -99,8 +101,8 @@ void LiveRun::setView(PictureView view) {
   change([&] { view_ = view; });
 }
 
-void LiveRun::wantObjects(bool on) {
-  change([&] { objects_ = on; });
+void LiveRun::wantPicks(bool on) {
+  change([&] { picks_ = on; });
 }
 
 void LiveRun::edit(const SceneEdit& edit) {
@@ -126,9 +128,10 @@ void LiveRun::setExposure(float exposure) {
 LiveState LiveRun::newest() const {
   LiveState state;
   state.settings = settingsFor(view_, wanted_);
-  state.extraMask = static_cast<uint8_t>(planesOf(view_) | (objects_ ? kPickPlanes : 0));
+  state.extraMask = planesOf(view_);
   state.scene = edits_;
   state.look = static_cast<uint32_t>(view_);
+  state.picks = picks_;
   return state;
 }
 
@@ -170,8 +173,7 @@ Delivery LiveRun::delivery(bool summedUp) const {
   using Form = Delivery::Form;
   Delivery d = job_.delivery;
   const int pixels = kTaskSide * kTaskSide * wanted_.interleave.sets();
-  const bool whole =
-      filtersAtClients(options_, view_) && newest().extraMask == 0 && pixels <= kMaxTilePixels;
+  const bool whole = filtersAtClients(options_, view_) && pixels <= kMaxTilePixels;
   d.form = !whole                                           ? Form::layers
            : !summedUp && pace_.codesOnly && pace_.exposure ? Form::display
                                                             : Form::radiance;
@@ -224,6 +226,18 @@ bool LiveRun::take(ReceivedTile& tile) {
     }
   }
   return assembly_.take(tile);
+}
+
+// On the network thread.
+uint32_t LiveRun::giveUp() {
+  uint32_t firstWanted = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    firstWanted = plan_.giveUp();
+    open_.clear();
+  }
+  assembly_.supersede(firstWanted);
+  return firstWanted;
 }
 
 // On a worker's thread.

@@ -4,8 +4,8 @@
 //   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
 //   picture thread: sums frames up, publishes what is to be seen
 //
-// If clients filter, they do so for views of light (isLight) without pick planes, in tiles that are not
-// too large; other frames come as layers. A frame that is not summed up (in motion, or a still of one
+// If clients filter, they do so for views of light (isLight), in tiles that are not too large; other
+// frames, and those with pick planes, come as layers. A frame that is not summed up (in motion, or a still of one
 // frame) comes as codes if nobody wants its radiance. What clients have filtered has no E any more, so
 // that light is not used again in it (irradiance_history.h).
 //
@@ -49,6 +49,7 @@ class LiveRun {
     std::optional<float> exposure = {};   // [EV]: somebody looks at codes; none: at radiance only
     bool codesOnly = false;               // and at nothing else, unless frames are summed up
     std::optional<int64_t> frames = {};   // of a picture at rest, at most
+    bool person = false;                  // somebody may click, and look at its error, at any time
   };
   using OnPicture = std::function<void(const std::shared_ptr<const Shown>&)>;
   LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
@@ -61,7 +62,7 @@ class LiveRun {
   void setSettings(const Settings& settings);
   void setCamera(const Camera& camera);
   void setView(PictureView view);
-  void wantObjects(bool on);         // with every frame from now on
+  void wantPicks(bool on);           // in motion, too, from now on
   void setTarget(Duration target);   // of frames in motion
   void setExposure(float exposure);  // [EV] of the codes of frames from now on
   // Needs checkEdit.
@@ -84,6 +85,7 @@ class LiveRun {
   };
   std::optional<FrameOrder> nextFrame();
   bool take(ReceivedTile& tile);
+  uint32_t giveUp();
   void finishTile(int worker, const GatheredFrame& frame, int tile);
   void gatherFrames();
   void change(const std::function<void()>& apply);
@@ -107,7 +109,7 @@ class LiveRun {
   SceneEdit all_, unsent_;
   uint32_t edits_ = 0;
   PictureView view_ = PictureView::beauty;
-  bool objects_ = false;
+  bool picks_ = false;
   Pace pace_;
   std::map<uint32_t, std::shared_ptr<Open>> open_;
   std::shared_ptr<const Shown> shown_;

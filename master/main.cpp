@@ -1,7 +1,9 @@
 // ninefold-master: renders a scene on a cluster of clients.
-#include <cstdio>
 #include <thread>
 
+#include "common/base/program.h"
+#include "common/base/release.h"
+#include "common/base/standard_streams.h"
 #include "master/headless.h"
 #include "master/script_run.h"
 #include "master/window/session.h"
@@ -12,7 +14,11 @@ namespace {
 
 int run(const Options& options) {
   if (options.help) {
-    std::fputs(helpText().c_str(), stdout);
+    writeOutput(helpText());
+    return 0;
+  }
+  if (options.version) {
+    writeOutput(versionText("ninefold-master"));
     return 0;
   }
   if (options.newKey) {
@@ -29,14 +35,8 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ninefold;
-  try {
+  return runProgram("ninefold-master", [&] {
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     return run(parseOptions(argc, argv, processVariable, cores));
-  } catch (const UsageError& error) {
-    std::fprintf(stderr, "ninefold-master: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "ninefold-master: %s\n", error.what());
-    return 1;
-  }
+  });
 }

@@ -8,6 +8,7 @@
 
 #include "common/scene/camera_choice.h"
 #include "master/options_flags.h"
+#include "master/output_files.h"
 #include "proto/connection.h"
 #include "proto/tile_codec.h"
 
@@ -91,12 +92,11 @@ void readPicture(const RawOptions& raw, Options& o) {
   o.camera = raw.text("camera").value_or("");
   o.environment = readEnvironment(raw);
   assign(o.surfaceTest, choice(raw, "filter", std::array{"none", "paper", "surface"}));
-  assign(o.exposure, raw.real("exposure", -double{kMostExposure}, double{kMostExposure}));
+  o.autoExposure = raw.text("exposure") == "auto";
+  if (!o.autoExposure)
+    if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
+      o.exposure = static_cast<float>(*ev);
   o.aovs = raw.isOn("aovs");
-}
-
-bool isLoopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
 }
 
 void readCluster(const RawOptions& raw, int cores, Options& o) {
@@ -104,6 +104,7 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
   assign(o.clientThreads, raw.whole("client-threads", 1, 1024));
   assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
+  assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = choice(raw, "isa", kIsas)) o.isa = kIsas[*isa];
@@ -183,7 +184,7 @@ void readFiles(const RawOptions& raw, Options& o) {
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !o.window)
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
-  if (o.animate && !o.window && (!o.output || o.output->find('#') == std::string::npos))
+  if (o.animate && !o.window && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;
   const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
@@ -204,7 +205,8 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   Options o;
   o.help = raw.isOn("help");
   o.newKey = raw.text("new-key");
-  if (o.help || o.newKey) return o;
+  o.version = raw.isOn("version");
+  if (o.help || o.version || o.newKey) return o;
 
   o.scene = raw.text("scene").value_or("");
   if (o.scene.empty()) failUsage("no scene is given; see ninefold-master --help");

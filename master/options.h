@@ -28,6 +28,7 @@ enum class Preset : uint8_t { interactive, final, paper };
 
 struct Options {
   bool help = false;                  // print helpText() and end; nothing else counts
+  bool version = false;               // print the release and end; nothing else counts
   std::optional<std::string> newKey;  // make this key file and end; nothing else counts
 
   std::string scene;   // file
@@ -46,6 +47,7 @@ struct Options {
   std::optional<std::string> keyFile;
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
+  double patience = 120;     // without a window, with clients that are all stuck [s]
 
   bool window = false;
   std::optional<std::string> script;      // file
@@ -58,7 +60,8 @@ struct Options {
 
   std::optional<std::string> output;  // .exr, .png or .hdr
   bool aovs = false;
-  float exposure = 0;  // [EV]
+  std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0
+  bool autoExposure = false;      // instead: auto_exposure.h
   std::optional<std::string> stats;
 };
 

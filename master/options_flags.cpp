@@ -26,7 +26,9 @@ constexpr Flag kPicture[] = {
     {"environment", "none|COLOR",
      "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; white 1, with a warning, "
      "if the scene has no light at all)"},
-    {"exposure", "EV", "brightness of .png files, -50 to 50 (default 0)"},
+    {"exposure", "EV|auto",
+     "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
+     "what the scene says, else 0)"},
     {"view", "NAME",
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
      "error, clients, objects or weights"},
@@ -94,14 +96,18 @@ constexpr Flag kCluster[] = {
     {"wire-level", "auto|N",
      "lossless compression of results, zstd's levels 1 to 19, 0 = none; auto: what suits each "
      "client's line (default auto)"},
+    {"patience", "S",
+     "when all clients are stuck, each in a task that does not end, wait for S seconds, then end "
+     "with what there is, unless in a window (default 120)"},
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
 constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
-    {"stats", "FILE", "what happened, as JSON"},
-    {"help", nullptr, "print this and end"},
+    {"stats", "FILE", "what happened, as JSON; - is standard output"},
+    {"help", nullptr, "print this and end, as -h does"},
+    {"version", nullptr, "print the release and end"},
 };
 
 template <size_t n>
@@ -123,6 +129,11 @@ po::options_description allFlags() {
   return all;
 }
 
+// The only short flag: a number with a minus is a value.
+std::pair<std::string, std::string> readShortHelp(const std::string& word) {
+  return {word == "-h" ? "help" : "", ""};
+}
+
 po::variables_map parseFlags(int argc, const char* const* argv,
                              const po::options_description& all) {
   using namespace po::command_line_style;
@@ -134,6 +145,7 @@ po::variables_map parseFlags(int argc, const char* const* argv,
   po::store(po::command_line_parser(argc, argv)
                 .options(known)
                 .positional(positional)
+                .extra_parser(readShortHelp)
                 .style(allow_long | long_allow_adjacent | long_allow_next)
                 .run(),
             values);
@@ -174,7 +186,7 @@ RawOptions::RawOptions(int argc, const char* const* argv, const Variable& variab
   }
   for (const auto& option : all.options()) {
     const std::string& flag = option->long_name();
-    if (flag == "help" || flag == "new-key" || has(flag)) continue;
+    if (flag == "help" || flag == "version" || flag == "new-key" || has(flag)) continue;
     if (const auto value = variable(variableOfFlag(flag))) values_[flag] = *value;
   }
 }
@@ -218,9 +230,11 @@ std::string helpText() {
          "\n"
       << allFlags()
       << "\n"
-         "Each flag but --help and --new-key may also be given by the environment:\n"
+         "Each flag but --help, --version and --new-key may also be given by the environment:\n"
          "NINEFOLD_LOCAL_CLIENTS=4 for --local-clients 4, NINEFOLD_AOVS=1 for --aovs. Flags win.\n"
-         "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage.\n";
+         "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage,\n"
+         "128 + N ended by signal N, with the picture so far written: 130 Ctrl-C, 143 SIGTERM,\n"
+         "129 SIGHUP, 141 SIGPIPE.\n";
   return text.str();
 }
 

@@ -1,5 +1,6 @@
 #include "master/picture.h"
 
+#include "common/image/auto_exposure.h"
 #include "common/sampling/whole_tile.h"
 
 namespace ninefold {
@@ -77,7 +78,9 @@ void PictureMaker::write(const std::string& path, const Metadata& metadata) cons
   film_.mean(mean);
   if (setup_.view == PictureView::error)
     paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
-  const float exposure = isFalseColor(setup_.view) ? 0 : setup_.exposure;
+  float exposure = 0;
+  if (!isFalseColor(setup_.view))
+    exposure = setup_.exposure ? *setup_.exposure : autoExposure(mean);
   writeImage(path, {mean, extraChannels(), metadata}, ToneMap(exposure));
 }
 

@@ -27,7 +27,7 @@ class PictureMaker {
     PictureView view = PictureView::beauty;
     float depthScale = 1;  // [m], see view.h
     SurfaceTest surfaceTest = SurfaceTest::surface;
-    float exposure = 0;  // [EV]
+    std::optional<float> exposure;  // [EV]; none: auto_exposure.h
     int workers = 1;
   };
   explicit PictureMaker(const Setup& setup);

@@ -12,7 +12,7 @@ std::vector<ClientStats> clientStats(const Server& server, Time end) {
   for (const ClientInfo& client : server.clients(end))
     if (client.work)
       all.push_back({client.name, client.isa, client.work->tasks, client.work->busyFraction(),
-                     client.work->setsPerFrame()});
+                     client.work->setsPerFrame(), client.work->timesStuck});
   return all;
 }
 
@@ -32,7 +32,10 @@ RunStats RunRecord::stats(const Server& server, const Assembly::Busy& busy, int 
   stats.tilesDuplicate = tally.tasks.droppedDuplicate;
   stats.tilesMalformed = tally.malformed + tally.tasks.droppedUnknown;
   stats.tasksReissued = tally.tasks.reissued;
+  stats.clientsStuck = tally.tasks.clientsStuck;
+  stats.valuesNotFinite = tally.replaced;
   stats.reproducible = tally.reproducible;
+  stats.clients = clientStats(server, frames_.empty() ? Clock::now() : frames_.back().finished);
   if (frames_.empty() || !tally.firstDispatch) return stats;
 
   const Duration whole = frames_.back().finished - *tally.firstDispatch;
@@ -44,7 +47,6 @@ RunStats RunRecord::stats(const Server& server, const Assembly::Busy& busy, int 
     stats.tailMs.push_back(inMs(frame.finished - frame.lastResult));
     before = frame.finished;
   }
-  stats.clients = clientStats(server, frames_.back().finished);
   stats.decodeMs = inMs(busy.unpacking) / frames;
   stats.filterMs = inMs(busy.finishing) / frames;
   stats.idleFraction = 1 - seconds(busy.unpacking + busy.finishing) /

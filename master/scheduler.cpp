@@ -15,20 +15,24 @@ constexpr int kAhead = 3;  // frames beyond those in which each client has a set
 
 }  // namespace
 
-void Scheduler::clientJoined(ClientId id, int threads, Time now) {
+void Scheduler::clientJoined(ClientId id, int threads, Time now, Duration sceneTime) {
   NINEFOLD_CHECK(!past_.contains(id));
   pool_.add(id, threads, now);
+  SchedulerClient& client = *pool_.find(id);
+  client.setSceneTime(sceneTime);
+  pool_.update(client);
 }
 
 void Scheduler::clientLost(ClientId id, Time now) {
   const SchedulerClient* client = pool_.find(id);
   if (client == nullptr) return;
-  for (const TaskId& task : client->held())
-    if (SchedulerFrame* frame = findFrame(task.frame))
-      counts_.reissued += frame->removeHolder(frame->indexOf(task), id);
+  for (const HeldTask& held : client->held())
+    if (SchedulerFrame* frame = findFrame(held.task.frame))
+      counts_.reissued += frame->removeHolder(frame->indexOf(held.task), id);
   for (auto& [number, frame] : frames_) frame.forgetClient(id);
   ClientReport report = client->report(now);
   report.lost = true;
+  report.stuck = false;
   report.inFlight = report.window = 0;
   past_.emplace(id, report);
   pool_.remove(id);
@@ -39,6 +43,9 @@ void Scheduler::clientHeard(ClientId id, Time now) {
   if (client == nullptr) return;
   client->heard(now);
   if (client->trust() != Trust::suspect || client->inFlight() > 0) return;
+  // Not soon, if it is stuck: it may still be at work on a task that was withdrawn.
+  if (const auto since = client->stuckSince())
+    if (now - std::max(*since, client->silentSince()) < SchedulerClient::kRetryStuck) return;
   client->setTrust(Trust::trial, now);
   pool_.update(*client);
 }
@@ -102,17 +109,27 @@ void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind k
   nextFrame_ = key.frame + 1;
 }
 
-void Scheduler::viewChanged(uint32_t firstWanted) {
+void Scheduler::viewChanged(uint32_t firstWanted, Time now) {
   while (!frames_.empty() && frames_.begin()->first < firstWanted) {
     counts_.cancelledTasks += static_cast<uint64_t>(frames_.begin()->second.left());
     ++counts_.cancelledFrames;
     closeFrame(frames_.begin()->first, false);
   }
   pool_.change([&](SchedulerClient& client) {
-    const bool held = client.withdraw(firstWanted);
+    const bool held = client.withdraw(firstWanted, now);
     if (held) cancellations_.push_back({.client = client.id(), .firstWanted = firstWanted});
     return held;
   });
+}
+
+void Scheduler::paused(Duration pause) {
+  pool_.change([pause](SchedulerClient& client) { return client.excuse(pause), true; });
+}
+
+bool Scheduler::allAreStuck() const {
+  bool all = clients() > 0;
+  pool_.forEach([&](const SchedulerClient& client) { all &= client.stuckSince().has_value(); });
+  return all;
 }
 
 void Scheduler::closeFrame(uint32_t frame, bool completed) {
@@ -131,7 +148,7 @@ Verdict Scheduler::verdictOnClosed(uint32_t frame) const {
 
 Verdict Scheduler::verdictOn(ClientId id, const TaskId& task) const {
   const SchedulerClient* client = pool_.find(id);
-  if (client == nullptr) return Verdict::unknown;
+  if (client == nullptr) return past_.contains(id) ? Verdict::stale : Verdict::unknown;
   const SchedulerFrame* frame = findFrame(task.frame);
   if (frame == nullptr) return verdictOnClosed(task.frame);
   const int index = frame->indexOf(task);
@@ -141,17 +158,17 @@ Verdict Scheduler::verdictOn(ClientId id, const TaskId& task) const {
   return frame->left() == 1 ? Verdict::completedFrame : Verdict::accepted;
 }
 
-Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, Duration cost, Time now) {
+Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, TaskCost cost, Time now) {
   const Verdict verdict = verdictOn(id, task);
   counts_.droppedUnknown += verdict == Verdict::unknown;
   counts_.droppedDuplicate += verdict == Verdict::duplicate;
   counts_.droppedStale += verdict == Verdict::stale;
-  if (verdict == Verdict::unknown) return verdict;
+  SchedulerClient* const known = pool_.find(id);
+  if (verdict == Verdict::unknown || known == nullptr) return verdict;
 
-  SchedulerClient& client = *pool_.find(id);
-  client.answered(task);
-  trustAgain(client);
-  client.gaveResult(cost, isAccepted(verdict), now);
+  SchedulerClient& client = *known;
+  client.answered(task, cost, isAccepted(verdict), now);
+  trustAgain(client, now);
   pool_.update(client);
   if (!isAccepted(verdict)) return verdict;
 
@@ -162,33 +179,57 @@ Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, Duration cost,
   return verdict;
 }
 
-// A suspect that gives a result will finish what it still holds: its claims count again.
-void Scheduler::trustAgain(SchedulerClient& client) {
-  if (client.trust() != Trust::suspect) return;
-  for (const TaskId& task : client.held())
-    if (SchedulerFrame* frame = findFrame(task.frame))
-      frame->setHolderActive(frame->indexOf(task), client.id(), true);
+// A suspect that gives a result will finish what it still holds: its claims count again. Not so one
+// that is stuck, while another of its threads is.
+void Scheduler::trustAgain(SchedulerClient& client, Time now) {
+  if (const auto since = client.stuckSince()) {
+    if (client.overdue(now)) return;
+    notes_.push_back({.client = client.id(), .isBack = true, .time = now - *since});
+    client.becomeUnstuck();
+  }
+  if (client.trust() == Trust::suspect)
+    for (const HeldTask& held : client.held())
+      if (SchedulerFrame* frame = findFrame(held.task.frame))
+        frame->setHolderActive(frame->indexOf(held.task), client.id(), true);
+  client.setTrust(Trust::trusted, now);
 }
 
 Actions Scheduler::poll(Time now) {
   Actions actions;
   suspectSilentClients(now);
+  noteStuckClients(now);
   handOutWaiting(actions, now);
   duplicateStragglers(actions, now);
   actions.cancel.swap(cancellations_);
+  actions.notes.swap(notes_);
   return actions;
 }
 
 void Scheduler::suspectSilentClients(Time now) {
-  while (const auto id = pool_.silent(now)) {
+  while (const auto id = pool_.silent(now)) doubt(*pool_.find(*id), now);
+}
+
+void Scheduler::noteStuckClients(Time now) {
+  while (const auto id = pool_.overdue(now)) {
     SchedulerClient& client = *pool_.find(*id);
-    client.setTrust(Trust::suspect, now);
-    for (const TaskId& task : client.held())
-      if (SchedulerFrame* frame = findFrame(task.frame))
-        counts_.reissued += frame->setHolderActive(frame->indexOf(task), *id, false);
-    for (auto& [number, frame] : frames_) frame.forgetClient(*id);
-    pool_.update(client);
+    const HeldTask task = *client.overdue(now);
+    notes_.push_back({.client = *id, .time = now - *task.begun, .task = task});
+    client.becomeStuck(now);
+    counts_.clientsStuck += client.counts().timesStuck == 1;
+    doubt(client, now);
   }
+}
+
+// What it holds goes to others, too.
+void Scheduler::doubt(SchedulerClient& client, Time now) {
+  if (client.trust() != Trust::suspect) {
+    client.setTrust(Trust::suspect, now);
+    for (const HeldTask& held : client.held())
+      if (SchedulerFrame* frame = findFrame(held.task.frame))
+        counts_.reissued += frame->setHolderActive(frame->indexOf(held.task), client.id(), false);
+    for (auto& [number, frame] : frames_) frame.forgetClient(client.id());
+  }
+  pool_.update(client);
 }
 
 // Task by task to whoever would finish it first, so that a short supply is spread over all.
@@ -247,6 +288,7 @@ bool Scheduler::duplicateOne(SchedulerFrame& frame, Actions& actions, Time now) 
 
 void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions,
                        Time now) {
+  const double rays = frame.raysOfTask();
   const Duration estimate = client.timeForOneMore();
   frame.addHolder(task, {.client = client.id(),
                          .sent = now,
@@ -257,10 +299,10 @@ void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task,
   client.counts().frames += use.firstInFrame;
   client.counts().lightSets += use.newSet;
   client.rememberSet(frame.key().randomization, set);
-  client.take(frame.idOf(task), now);
+  client.take({.task = frame.idOf(task), .set = set, .rays = rays}, now);
   pool_.update(client);
   ++counts_.assigned;
-  actions.assign.push_back({.client = client.id(), .task = frame.idOf(task)});
+  actions.assign.push_back({client.id(), frame.idOf(task), client.allowance(rays)});
 }
 
 }  // namespace ninefold

@@ -19,10 +19,12 @@
 //   lost        tasks go back to the front of their queue at once
 //   suspect     a client that holds tasks and gives no result for too long: as lost, but its
 //               results stay welcome, and it gets one task on trial when it is heard of again
+//   stuck       a client at work on a task past its deadline (scheduler_client.h): as a suspect, but
+//               heartbeats do not help: it gets nothing until it gives a result. Actions::notes say so
 //
 // Use: after every event, and at least every 100 ms, open frames while wantsFrame() and there is
 // room for them, then call poll() and carry its actions out. (The other way round, poll would copy
-// tasks to clients for which a new frame has work.)
+// tasks to clients for which a new frame has work.) Tell of pauses in which that could not be done.
 // A result is reported after its tile was decoded; a tile that cannot be decoded ends the
 // connection (clientLost), so its task is done again.
 //
@@ -50,8 +52,8 @@ namespace ninefold {
 
 class Scheduler {
  public:
-  // A client is ready to render. Ids are never used twice.
-  void clientJoined(ClientId client, int threads, Time now);
+  // A client is ready to render. Ids are never used twice. `sceneTime`: that it took to build the scene.
+  void clientJoined(ClientId client, int threads, Time now, Duration sceneTime = Duration(0));
   // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
   void clientLost(ClientId client, Time now);
   // Any message came from it: a suspect may be tried again.
@@ -63,10 +65,11 @@ class Scheduler {
   // Tasks without pixels do not exist; of whole tiles, there is phase 0 alone.
   void openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind = {});
   // All open frames before `firstWanted` are superseded.
-  void viewChanged(uint32_t firstWanted);
+  void viewChanged(uint32_t firstWanted, Time now);
+  // The caller itself did not run for so long, until now: no client is to blame for that.
+  void paused(Duration pause);
 
-  // `cost`: how long one thread of the client worked on it, making its light set included.
-  Verdict resultArrived(ClientId client, const TaskId& task, Duration cost, Time now);
+  Verdict resultArrived(ClientId client, const TaskId& task, TaskCost cost, Time now);
   // What resultArrived would say now: lets the caller skip decoding what will be dropped.
   Verdict verdictOn(ClientId client, const TaskId& task) const;
 
@@ -78,6 +81,7 @@ class Scheduler {
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
   int openFrames() const { return static_cast<int>(frames_.size()); }
   int clients() const { return pool_.size(); }
+  bool allAreStuck() const;  // and there is a client
   // Tasks of an open frame that are not done; 0 for any other frame.
   int tasksLeft(uint32_t frame) const;
 
@@ -102,7 +106,9 @@ class Scheduler {
   Place placeFor(const SchedulerClient& client);  // needs waiting() > 0
 
   void suspectSilentClients(Time now);
-  void trustAgain(SchedulerClient& client);
+  void noteStuckClients(Time now);
+  void doubt(SchedulerClient& client, Time now);
+  void trustAgain(SchedulerClient& client, Time now);
   void handOutWaiting(Actions& actions, Time now);
   void duplicateStragglers(Actions& actions, Time now);
   bool duplicateOne(SchedulerFrame& frame, Actions& actions, Time now);
@@ -116,7 +122,8 @@ class Scheduler {
   std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
   std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?
   uint32_t nextFrame_ = 0;                        // every frame id so far is smaller
-  std::vector<Cancellation> cancellations_;       // for the next poll
+  std::vector<Cancellation> cancellations_;       // for the next poll, as the notes
+  std::vector<StuckNote> notes_;
   SchedulerCounts counts_;
 };
 

@@ -11,6 +11,7 @@ SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameK
     : key_(key),
       sharesSets_(kind.urgent || kind.freeSets),
       wholeTiles_(kind.wholeTiles),
+      rays_(std::max(1.0, kind.rays)),
       sets_(grid.interleave().sets()),
       tasks_(static_cast<size_t>(grid.tasks())),
       queues_(static_cast<size_t>(sets_)) {

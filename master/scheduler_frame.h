@@ -41,7 +41,8 @@ class SchedulerFrame {
   const FrameKey& key() const { return key_; }
   bool sharesSets() const { return sharesSets_; }       // all clients work on it at once
   int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of
-  int tasksOfSet() const { return tasks() / sets_; }    // at most
+  double raysOfTask() const { return rays_; }
+  int tasksOfSet() const { return tasks() / sets_; }  // at most
   int tasks() const { return static_cast<int>(tasks_.size()); }
   // Index of a task of this frame, -1 if there is no such task.
   int indexOf(const TaskId& task) const;
@@ -105,6 +106,7 @@ class SchedulerFrame {
 
   FrameKey key_;
   bool sharesSets_, wholeTiles_;
+  double rays_;
   int sets_;  // = phases
   int left_ = 0, waiting_ = 0;
   std::vector<Task> tasks_;       // tile * sets + phase

@@ -38,6 +38,7 @@ void SchedulerPool::leaveOrders(Member& member) {
   if (member.credit > 0) ready_.erase({member.readyOrder, member.client.id()});
   freeCredit_ -= member.credit;
   if (member.silenceEnd) silence_.erase({*member.silenceEnd, member.client.id()});
+  if (member.deadline) deadlines_.erase({*member.deadline, member.client.id()});
 }
 
 void SchedulerPool::update(SchedulerClient& client) {
@@ -48,19 +49,25 @@ void SchedulerPool::update(SchedulerClient& client) {
   member.silenceEnd.reset();
   if (client.inFlight() > 0 && client.trust() != Trust::suspect)
     member.silenceEnd = client.silentSince() + client.silenceLimit();
+  member.deadline = client.stuckSince() ? std::nullopt : client.deadline();
   if (member.credit > 0) ready_.insert({member.readyOrder, client.id()});
   freeCredit_ += member.credit;
   if (member.silenceEnd) silence_.insert({*member.silenceEnd, client.id()});
+  if (member.deadline) deadlines_.insert({*member.deadline, client.id()});
 }
 
-std::optional<ClientId> SchedulerPool::silent(Time now) const {
-  if (silence_.empty() || silence_.begin()->first > now) return std::nullopt;
-  return silence_.begin()->second;
+std::optional<ClientId> SchedulerPool::firstBy(const Times& times, Time now) {
+  if (times.empty() || times.begin()->first > now) return std::nullopt;
+  return times.begin()->second;
 }
+
+std::optional<ClientId> SchedulerPool::silent(Time now) const { return firstBy(silence_, now); }
+
+std::optional<ClientId> SchedulerPool::overdue(Time now) const { return firstBy(deadlines_, now); }
 
 void SchedulerPool::checkInvariants() const {
   int credit = 0;
-  size_t ready = 0, watched = 0;
+  size_t ready = 0, watched = 0, timed = 0;
   for (const auto& [id, member] : members_) {
     const SchedulerClient& client = member.client;
     const int bound = SchedulerClient::kMaxPerThread * client.threads();
@@ -72,9 +79,14 @@ void SchedulerPool::checkInvariants() const {
     watched += member.silenceEnd.has_value();
     NINEFOLD_CHECK((client.inFlight() > 0 && client.trust() != Trust::suspect) ==
                    member.silenceEnd.has_value());
+    timed += member.deadline.has_value();
+    NINEFOLD_CHECK((client.inFlight() > 0 && !client.stuckSince()) == member.deadline.has_value());
+    NINEFOLD_CHECK(!client.stuckSince() || client.trust() != Trust::trusted);
+    NINEFOLD_CHECK(!member.deadline || member.deadline == client.deadline());
   }
   NINEFOLD_CHECK(credit == freeCredit_);
   NINEFOLD_CHECK(ready == ready_.size() && watched == silence_.size());
+  NINEFOLD_CHECK(timed == deadlines_.size());
 }
 
 }  // namespace ninefold

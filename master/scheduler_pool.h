@@ -1,5 +1,6 @@
-// scheduler_pool.h: the clients that are present, in the three orders in which the scheduler asks
-// for them: by id, by who would finish one more task first, by whose silence ends first.
+// scheduler_pool.h: the clients that are present, in the four orders in which the scheduler asks
+// for them: by id, by who would finish one more task first, by whose silence ends first, by whose
+// deadline comes first.
 //
 // Whoever changes a client calls update() for it before the next question.
 // Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
@@ -38,6 +39,8 @@ class SchedulerPool {
   int freeCredit() const { return freeCredit_; }  // summed over ready()
   // A client that holds tasks and has been silent for too long.
   std::optional<ClientId> silent(Time now) const;
+  // A client that has a task past its deadline, and is not stuck yet.
+  std::optional<ClientId> overdue(Time now) const;
 
   template <typename Visit>
   void forEach(Visit visit) const {
@@ -50,15 +53,17 @@ class SchedulerPool {
     SchedulerClient client;
     int credit = 0;  // as counted in freeCredit_; in ready_ if > 0
     Duration readyOrder{0};
-    std::optional<Time> silenceEnd = std::nullopt;
+    std::optional<Time> silenceEnd = std::nullopt, deadline = std::nullopt;
   };
+  using Times = std::set<std::pair<Time, ClientId>>;
+  static std::optional<ClientId> firstBy(const Times& times, Time now);
   void leaveOrders(Member& member);
 
   std::map<ClientId, Member> members_;
   Duration resultsWait_{0};
   Ready ready_;
   int freeCredit_ = 0;
-  std::set<std::pair<Time, ClientId>> silence_;
+  Times silence_, deadlines_;
 };
 
 }  // namespace ninefold

@@ -14,7 +14,7 @@ double millisecondsBetween(Time from, Time to) { return 1000 * seconds(to - from
 
 std::string describe(const TaskHolder& holder, Time now) {
   if (!holder.active)
-    return fmt::format("client {} has had it for {:.0f} ms and is silent", holder.client,
+    return fmt::format("client {} has had it for {:.0f} ms and is silent or stuck", holder.client,
                        millisecondsBetween(holder.sent, now));
   return fmt::format("in flight at client {} for {:.0f} ms{}", holder.client,
                      millisecondsBetween(holder.sent, now), holder.late <= now ? ", late" : "");
@@ -80,7 +80,7 @@ void Scheduler::checkInvariants() const {
   // What a client holds is a claim above, or a copy of a task that another client has finished.
   size_t held = 0;
   pool_.forEach([&](const SchedulerClient& client) {
-    for (const TaskId& task : client.held()) held += isUnfinished(task);
+    for (const HeldTask& task : client.held()) held += isUnfinished(task.task);
   });
   NINEFOLD_CHECK(claims == held);
 }

@@ -1,7 +1,11 @@
 // scheduler_types.h: what goes into the scheduler and what comes out. Plain values, no behaviour.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/base/clock.h"
@@ -26,12 +30,23 @@ struct FrameKind {
   bool wholeTiles = false;
   bool urgent = false;    // soon, whatever that costs in light sets and messages
   bool freeSets = false;  // a light set costs nothing
+  double rays = 1;        // that a task is expected to take, its light set included (task_rays.h)
+};
+
+// A task that was sent to a client and has not been answered.
+struct HeldTask {
+  TaskId task;
+  int set = 0;      // light set
+  double rays = 1;  // FrameKind::rays
+  // Since fewer tasks than the client has threads are ahead of it: it is at work on this one.
+  std::optional<Time> begun = std::nullopt;
 };
 
 // Send this task to this client.
 struct Assignment {
   ClientId client = 0;
   TaskId task;
+  Duration allowed{0};  // that a thread may be at work on it
   bool operator==(const Assignment&) const = default;
 };
 
@@ -43,9 +58,30 @@ struct Cancellation {
   bool operator==(const Cancellation&) const = default;
 };
 
+// "frame 3, tile 5, set 2"
+inline std::string nameOf(const HeldTask& held) {
+  return fmt::format("frame {}, tile {}, set {}", held.task.frame, held.task.tile, held.set);
+}
+
+// For people: a client is stuck, or is not any more.
+struct StuckNote {
+  ClientId client = 0;
+  bool isBack = false;
+  Duration time{0};  // for which it was at work on `task`, or was stuck
+  HeldTask task = {};
+};
+
 struct Actions {
   std::vector<Cancellation> cancel;  // to be sent before `assign`
   std::vector<Assignment> assign;
+  std::vector<StuckNote> notes;
+};
+
+// What a result cost its client.
+struct TaskCost {
+  TaskCost(Duration b, bool made = false) : busy(b), madeLight(made) {}
+  Duration busy;   // of one thread, light sets that it made included
+  bool madeLight;  // it made one
 };
 
 // What became of a result. Only `accepted` may be placed in a frame.
@@ -53,7 +89,7 @@ enum class Verdict : uint8_t {
   accepted,
   completedFrame,  // accepted, and it was the frame's last
   duplicate,       // another client was faster
-  stale,           // its frame was superseded
+  stale,           // its frame was superseded, or its client has left
   unknown,         // never asked of this client, or no such task
 };
 inline bool isAccepted(Verdict v) { return v == Verdict::accepted || v == Verdict::completedFrame; }
@@ -63,7 +99,8 @@ struct SchedulerCounts {
   uint64_t assigned = 0;  // all that were sent, copies included
   uint64_t accepted = 0;
   uint64_t duplicated = 0;      // copies given to idle clients because the first holder seemed slow
-  uint64_t reissued = 0;        // taken back from lost or suspect clients
+  uint64_t reissued = 0;        // taken back from lost, suspect or stuck clients
+  uint64_t clientsStuck = 0;    // at least once
   uint64_t cancelledTasks = 0;  // neither done nor wanted any more, by viewChanged
   uint64_t cancelledFrames = 0;
   uint64_t completedFrames = 0;
@@ -77,12 +114,15 @@ struct ClientReport {
   ClientId client = 0;
   int threads = 1;
   bool lost = false;
-  bool suspect = false;    // silent for too long at the moment
-  uint64_t tasks = 0;      // accepted results
-  uint64_t frames = 0;     // frames it was given tasks of
-  uint64_t lightSets = 0;  // summed over those frames: distinct light sets
-  Duration busy{0};        // time spent on tasks as the client reports it, summed over threads
-  Duration present{0};     // joined until lost or now
+  bool suspect = false;  // silent for too long at the moment
+  bool stuck = false;    // a task of it is past its deadline at the moment
+  uint64_t timesStuck = 0;
+  std::optional<HeldTask> oldest = std::nullopt;  // that it holds, or held when it was lost
+  uint64_t tasks = 0;                             // accepted results
+  uint64_t frames = 0;                            // frames it was given tasks of
+  uint64_t lightSets = 0;                         // summed over those frames: distinct light sets
+  Duration busy{0};     // time spent on tasks as the client reports it, summed over threads
+  Duration present{0};  // joined until lost or now
   int inFlight = 0, window = 0;
   double busyFraction() const {
     return present.count() > 0 ? seconds(busy) / (seconds(present) * threads) : 0;

@@ -5,11 +5,15 @@
 #include <thread>
 
 #include "common/base/log.h"
+#include "common/image/auto_exposure.h"
 #include "common/image/image_file.h"
 #include "master/cluster_setup.h"
+#include "master/invitation.h"
 #include "master/latency_log.h"
 #include "master/live_run.h"
+#include "master/output_files.h"
 #include "master/script_player.h"
+#include "master/stats.h"
 
 namespace ninefold {
 namespace {
@@ -17,18 +21,12 @@ namespace {
 constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
 constexpr Duration kStep = milliseconds(4);   // between two looks at the script
 
-// out.####.png with a number.
-std::string numbered(const std::string& pattern, int number) {
-  const size_t from = pattern.find('#'), end = pattern.find_first_not_of('#', from);
-  const size_t digits = end - from;
-  return pattern.substr(0, from) + fmt::format("{:0{}}", number, digits) + pattern.substr(end);
-}
-
 // Codes are made as for a window, so that latencies are those that a person at one would feel.
-LiveRun::Pace paceOf(const Options& options, const Script& script) {
+// An exposure that is not known yet is made of radiance.
+LiveRun::Pace paceOf(const Options& options, const Job& job, const Script& script) {
   LiveRun::Pace pace{fromSeconds(1e-3 * options.frameTime), !script.rate};
-  pace.codesOnly = wantsCodesOnly(options);
-  if (pace.codesOnly) pace.exposure = options.exposure;
+  pace.codesOnly = wantsCodesOnly(options) && !options.autoExposure;
+  if (pace.codesOnly) pace.exposure = job.exposure;
   if (script.rate) pace.frames = script.frames;
   return pace;
 }
@@ -40,11 +38,11 @@ class ScriptRun {
         job_(makeJob(options)),
         player_(*scriptOf(options, *job_.scene), job_.scene, job_.settings.camera),
         log_(Clock::now()),
-        live_(options, job_, loadKeys(options), paceOf(options, script()),
+        live_(options, job_, loadKeys(options), paceOf(options, job_, script()),
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
-    if (script().rate && (!options_.output || options_.output->find('#') == std::string::npos))
+    if (script().rate && (!options_.output || !isNumbered(*options_.output)))
       fail("a script with a rate needs --output out.####.png for its pictures");
     live_.setView(options_.view);
     moveTo(0);
@@ -111,23 +109,41 @@ class ScriptRun {
     }
     moveTo(script().seconds);
     const LiveState last = live_.state();
-    const auto rest = waitFor(latest_, [&](const Shown& s) {
+    waitFor(latest_, [&](const Shown& s) {
       return s.state == last && !s.frame.moving && s.frames >= script().frames;
     });
-    if (rest == nullptr) return;
-    if (options_.output) write(*options_.output, *rest);
-    const std::lock_guard lock(mutex_);
-    if (options_.stats) log_.write(*options_.stats, options_.scene);
+    writeLatest();
   }
 
-  void write(const std::string& path, const Shown& shown) const {
-    if (path.ends_with(".png"))
+  // What there is, if the script was ended before its time.
+  void writeLatest() {
+    const std::lock_guard lock(mutex_);
+    if (latest_ == nullptr)
+      return warn("stopped before any picture was complete: nothing is written");
+    if (options_.output) write(*options_.output, *latest_);
+    if (options_.stats)
+      writeStats(*options_.stats, log_.json(options_.scene, live_.cluster().tally()));
+  }
+
+  void write(const std::string& path, const Shown& shown) {
+    if (path.ends_with(".png") && options_.autoExposure)
+      writeExposed(path, shown);
+    else if (path.ends_with(".png"))
       writePng(path, shown.image->display);
     else
       writeImage(path, {shown.image->radiance, {}, {}});
   }
 
+  // By the first picture for all, so that nothing flickers.
+  void writeExposed(const std::string& path, const Shown& shown) {
+    if (!exposure_) exposure_ = isFalseColor(shown.view) ? 0 : autoExposure(shown.image->radiance);
+    DisplayImage codes;
+    ToneMap(*exposure_).apply(shown.image->radiance, codes);
+    writePng(path, codes);
+  }
+
   const Options& options_;
+  std::optional<float> exposure_;  // of options_.autoExposure
   Job job_;
   ScriptPlayer player_;
   std::mutex mutex_;
@@ -140,7 +156,8 @@ class ScriptRun {
 }  // namespace
 
 int runScript(const Options& options) {
-  if (options.output) checkOutputPath(*options.output);
+  checkGuests(options);
+  checkFiles(options);
   ScriptRun run(options);
   return run.run();
 }

@@ -5,6 +5,8 @@
 
 #include "common/base/cpu_time.h"
 #include "common/base/log.h"
+#include "master/task_rays.h"
+#include "proto/tile_names.h"
 
 namespace ninefold {
 namespace {
@@ -13,8 +15,15 @@ namespace {
 // enough for all of them (Assembly::hasRoom).
 constexpr int kMaxOpenFrames = 16;
 
+// Ticks come much closer together: whatever is longer is a pause of this process or its machine.
+constexpr Duration kPause = std::chrono::seconds(1);
+
 TaskId taskOf(const msg::Result& result) {
   return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
+}
+
+TaskCost costOf(const msg::Result& result) {
+  return {std::chrono::nanoseconds(result.busyNs), result.setsMade > 0};
 }
 
 std::string describe(const ClientSession& session) {
@@ -82,10 +91,11 @@ void Server::on(Handle&, todo::Warn&& a, Time) { warn("{}", a.line); }
 
 void Server::on(Handle& peer, todo::Join&& a, Time now) {
   peer.second.wasReady = true;
+  lastMove_ = now;
   const ClientSession& session = *peer.second.session;
   log("client {} is ready: {}, {} thread(s), {}", peer.first, describe(session),
       session.hello().threads, session.hello().isa);
-  joining_[peer.first] = a.job;
+  joining_[peer.first] = a;
   letJoin(now);
 }
 
@@ -95,12 +105,22 @@ void Server::letJoin(Time now) {
     return std::ranges::all_of(open_, [&](const auto& frame) { return frame.second.job >= job; });
   };
   std::erase_if(joining_, [&](const auto& client) {
-    const auto& [id, job] = client;
-    if (!canDoAll(job)) return false;
+    const auto& [id, join] = client;
+    if (!canDoAll(join.job)) return false;
     const int threads = static_cast<int>(peers_.at(id).session->hello().threads);
-    scheduler_.clientJoined(id, threads, now);
+    scheduler_.clientJoined(id, threads, now, join.sceneTime);
     return true;
   });
+}
+
+// Those who had the job of an open frame are gone or stuck.
+void Server::giveUpOpenFrames(Time now) {
+  const bool nobodyCan = scheduler_.clients() == 0 || scheduler_.allAreStuck();
+  if (joining_.empty() || !nobodyCan || !duty_.giveUp) return;
+  const uint32_t firstWanted = duty_.giveUp();
+  scheduler_.viewChanged(firstWanted, now);
+  std::erase_if(open_, [&](const auto& frame) { return frame.first < firstWanted; });
+  letJoin(now);
 }
 
 void Server::on(Handle& peer, todo::Heard&&, Time now) {
@@ -112,10 +132,10 @@ void Server::on(Handle& peer, todo::RoundTrip&& a, Time) {
 }
 
 void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
+  lastMove_ = now;
   const TaskId task = taskOf(a.result);
-  const Duration cost = std::chrono::nanoseconds(a.result.busyNs);
   if (!isAccepted(scheduler_.verdictOn(peer.first, task))) {
-    scheduler_.resultArrived(peer.first, task, cost, now);  // counts why it is dropped
+    scheduler_.resultArrived(peer.first, task, costOf(a.result), now);  // counts why it is dropped
     return;
   }
   ReceivedTile tile{peer.first, std::move(a.result), now};
@@ -142,9 +162,9 @@ void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>&
     carryOut(*peer, now);
     return dispatchSoon();
   }
-  const Duration cost = std::chrono::nanoseconds(tile.result.busyNs);
-  const Verdict verdict = scheduler_.resultArrived(tile.client, taskOf(tile.result), cost, now);
-  if (isAccepted(verdict)) tally_.rays += tile.result.rays, tally_.replaced += tile.result.replaced;
+  const Verdict verdict =
+      scheduler_.resultArrived(tile.client, taskOf(tile.result), costOf(tile.result), now);
+  if (isAccepted(verdict)) count(tile);
   if (verdict == Verdict::completedFrame) {
     tally_.lastCompletion = now;
     open_.erase(tile.result.frame);
@@ -152,8 +172,25 @@ void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>&
   dispatchSoon();
 }
 
+// Tells of the first tile with values that are no light, then of the tenth, the hundredth, ...
+void Server::count(const ReceivedTile& tile) {
+  const msg::Result& result = tile.result;
+  tally_.rays += result.rays;
+  tally_.replaced += result.replaced;
+  if (result.replaced == 0) return;
+  if (++spoilt_ < spoiltTold_) return;
+  spoiltTold_ = 10 * spoilt_;
+  warn(
+      "frame {}, tile {}, phase {} of client {}, {}: {} values are not finite or negative, in {}, "
+      "and count as 0: the picture is too dark there; {} such tile(s) so far, of which only each "
+      "tenfold is told; please report the scene",
+      result.frame, result.tile, result.phase, tile.client,
+      describe(*peers_.at(tile.client).session), result.replaced, namesOfFields(result.replacedIn),
+      spoilt_);
+}
+
 void Server::supersede(uint32_t firstWanted, Time now) {
-  scheduler_.viewChanged(firstWanted);
+  scheduler_.viewChanged(firstWanted, now);
   std::erase_if(open_, [&](const auto& frame) { return frame.first < firstWanted; });
   dispatch(now);
 }
@@ -183,7 +220,11 @@ void Server::dispatchSoon() {
 
 void Server::dispatch(Time now) {
   if (isClosing()) return;
+  const Duration passed = now - lastDispatch_.value_or(now);
+  lastDispatch_ = now;
+  if (passed > kPause) scheduler_.paused(passed);
   letJoin(now);
+  giveUpOpenFrames(now);
   started_ = started_ || scheduler_.clients() >= setup_.waitClients;
   if (!started_) return;
   openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
@@ -192,6 +233,17 @@ void Server::dispatch(Time now) {
     if (const auto& connection = peers_.at(cancel.client).connection)
       connection->send(msg::Cancel{offer_.job(), cancel.firstWanted});
   sendTasks(actions.assign);
+  for (const StuckNote& note : actions.notes) tell(note);
+}
+
+void Server::tell(const StuckNote& note) const {
+  const std::string client =
+      fmt::format("client {}, {},", note.client, describe(*peers_.at(note.client).session));
+  if (note.isBack)
+    log("{} is back after being stuck for {:.0f} s", client, seconds(note.time));
+  else
+    warn("{} is stuck: {} is not done after {:.0f} s; its tasks go to others", client,
+         nameOf(note.task), seconds(note.time));
 }
 
 void Server::openFrames(Time) {
@@ -204,7 +256,8 @@ void Server::openFrames(Time) {
     scheduler_.openFrame(order->key, order->grid(),
                          {.wholeTiles = order->delivery.wholeTiles(),
                           .urgent = order->urgent,
-                          .freeSets = isTraced});
+                          .freeSets = isTraced,
+                          .rays = raysOfTask(*order)});
   }
 }
 
@@ -219,20 +272,26 @@ void Server::announce(const FrameOrder& order) {
 }
 
 void Server::sendTasks(const std::vector<Assignment>& assignments) {
-  std::map<std::pair<ClientId, uint32_t>, std::vector<msg::TaskItem>> bundles;
-  for (const Assignment& a : assignments)
-    bundles[{a.client, a.task.frame}].push_back({static_cast<uint32_t>(a.task.tile),
-                                                 static_cast<uint32_t>(a.task.phase),
-                                                 open_.at(a.task.frame).extraMask});
+  struct Bundle {
+    std::vector<msg::TaskItem> items;
+    Duration allowed{0};
+  };
+  std::map<std::pair<ClientId, uint32_t>, Bundle> bundles;
+  for (const Assignment& a : assignments) {
+    Bundle& bundle = bundles[{a.client, a.task.frame}];
+    bundle.items.push_back({static_cast<uint32_t>(a.task.tile), static_cast<uint32_t>(a.task.phase),
+                            open_.at(a.task.frame).extraMask});
+    bundle.allowed = a.allowed;
+  }
   if (!bundles.empty() && !tally_.firstDispatch) {
     tally_.firstDispatch = Clock::now();
     tally_.cpuAtDispatch = processCpuTime();
   }
-  for (auto& [to, items] : bundles) {
+  for (auto& [to, bundle] : bundles) {
     const FrameOrder& frame = open_.at(to.second);
     if (const auto& connection = peers_.at(to.first).connection)
-      connection->send(
-          msg::Tasks{frame.job, frame.key, std::move(items), frame.neighbourWeight, frame.urgent});
+      connection->send(msg::Tasks{frame.job, frame.key, std::move(bundle.items),
+                                  frame.neighbourWeight, frame.urgent, bundle.allowed});
   }
 }
 
@@ -243,6 +302,33 @@ void Server::close(const std::string& reason) {
     peer.connection->send(msg::Goodbye{reason.substr(0, kMaxText)});
     peer.connection->finish(reason);
   }
+}
+
+std::optional<ClientReport> Server::workOf(const std::string& name, Time now) const {
+  std::optional<ClientReport> latest;
+  for (const ClientReport& report : scheduler_.report(now))
+    if (peers_.at(report.client).session->hello().name == name) latest = report;
+  return latest;
+}
+
+bool Server::nothingMoves() const {
+  const auto isComing = [](const Handle& peer) {
+    const ClientSession& session = *peer.second.session;
+    return !session.over() && !session.ready();
+  };
+  return scheduler_.allAreStuck() && joining_.empty() && std::ranges::none_of(peers_, isComing);
+}
+
+std::string Server::stuckTasks(Time now) const {
+  constexpr size_t kLongEnough = 150;
+  std::string text;
+  for (const ClientReport& report : scheduler_.report(now)) {
+    if (!report.stuck || !report.oldest) continue;
+    if (text.size() > kLongEnough) return text + ", ...";
+    text += fmt::format("{}client {} in {}", text.empty() ? "" : ", ", report.client,
+                        nameOf(*report.oldest));
+  }
+  return text;
 }
 
 bool Server::isConnected() const {

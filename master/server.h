@@ -40,6 +40,9 @@ struct ServerDuty {
   std::function<std::optional<FrameOrder>()> nextFrame;
   // Takes a tile that is wanted, answered by decoded(); false when there is no room.
   std::function<bool(ReceivedTile&)> take;
+  // Nobody is left who can do the open frames, only newcomers who have missed their job. Gives back the
+  // first frame that is wanted instead. Null: all frames are of one job.
+  std::function<uint32_t()> giveUp = nullptr;
 };
 
 // What the server counts; a value.
@@ -47,7 +50,7 @@ struct ServerTally {
   SchedulerCounts tasks;
   RayCounts rays;  // of accepted results
   uint64_t malformed = 0;
-  uint64_t replaced = 0;  // values that were not finite
+  uint64_t replaced = 0;  // values that were not finite, or negative, and became 0
   uint64_t bytesReceived = 0;
   std::optional<Time> firstDispatch, lastCompletion;
   Duration cpuAtDispatch{0};  // what the process had used at the first dispatch
@@ -60,6 +63,7 @@ struct ClientInfo {
   std::string name, isa, peer;
   ClientStatus status;
   std::optional<ClientReport> work;  // once it was ready
+  bool isStuck() const { return work && work->stuck; }
 };
 
 class Server {
@@ -80,6 +84,14 @@ class Server {
 
   ServerTally tally() const;
   std::vector<ClientInfo> clients(Time now) const;
+  // What the latest client of that name did; nothing before it was ready.
+  std::optional<ClientReport> workOf(const std::string& name, Time now) const;
+  // All clients are stuck, and none is on its way.
+  bool nothingMoves() const;
+  // Who is stuck where: "client 1 in frame 3, tile 5, set 2, client 2 in ..."; the first few.
+  std::string stuckTasks(Time now) const;
+  // When the latest result came, or client became ready.
+  Time lastMove() const { return lastMove_; }
   int readyClients() const { return scheduler_.clients(); }
   bool isConnected() const;  // to anybody
   const Scheduler& scheduler() const { return scheduler_; }
@@ -111,6 +123,9 @@ class Server {
   void dispatchSoon();
   void dispatch(Time now);
   void letJoin(Time now);
+  void giveUpOpenFrames(Time now);
+  void tell(const StuckNote& note) const;
+  void count(const ReceivedTile& tile);
   void announce(const FrameOrder& order);
   void openFrames(Time now);
   void sendTasks(const std::vector<Assignment>& assignments);
@@ -121,11 +136,14 @@ class Server {
   const ServerDuty duty_;
   Admission admission_;
   Scheduler scheduler_;
-  std::map<ClientId, Peer> peers_;        // all of the run
-  std::map<uint32_t, FrameOrder> open_;   // frames
-  std::map<ClientId, uint32_t> joining_;  // ready; join when no open frame is of an older job
+  std::map<ClientId, Peer> peers_;          // all of the run
+  std::map<uint32_t, FrameOrder> open_;     // frames
+  std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   bool started_ = false;  // waitClients were ready once
+  std::optional<Time> lastDispatch_;
+  Time lastMove_{};
+  uint64_t spoilt_ = 0, spoiltTold_ = 0;  // tiles with values that were replaced
   ServerTally tally_;
   bool dispatchWaits_ = false;                                    // in the loop
   const std::shared_ptr<char> alive_ = std::make_shared<char>();  // for what waits in the loop

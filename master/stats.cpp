@@ -1,14 +1,11 @@
 #include "master/stats.h"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "common/base/error.h"
+#include "common/base/standard_streams.h"
+#include "common/base/written_file.h"
 
 namespace ninefold {
 namespace {
@@ -98,7 +95,8 @@ Json object(const std::vector<ClientStats>& clients) {
                    {"isa", c.isa},
                    {"tasks", c.tasks},
                    {"busy_fraction", c.busyFraction},
-                   {"sets_per_frame", c.setsPerFrame}});
+                   {"sets_per_frame", c.setsPerFrame},
+                   {"stuck", c.stuck}});
   return all;
 }
 
@@ -130,6 +128,9 @@ void addWork(const RunStats& s, Json& json) {
   json["tiles_dropped"] = {
       {"stale", s.tilesStale}, {"duplicate", s.tilesDuplicate}, {"malformed", s.tilesMalformed}};
   json["tasks_reissued"] = s.tasksReissued;
+  json["clients_stuck"] = s.clientsStuck;
+  json["stalls"] = s.stalls;
+  json["values_not_finite"] = s.valuesNotFinite;
 }
 
 void addJob(const RunStats& s, Json& json) {
@@ -152,15 +153,9 @@ std::string toJson(const RunStats& stats) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void writeStats(const std::string& path, const RunStats& stats) {
-  const std::string part = path + ".part";
-  std::ofstream file(part, std::ios::binary | std::ios::trunc);
-  file << toJson(stats);
-  file.close();
-  if (file && std::rename(part.c_str(), path.c_str()) == 0) return;
-  const int reason = errno;
-  std::remove(part.c_str());
-  fail("--stats {}: cannot write it: {}", path, std::strerror(reason));
+void writeStats(const std::string& path, const std::string& json) {
+  if (path == kStandardOutput) return writeOutput(json);
+  writeFile(path, json);
 }
 
 }  // namespace ninefold

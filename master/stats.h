@@ -20,6 +20,7 @@ struct ClientStats {
   uint64_t tasks = 0;       // accepted results
   double busyFraction = 0;  // of its threads' time while it was there
   double setsPerFrame = 0;  // light sets, for each frame that it worked on
+  uint64_t stuck = 0;       // times that a task of it was past its deadline
 };
 
 struct RunStats {
@@ -37,7 +38,10 @@ struct RunStats {
   uint64_t tilesStale = 0, tilesDuplicate = 0;
   uint64_t tilesMalformed = 0;  // not to be decoded, or never asked for
   uint64_t tasksReissued = 0;
-  double relativeError = 0;  // not finite (less than two frames): null
+  uint64_t clientsStuck = 0;     // that were stuck at least once
+  uint64_t stalls = 0;           // times that all clients were stuck at once
+  uint64_t valuesNotFinite = 0;  // or negative, where there is no light below 0: they became 0
+  double relativeError = 0;      // not finite (less than two frames): null
   Needs needs;
   std::string preset;                              // settings.preset
   Settings settings;                               // method, settings, seed
@@ -49,7 +53,9 @@ struct RunStats {
 // The object as text, keys in the order of the interface.
 std::string toJson(const RunStats& stats);
 
-// Written beside `path` and renamed: it is whole or not there.
-void writeStats(const std::string& path, const RunStats& stats);
+// --stats of that name is standard output.
+inline constexpr const char* kStandardOutput = "-";
+// A file is whole or as it was before (written_file.h).
+void writeStats(const std::string& path, const std::string& json);
 
 }  // namespace ninefold

@@ -59,6 +59,9 @@ Settings settingsFor(PictureView view, Settings settings);
 // Whether it is light, which clients can filter; else it is made at the master of what they traced.
 bool isLight(PictureView view);
 
+// Whether it is painted over the light of each frame; error is made of the film.
+inline bool isPainted(PictureView view) { return !isLight(view) && view != PictureView::error; }
+
 // Where its colours are codes and not light, so that exposure must leave them alone.
 bool isFalseColor(PictureView view);
 

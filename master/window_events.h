@@ -19,7 +19,8 @@ struct WindowEvent {
   enum class Kind : uint8_t { keyDown, keyUp, buttonDown, buttonUp, move, scroll, focusLost };
   Kind kind = Kind::move;
   Time time{};
-  int key = 0;  // keyDown, keyUp: a letter or digit as its ASCII capital, else one of Key
+  int key =
+      0;  // keyDown, keyUp: a letter or digit as its ASCII capital, '?' as typed, else one of key::
   Button button = Button::left;
   Modifiers modifiers;
   Vec2 pointer{0};    // in the window [screen units], y downwards
@@ -28,7 +29,7 @@ struct WindowEvent {
 
 // Keys that are no character.
 namespace key {
-inline constexpr int kEscape = 256, kTab = 258, kDelete = 261, kHome = 268, kF2 = 291;
+inline constexpr int kEscape = 256, kTab = 258, kDelete = 261, kHome = 268, kF1 = 290;
 }  // namespace key
 
 }  // namespace ninefold

@@ -1,7 +1,8 @@
 #include "master/window_input.h"
 
-#include <optional>
 #include <utility>
+
+#include "master/window_keys.h"
 
 namespace ninefold {
 namespace {
@@ -9,29 +10,7 @@ namespace {
 constexpr float kLookPerHeight = 1.5f;   // [rad] for a pointer that crosses the picture's height
 constexpr float kOrbitPerHeight = 3.0f;  // [rad]
 
-std::optional<FlyKey> flyKeyOf(int key) {
-  switch (key) {
-    case 'W':
-      return FlyKey::forward;
-    case 'S':
-      return FlyKey::back;
-    case 'A':
-      return FlyKey::left;
-    case 'D':
-      return FlyKey::right;
-    case 'E':
-      return FlyKey::up;
-    case 'Q':
-      return FlyKey::down;
-    default:
-      return std::nullopt;
-  }
-}
-
 constexpr int kShiftLeft = 340, kShiftRight = 344;
-
-bool isDigit(int key) { return key >= '0' && key <= '9'; }
-bool isAxis(int key) { return key == 'X' || key == 'Y' || key == 'Z' || key == 'R'; }
 
 }  // namespace
 
@@ -50,7 +29,7 @@ std::vector<Command> WindowInput::take(const std::vector<WindowEvent>& events, f
         break;
       case WindowEvent::Kind::buttonDown:
       case WindowEvent::Kind::buttonUp:
-        onButton(event);
+        onButton(event, height, camera);
         break;
       case WindowEvent::Kind::move:
         onMove(event, height, camera);
@@ -70,53 +49,24 @@ std::vector<Command> WindowInput::take(const std::vector<WindowEvent>& events, f
   return std::exchange(commands_, {});
 }
 
+// What is held is let go whatever else is held by then.
 void WindowInput::onKey(const WindowEvent& event, CameraControl& camera) {
   const bool down = event.kind == WindowEvent::Kind::keyDown;
   if (event.key == kShiftLeft || event.key == kShiftRight) camera.hurry(down);
+  const WindowKey* held = meaningOf(event.key, {});
   const bool typed = down && !event.modifiers.control;
-  if (const auto fly = flyKeyOf(event.key)) camera.hold(*fly, typed);
-  if (isAxis(event.key)) heldAxis_ = typed ? event.key : 0;
-  if (down) onPress(event.key, event.modifiers, camera);
+  if (held != nullptr && held->use == WindowKey::Use::fly) camera.hold(held->fly, typed);
+  if (held != nullptr && held->use == WindowKey::Use::axis) heldAxis_ = typed ? event.key : 0;
+  if (down) onPress(event.key, event.modifiers);
 }
 
-void WindowInput::onPress(int key, const Modifiers& modifiers, CameraControl&) {
-  using Kind = Command::Kind;
-  if (modifiers.control) {
-    if (key == 'Z') say(modifiers.shift ? Kind::redo : Kind::undo);
-    if (key == 'Y') say(Kind::redo);
-    if (key == 'S') say(Kind::saveScene);
-    if (key == 'Q') say(Kind::close);
-    return;
-  }
-  if (isDigit(key))
-    if (const auto view = viewOfKey(key - '0', modifiers.shift))
-      commands_.push_back({Kind::view, pointer_, dragMode(modifiers_), 0, *view});
-  switch (key) {
-    case '[':
-      return say(Kind::exposure, -kExposureStep);
-    case ']':
-      return say(Kind::exposure, kExposureStep);
-    case 'F':
-      return say(Kind::frameSelection);
-    case 'C':
-      return say(Kind::nextCamera);
-    case 'L':
-      return say(Kind::toggleLamp);
-    case 'V':
-      return say(Kind::saveView);
-    case ' ':
-      return say(Kind::togglePlay);
-    case 'P':
-      return say(Kind::savePicture);
-    case key::kHome:
-      return say(Kind::reset);
-    case key::kTab:
-      return say(Kind::togglePanel);
-    case key::kEscape:
-      return say(Kind::deselect);
-    default:
-      return;
-  }
+void WindowInput::onPress(int key, const Modifiers& modifiers) {
+  const WindowKey* meaning = meaningOf(key, modifiers);
+  if (meaning == nullptr) return;
+  if (meaning->use == WindowKey::Use::command) say(meaning->command, meaning->amount);
+  if (meaning->use != WindowKey::Use::view) return;
+  if (const auto view = viewOfKey(key - '0', modifiers.shift))
+    commands_.push_back({Command::Kind::view, pointer_, dragMode(modifiers_), 0, *view});
 }
 
 void WindowInput::say(Command::Kind kind, float amount) {
@@ -138,9 +88,9 @@ DragMode WindowInput::dragMode(const Modifiers& modifiers) const {
   }
 }
 
-void WindowInput::onButton(const WindowEvent& event) {
+void WindowInput::onButton(const WindowEvent& event, float height, CameraControl& camera) {
   const bool down = event.kind == WindowEvent::Kind::buttonDown;
-  pointer_ = event.pointer;
+  if (event.pointer != pointer_) onMove(event, height, camera);  // it may have come without a word
   modifiers_ = event.modifiers;
   if (event.button == Button::right) right_ = down;
   if (event.button == Button::middle) middle_ = down;
@@ -148,7 +98,9 @@ void WindowInput::onButton(const WindowEvent& event) {
   if (down) {
     pressedAt_ = pointer_;
   } else if (left_) {
-    say(dragging_ ? Command::Kind::dragEnd : Command::Kind::select);
+    dragging_
+        ? say(Command::Kind::dragEnd)
+        : commands_.push_back({Command::Kind::select, pressedAt_, dragMode(modifiers_), 0, {}});
     dragging_ = false;
   }
   left_ = down;

@@ -1,16 +1,12 @@
 // window_input.h: what a person's keys and pointer mean: events in; camera moved, commands out. Pure.
 //
-//   W A S D, E Q       fly forward, left, back, right, up, down; Shift: in a hurry
-//   wheel              flying speed; with Control: towards the pivot
+// Which key does what stands in window_keys.h; the pointer's buttons:
+//
 //   right button       look around     middle button: orbit about the pivot; with Shift: pan
-//   left button        a click selects, a drag moves what is selected (Control: up and down,
-//                      X Y Z held: along that axis, R held: turns)
-//   1 .. 9, 0, Shift+1, Shift+2   views (view.h)                     [ ]: exposure
-//   F  frame the selection             Home: the first view again    C: the scene's next camera
-//   L  lamp on or off                  Escape: select nothing
-//   Control+Z, Y       undo, redo      Control+S: save the scene     P: picture into a file
-//   V  keep this view as a camera      Space: script or animation pauses, goes on
-//   Tab  panel on or off               Control+Q: close the window
+//   left button        a click selects, a drag moves what is selected
+//   wheel              flying speed; with Control: towards the pivot
+//
+// A click is where the button went down; how far the pointer was by the time it came up is a drag, or nothing.
 //
 // Threads: plain value. Proved: tests/master/window_input_test.cpp.
 #pragma once
@@ -44,6 +40,7 @@ struct Command {
     saveScene,
     savePicture,
     togglePanel,
+    toggleKeys,
     close,
   };
   Kind kind;
@@ -68,8 +65,8 @@ class WindowInput {
 
  private:
   void onKey(const WindowEvent& event, CameraControl& camera);
-  void onPress(int key, const Modifiers& modifiers, CameraControl& camera);
-  void onButton(const WindowEvent& event);
+  void onPress(int key, const Modifiers& modifiers);
+  void onButton(const WindowEvent& event, float height, CameraControl& camera);
   void onMove(const WindowEvent& event, float height, CameraControl& camera);
   DragMode dragMode(const Modifiers& modifiers) const;
   void say(Command::Kind kind, float amount = 0);

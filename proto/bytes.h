@@ -15,6 +15,7 @@
 #include <cstring>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <vector>
 
@@ -31,6 +32,10 @@ using ByteView = std::span<const std::byte>;
 
 inline ByteView viewOf(const std::string& text) {
   return std::as_bytes(std::span(text.data(), text.size()));
+}
+
+inline std::string_view textOf(ByteView bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
 class ByteWriter {

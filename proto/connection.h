@@ -37,6 +37,9 @@ struct Endpoint {
 };
 // "host:port", "1.2.3.4:4700", "[::1]:4700"; throws Error naming `flag`.
 Endpoint parseEndpoint(std::string_view text, std::string_view flag);
+// The other way round.
+std::string addressText(const Endpoint& endpoint);
+bool isLoopback(const std::string& host);
 
 struct ConnectionOptions {
   Duration handshake =
@@ -98,7 +101,7 @@ class Listener {
 };
 
 enum class ConnectProblem : uint8_t {
-  badAddress,   // the name cannot be resolved
+  badAddress,   // the name cannot be resolved, yet
   unreachable,  // no route, network down
   refused,      // nobody listens there
   timedOut,

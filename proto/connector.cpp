@@ -25,7 +25,7 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
   asio::awaitable<std::vector<tcp::endpoint>> resolve();
   asio::awaitable<void> reach(const std::vector<tcp::endpoint>& candidates);
   void giveUp();
-  std::string where() const { return fmt::format("{}:{}", to_.host, to_.port); }
+  std::string where() const { return addressText(to_); }
 
   asio::io_context& io_;
   tcp::resolver resolver_;

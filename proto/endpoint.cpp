@@ -33,4 +33,14 @@ Endpoint parseEndpoint(std::string_view text, std::string_view flag) {
   fail("{} {}: write ADDR:PORT, for example 192.168.1.20:4700 or [fd00::1]:4700", flag, text);
 }
 
+std::string addressText(const Endpoint& endpoint) {
+  const bool isV6 = endpoint.host.find(':') != std::string::npos;
+  return isV6 ? fmt::format("[{}]:{}", endpoint.host, endpoint.port)
+              : fmt::format("{}:{}", endpoint.host, endpoint.port);
+}
+
+bool isLoopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
 }  // namespace ninefold

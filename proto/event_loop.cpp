@@ -45,7 +45,7 @@ std::unique_ptr<EventLoop::Timer> EventLoop::after(Duration delay, std::function
   return std::make_unique<AsioTimer>(impl_->io, delay, std::move(work));
 }
 
-void EventLoop::onSignal(std::initializer_list<int> signals, std::function<void(int)> work) {
+void EventLoop::onSignal(const std::vector<int>& signals, std::function<void(int)> work) {
   auto& set = impl_->signals.emplace_back(std::make_unique<asio::signal_set>(impl_->io));
   for (const int signal : signals) set->add(signal);
   awaitSignal(*set, std::move(work));

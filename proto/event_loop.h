@@ -8,8 +8,8 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
+#include <vector>
 
 #include "common/base/clock.h"
 
@@ -34,7 +34,7 @@ class EventLoop {
   [[nodiscard]] std::unique_ptr<Timer> after(Duration delay, std::function<void()> work);
 
   // Calls back for each of these signals (Ctrl-C, SIGTERM, SIGCHLD), as ordinary work of the loop.
-  void onSignal(std::initializer_list<int> signals, std::function<void(int)> work);
+  void onSignal(const std::vector<int>& signals, std::function<void(int)> work);
 
   struct Impl;
   Impl& impl() { return *impl_; }

@@ -10,6 +10,7 @@
 #include <cerrno>
 
 #include "common/base/descriptor.h"
+#include "common/base/written_file.h"
 
 namespace ninefold {
 namespace {
@@ -101,15 +102,7 @@ Key Key::receive(int descriptor) {
 
 void createKeyFile(const std::filesystem::path& file) {
   const Key key = Key::random();
-  const Descriptor out(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
-  if (!out && errno == EEXIST)
-    fail("key file {}: exists already and is not overwritten; choose another name", file.string());
-  if (!out) fail("key file {}: {}", file.string(), systemText());
-  if (::fchmod(out.get(), 0600) == 0 && writeAll(out.get(), key.bytes()) && ::fsync(out.get()) == 0)
-    return;
-  const std::string reason = systemText();
-  ::unlink(file.c_str());
-  fail("key file {}: {}", file.string(), reason);
+  writeFile(file, textOf(key.bytes()), {.mode = 0600, .mayReplace = false});
 }
 
 int keyPipe(const Key& key) {

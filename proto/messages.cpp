@@ -44,8 +44,6 @@ const TypeFacts& factsOf(uint16_t type) {
 
 }  // namespace
 
-std::string releaseName() { return NINEFOLD_RELEASE; }
-
 const char* nameOf(MessageType type) { return factsOf(static_cast<uint16_t>(type)).name; }
 
 bool maySend(Peer sender, MessageType type) {

@@ -18,8 +18,10 @@
 
 #include "common/base/clock.h"
 #include "common/base/counters.h"
+#include "common/base/release.h"
 #include "common/image/layers.h"
 #include "common/image/surface_test.h"
+#include "common/image/tone_map.h"
 #include "common/scene/edit.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
@@ -31,8 +33,6 @@ namespace ninefold {
 // Raised whenever the meaning of any message changes. One cluster runs one release: there is no
 // range.
 inline constexpr uint32_t kProtocol = 2;
-// The release of this build, e.g. "0.1.0".
-std::string releaseName();
 
 // Limits on what a message may carry; senders keep to them, receivers enforce them.
 inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text
@@ -42,11 +42,13 @@ inline constexpr size_t kMaxEdits = 65536;  // things in one edit
 inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
-inline constexpr float kMostExposure = 50;               // [EV], and its negative
 inline constexpr uint8_t kAllExtraPlanes = 63;           // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.
 inline constexpr Duration kResultsTogether = milliseconds(4);
+inline constexpr Duration kLongestAllowed = std::chrono::hours(1000);  // for a task
+// Exit status of a client that its own watchdog has ended (client/watchdog.h).
+inline constexpr int kHungStatus = 3;
 
 enum class MessageType : uint16_t {
   hello = 1,    // C -> M  first on every connection                            -> Welcome | Refuse
@@ -153,6 +155,7 @@ struct Tasks {
   std::vector<TaskItem> items;  // 1..kMaxTasksPerMessage
   float neighbourWeight = 1;    // of the filter, in [0, 1]; for tiles that are filtered there
   bool urgent = false;          // no result is to wait for others
+  Duration allowed = std::chrono::hours(1);  // for each, on one thread: up to kLongestAllowed
 };
 struct Cancel {
   uint32_t jobVersion = 0;  // the latest
@@ -165,7 +168,8 @@ struct Result {
   uint32_t phase = 0;
   uint64_t busyNs = 0;    // one thread's time for this task, its light set included if made for it
   uint32_t setsMade = 0;  // light sets made on the way: one at most for each phase
-  uint64_t replaced = 0;  // values that were not finite and were sent as 0
+  uint64_t replaced = 0;  // values that were not finite, or negative, and were sent as 0
+  uint32_t replacedIn = 0;  // in which fields (tile_names.h)
   RayCounts rays;
   Bytes encoded;  // as tile_codec.h made them
 };

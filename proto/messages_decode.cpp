@@ -8,6 +8,7 @@
 #include "proto/settings_wire.h"
 #include "proto/text.h"
 #include "proto/tile_codec.h"
+#include "proto/tile_names.h"
 
 namespace ninefold {
 namespace {
@@ -116,6 +117,8 @@ msg::Tasks decode(const pb::Tasks& in, Bytes&&) {
   m.frame = fromWire(in.frame());
   m.neighbourWeight = in.neighbour_weight();
   m.urgent = in.urgent();
+  constexpr auto longest = static_cast<uint64_t>(std::chrono::nanoseconds(kLongestAllowed).count());
+  m.allowed = std::chrono::nanoseconds(upTo<int64_t>("allowed time", in.allowed_ns(), longest, 1));
   if (!(m.neighbourWeight >= 0 && m.neighbourWeight <= 1)) fail("neighbour weight is out of range");
   const auto count =
       upTo<int>("number of tasks", static_cast<uint64_t>(in.tile_size()), kMaxTasksPerMessage, 1);
@@ -138,6 +141,7 @@ msg::Result decode(const pb::Result& in, Bytes&& payload) {
   m.busyNs = in.busy_ns();
   m.setsMade = upTo<uint32_t>("sets made", in.sets_made(), 256);
   m.replaced = in.replaced();
+  m.replacedIn = upTo<uint32_t>("replaced in", in.replaced_in(), kAllTileFields);
   m.rays = {in.rays_eye(), in.rays_shadow(), in.rays_photon(), in.rays_compensation()};
   m.encoded = std::move(payload);
   return m;

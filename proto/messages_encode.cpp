@@ -99,6 +99,7 @@ pb::Tasks header(const msg::Tasks& m) {
   toWire(m.frame, *out.mutable_frame());
   out.set_neighbour_weight(m.neighbourWeight);
   out.set_urgent(m.urgent);
+  out.set_allowed_ns(static_cast<uint64_t>(std::chrono::nanoseconds(m.allowed).count()));
   for (const msg::TaskItem& item : m.items) {
     out.add_tile(item.tile);
     out.add_phase(item.phase);
@@ -124,6 +125,7 @@ pb::Result header(const msg::Result& m) {
   out.set_busy_ns(m.busyNs);
   out.set_sets_made(m.setsMade);
   out.set_replaced(m.replaced);
+  out.set_replaced_in(m.replacedIn);
   out.set_rays_eye(m.rays.eye);
   out.set_rays_shadow(m.rays.shadow);
   out.set_rays_photon(m.rays.photon);

@@ -1,19 +1,13 @@
 #include "proto/recording.h"
 
+#include <fstream>
+
 #include "proto/framing.h"
 
 namespace ninefold {
-namespace {
-
-void write(std::ofstream& file, ByteView bytes) {
-  file.write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
-}
-
-}  // namespace
 
 Recorder::Recorder(const std::filesystem::path& file, const msg::Hello& hello)
-    : path_(file), file_(file, std::ios::binary | std::ios::trunc) {
+    : file_(std::make_unique<WrittenFile>(file)) {
   write(hello);
 }
 
@@ -21,12 +15,16 @@ void Recorder::add(const msg::Result& result) { write(result); }
 
 void Recorder::write(Message message) {
   const Frame frame = encodeMessage(std::move(message));
+  const auto head = frameHead(frame);
   const std::lock_guard lock(mutex_);
-  ninefold::write(file_, frameHead(frame));
-  ninefold::write(file_, viewOf(frame.header));
-  ninefold::write(file_, frame.payload);
-  file_.flush();
-  if (!file_) fail("recording {}: cannot write it", path_.string());
+  if (!file_) return;
+  for (const ByteView part : {ByteView(head), viewOf(frame.header), ByteView(frame.payload)})
+    file_->write(textOf(part));
+}
+
+void Recorder::finish() {
+  const std::lock_guard lock(mutex_);
+  if (const auto file = std::move(file_)) file->publish();
 }
 
 std::vector<msg::Result> readRecording(const std::filesystem::path& file) {
@@ -44,7 +42,7 @@ std::vector<msg::Result> readRecording(const std::filesystem::path& file) {
       if (auto* result = std::get_if<msg::Result>(&message)) results.push_back(std::move(*result));
     }
   }
-  // The last result may be cut short: a client ends whenever its master does.
+  // The last result may be cut short: the disk was full.
   if (results.empty()) fail("recording {}: holds no result", file.string());
   return results;
 }

@@ -2,14 +2,15 @@
 //
 //   recording := the frames that a client sends: Hello, then a Result for each task (PROTOCOL.md)
 //
-// Errors: throw Error that names the file. Threads: a Recorder from any thread; the rest pure.
+// The file is whole or as it was before (written_file.h). Errors: throw Error that names the file. Threads: a Recorder from any thread; the rest pure.
 #pragma once
 
 #include <filesystem>
-#include <fstream>
+#include <memory>
 #include <mutex>
 #include <vector>
 
+#include "common/base/written_file.h"
 #include "proto/messages.h"
 
 namespace ninefold {
@@ -18,13 +19,14 @@ class Recorder {
  public:
   Recorder(const std::filesystem::path& file, const msg::Hello& hello);
   void add(const msg::Result& result);
+  // The file is there from now on; what comes later is left out.
+  void finish();
 
  private:
   void write(Message message);
 
-  const std::filesystem::path path_;
   std::mutex mutex_;
-  std::ofstream file_;  // guarded by mutex_
+  std::unique_ptr<WrittenFile> file_;  // guarded by mutex_; null once finished
 };
 
 std::vector<msg::Result> readRecording(const std::filesystem::path& file);

@@ -20,7 +20,8 @@ Blob seal(BlobKind kind, ByteView raw) {
 
 size_t sizeOf(const Mesh& mesh) {
   return mesh.positions.size() * 12 + mesh.normals.size() * 12 + mesh.uv0.size() * 8 +
-         mesh.uv1.size() * 8 + mesh.tangents.size() * 16 + mesh.colors.size() * 16 + mesh.triangles.size() * 12 + 128;
+         mesh.uv1.size() * 8 + mesh.tangents.size() * 16 + mesh.colors.size() * 16 +
+         mesh.triangles.size() * 12 + 128;
 }
 
 void packMeshes(const std::vector<Mesh>& meshes, std::vector<Blob>& blobs) {

@@ -4,6 +4,7 @@
 
 #include "proto/messages.h"
 #include "proto/tile_fields.h"
+#include "proto/tile_names.h"
 
 namespace ninefold {
 namespace {
@@ -67,6 +68,12 @@ uint64_t ditherKey(uint64_t seed, const FrameKey& frame, uint32_t tile, uint32_t
   return mixBits(moment ^ mixBits(uint64_t{tile} << 32 | phase));
 }
 
+Replaced replaceUnusable(TileResult& tile) {
+  FieldMender mender;
+  forEachField(mender, tile);
+  return {mender.replaced(), fieldBits(mender.replacedIn(), tile.layerMask, tile.extraMask)};
+}
+
 struct TileEncoder::Impl {
   std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> zstd{ZSTD_createCCtx(), ZSTD_freeCCtx};
   BytePlanes scratch;
@@ -86,7 +93,8 @@ TileEncoder::Encoded TileEncoder::Impl::encode(const TileShape& shape, uint64_t 
     FieldWriter writer(shape.width, static_cast<size_t>(shape.width * shape.height), dither,
                        level != 0, scratch, fields);
     write(writer);
-    encoded.replaced = writer.replaced();
+    encoded.replaced = {writer.replaced(),
+                        fieldBits(writer.replacedIn(), shape.layerMask, shape.extraMask)};
   }
   encoded.rawBytes = kHeadBytes + fields.size();
   Bytes& out = encoded.bytes;

@@ -46,15 +46,27 @@ struct TileShape {
 // The dither key of a task: stands still while the picture moves, like all randomness.
 uint64_t ditherKey(uint64_t seed, const FrameKey& frame, uint32_t tile, uint32_t phase);
 
+// Values that were not finite, or negative where nothing is, and became 0.
+struct Replaced {
+  uint64_t count = 0;
+  uint32_t fields = 0;  // they were in (tile_names.h)
+  Replaced& operator+=(const Replaced& more) {
+    count += more.count, fields |= more.fields;
+    return *this;
+  }
+};
+// What encoding does to such values, for who looks at the tile before.
+Replaced replaceUnusable(TileResult& tile);
+
 class TileEncoder {
  public:
   TileEncoder();
   ~TileEncoder();
 
   struct Encoded {
-    Bytes bytes;            // at most kMaxTileBytes (messages.h)
-    size_t rawBytes = 0;    // at level 0
-    uint64_t replaced = 0;  // values that were not finite or negative
+    Bytes bytes;          // at most kMaxTileBytes (messages.h)
+    size_t rawBytes = 0;  // at level 0
+    Replaced replaced;
   };
   // level: zstd's; 0 stores the planes uncompressed. What is decoded does not depend on it.
   Encoded encode(const TileResult& tile, uint64_t dither, int level);

@@ -54,6 +54,11 @@ size_t mostFieldBytes(size_t pixels, uint8_t layerMask, uint8_t extraMask) {
 
 // --- writing ---
 
+void FieldWriter::count(uint64_t replaced) {
+  replaced_ += replaced;
+  if (replaced > 0) replacedIn_ |= 1u << field_;
+}
+
 void FieldWriter::flush(int planes) {
   for (int i = 0; i < planes; ++i)
     writePlane(scratch_.plane[static_cast<size_t>(i)], width_, differences_, out_);
@@ -76,7 +81,7 @@ void FieldWriter::fraction(const RgbPlane& values, float top) {
 #pragma GCC ivdep
     for (uint32_t i = 0; i < pixels; ++i) out[i] = code.encode(usable(in[i]), Dither(key, i)[c]);
   }
-  replaced_ += unusable(values.r) + unusable(values.g) + unusable(values.b);
+  count(unusable(values.r) + unusable(values.g) + unusable(values.b));
   flush(3);
 }
 
@@ -92,7 +97,7 @@ void FieldWriter::light(const RgbPlane& values) {
         SharedExponent::encode(usable(red[i]), usable(green[i]), usable(blue[i]), Dither(key, i));
     r[i] = code.r, g[i] = code.g, b[i] = code.b, e[i] = code.e;
   }
-  replaced_ += unusable(values.r) + unusable(values.g) + unusable(values.b);
+  count(unusable(values.r) + unusable(values.g) + unusable(values.b));
   flush(4);
 }
 
@@ -117,7 +122,7 @@ void FieldWriter::length(const std::vector<float>& values) {
     const uint16_t word = code.encode(usable(in[i]), Dither(key, i)[0]);
     low[i] = static_cast<uint8_t>(word), high[i] = static_cast<uint8_t>(word >> 8);
   }
-  replaced_ += unusable(values);
+  count(unusable(values));
   flush(2);
 }
 
@@ -135,7 +140,7 @@ void FieldWriter::normal(const RgbPlane& values) {
     xLow[i] = static_cast<uint8_t>(code.x), xHigh[i] = static_cast<uint8_t>(code.x >> 8);
     yLow[i] = static_cast<uint8_t>(code.y), yHigh[i] = static_cast<uint8_t>(code.y >> 8);
   }
-  replaced_ += replaced;
+  count(replaced);
   flush(4);
 }
 
@@ -158,9 +163,42 @@ void FieldWriter::display(const RgbPlane& radiance, const ToneMap& toneMap) {
   for (size_t c = 0; c < 3; ++c) {
     std::transform(planes[c]->begin(), planes[c]->end(), scratch_.plane[c].begin(),
                    [&](float value) { return toneMap.code(usable(value)); });
-    replaced_ += unusable(*planes[c]);
+    count(unusable(*planes[c]));
   }
   flush(3);
+}
+
+// --- mending ---
+
+void FieldMender::fieldDone(uint64_t replaced) {
+  replaced_ += replaced;
+  if (replaced > 0) replacedIn_ |= 1u << field_;
+  ++field_;
+}
+
+void FieldMender::light(RgbPlane& values) {
+  uint64_t replaced = 0;
+  for (std::vector<float>* plane : {&values.r, &values.g, &values.b}) {
+    replaced += unusable(*plane);
+    for (float& value : *plane) value = usable(value);
+  }
+  fieldDone(replaced);
+}
+
+void FieldMender::length(std::vector<float>& values) {
+  const uint64_t replaced = unusable(values);
+  for (float& value : values) value = usable(value);
+  fieldDone(replaced);
+}
+
+void FieldMender::normal(RgbPlane& values) {
+  uint64_t replaced = 0;
+  for (size_t i = 0; i < values.r.size(); ++i) {
+    if (isFinite(Vec3(values.r[i], values.g[i], values.b[i]))) continue;
+    values.r[i] = values.g[i] = values.b[i] = 0;
+    ++replaced;
+  }
+  fieldDone(replaced);
 }
 
 // --- reading ---

@@ -78,9 +78,11 @@ class FieldWriter {
   void display(const RgbPlane& radiance, const ToneMap& toneMap);
 
   uint64_t replaced() const { return replaced_; }
+  uint32_t replacedIn() const { return replacedIn_; }  // bit i: in the i-th field
 
  private:
   uint32_t fieldKey() const { return Dither::fieldKey(dither_, field_); }
+  void count(uint64_t replaced);
   void flush(int planes);
   void flushZero(int planes);
 
@@ -92,6 +94,28 @@ class FieldWriter {
   Bytes& out_;
   uint32_t field_ = 0;
   uint64_t replaced_ = 0;
+  uint32_t replacedIn_ = 0;
+};
+
+// Sets values to 0 that FieldWriter would take for 0.
+class FieldMender {
+ public:
+  void fraction(RgbPlane& values, float) { light(values); }
+  void light(RgbPlane& values);
+  void length(std::vector<float>& values);
+  void normal(RgbPlane& values);
+  void words(const std::vector<uint16_t>&) { ++field_; }
+  void words(const std::vector<uint32_t>&) { ++field_; }
+
+  uint64_t replaced() const { return replaced_; }
+  uint32_t replacedIn() const { return replacedIn_; }
+
+ private:
+  void fieldDone(uint64_t replaced);
+
+  uint32_t field_ = 0;
+  uint64_t replaced_ = 0;
+  uint32_t replacedIn_ = 0;
 };
 
 // A field where it lies in the tile's bytes: its planes, or one code for all pixels.

@@ -8,18 +8,16 @@
 
 #include <fmt/core.h>
 
-#include <boost/program_options.hpp>
 #include <ctime>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "common/base/command_line.h"
 #include "common/gi/light_set.h"
 #include "common/gi/renderer.h"
 #include "common/gi/scratch.h"
 #include "common/scene/reader.h"
 #include "common/tracing/ray_log.h"
 #include "proto/tile_codec.h"
+#include "tools/command.h"
 
 namespace ninefold {
 namespace {
@@ -30,7 +28,7 @@ struct Options {
   std::string scene, size = "640x480", isa = "auto";
   int frames = 4, directVpls = 4, indirectVpls = 18, photons = 1000, level = 1;
   float vplRoulette = Settings{}.vplRoulette;
-  bool noCompensation = false, json = false, help = false;
+  bool noCompensation = false, json = false;
 };
 
 double threadSeconds() {
@@ -146,28 +144,28 @@ void report(const Options& o, const std::string& isa, const Cost& c) {
   const double frames = o.frames;
   const auto ms = [&](double seconds) { return 1e3 * seconds / frames; };
   if (o.json) {
-    std::cout << nlohmann::ordered_json{{"scene", o.scene},
-                                        {"isa", isa},
-                                        {"frames", o.frames},
-                                        {"bare_ms", ms(c.bare)},
-                                        {"sets_ms", ms(c.sets)},
-                                        {"tiles_ms", ms(c.tiles)},
-                                        {"encoding_ms", ms(c.encoding)},
-                                        {"whole_ms", ms(c.whole())},
-                                        {"bare_ratio", c.bare / c.whole()},
-                                        {"rays_per_frame", static_cast<double>(c.rays) / frames},
-                                        {"bytes_per_frame", static_cast<double>(c.bytes) / frames}}
-                     .dump(2)
-              << "\n";
+    writeOutput(nlohmann::ordered_json{{"scene", o.scene},
+                                       {"isa", isa},
+                                       {"frames", o.frames},
+                                       {"bare_ms", ms(c.bare)},
+                                       {"sets_ms", ms(c.sets)},
+                                       {"tiles_ms", ms(c.tiles)},
+                                       {"encoding_ms", ms(c.encoding)},
+                                       {"whole_ms", ms(c.whole())},
+                                       {"bare_ratio", c.bare / c.whole()},
+                                       {"rays_per_frame", static_cast<double>(c.rays) / frames},
+                                       {"bytes_per_frame", static_cast<double>(c.bytes) / frames}}
+                    .dump(2) +
+                "\n");
     return;
   }
-  fmt::print(
+  writeOutput(fmt::format(
       "{} ({}): {:.1f} ms a frame: sets {:.1f}, tiles {:.1f}, encoding {:.1f}; bare rays {:.1f} "
       "ms, "
       "ratio {:.3f}; {:.2f} Mrays, {:.0f} kB a frame\n",
       o.scene, isa, ms(c.whole()), ms(c.sets), ms(c.tiles), ms(c.encoding), ms(c.bare),
       c.bare / c.whole(), 1e-6 * static_cast<double>(c.rays) / frames,
-      1e-3 * static_cast<double>(c.bytes) / frames);
+      1e-3 * static_cast<double>(c.bytes) / frames));
 }
 
 Isa isaFrom(const std::string& name) {
@@ -179,8 +177,10 @@ Isa isaFrom(const std::string& name) {
 
 int run(int argc, char** argv) {
   Options o;
-  po::options_description visible("Options");
-  visible.add_options()("size", po::value(&o.size), "WxH, default 640x480")(
+  Command command{"ninefold-client-benchmark", "SCENE [options]",
+                  "Tells what a frame costs a client, part by part, beside its rays alone.\n"};
+  command.words = {{"SCENE", &o.scene}};
+  command.flags.add_options()("size", po::value(&o.size), "WxH, default 640x480")(
       "frames", po::value(&o.frames), "how many frames to measure, default 4")(
       "direct-vpls", po::value(&o.directVpls), "per set, default 4")(
       "indirect-vpls", po::value(&o.indirectVpls), "per set, mean, default 18")(
@@ -189,21 +189,9 @@ int run(int argc, char** argv) {
       "vpl-roulette", po::value(&o.vplRoulette),
       "default as the master's; 0 = every virtual light is asked")(
       "no-compensation", po::bool_switch(&o.noCompensation), "leave the bound's energy out")(
-      "isa", po::value(&o.isa), "auto, avx2 or avx512")(
-      "json", po::bool_switch(&o.json), "write one JSON object")("help,h", po::bool_switch(&o.help),
-                                                                 "show this text");
-  po::options_description all;
-  all.add(visible).add_options()("scene", po::value(&o.scene));
-  po::positional_options_description places;
-  places.add("scene", 1);
-  po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(places).run(), values);
-  po::notify(values);
-  if (o.help) {
-    std::cout << "usage: ninefold-client-benchmark SCENE [options]\n" << visible;
-    return 0;
-  }
-  if (o.scene.empty()) failUsage("SCENE is needed");
+      "isa", po::value(&o.isa), "auto, avx2 or avx512")("json", po::bool_switch(&o.json),
+                                                        "write one JSON object");
+  if (!parseCommandLine(argc, argv, command)) return 0;
   checkRange("frames", o.frames, 1, 1'000'000);
   const Scene scene = readScene(o.scene);
   Bench bench(scene, o, isaFrom(o.isa));
@@ -221,15 +209,7 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace ninefold
 
-int main(int argc, char** argv) try {
-  return ninefold::run(argc, argv);
-} catch (const ninefold::UsageError& e) {
-  std::cerr << "ninefold-client-benchmark: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const boost::program_options::error& e) {
-  std::cerr << "ninefold-client-benchmark: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const std::exception& e) {
-  std::cerr << "ninefold-client-benchmark: " << e.what() << "\n";
-  return 1;
+int main(int argc, char** argv) {
+  return ninefold::runProgram("ninefold-client-benchmark",
+                              [&] { return ninefold::run(argc, argv); });
 }

@@ -1,25 +1,21 @@
 // ninefold-compare IMAGE REFERENCE [--json]: how far an image is from a reference.
-// Exit status: 0 compared, 1 an image cannot be read or the sizes differ, 2 wrong usage.
+// Exit status: 0 compared, 1 an image cannot be read, the sizes differ or the figures cannot be written, 2 wrong usage.
 
 #include <fmt/core.h>
 
-#include <boost/program_options.hpp>
 #include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "common/base/error.h"
 #include "common/image/image_file.h"
 #include "common/image/metrics.h"
+#include "tools/command.h"
 
 namespace ninefold {
 namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* kUsage =
-    "usage: ninefold-compare IMAGE REFERENCE [--json]\n"
-    "\n"
+constexpr const char* kAbout =
     "Tells how far IMAGE is from REFERENCE (.exr, .hdr, .png; PNG is decoded from sRGB).\n"
     "\n"
     "  rmse            root of the mean squared difference, over pixels and R, G, B\n"
@@ -30,33 +26,7 @@ constexpr const char* kUsage =
     "  ssim            structural similarity as the eye sees the images; 1 = equal\n"
     "  worst_pixel     the pixel with the largest part in relmse; (0, 0) is top left\n"
     "  non_finite      pixels with infinite or undefined values; they are left out of all the "
-    "rest\n"
-    "\n";
-
-struct Options {
-  std::string image, reference;
-  bool json = false, help = false;
-};
-
-po::options_description describe(Options& options) {
-  po::options_description visible("Options");
-  visible.add_options()("json", po::bool_switch(&options.json), "write one JSON object")(
-      "help,h", po::bool_switch(&options.help), "show this text");
-  return visible;
-}
-
-// Throws po::error for wrong usage.
-void parse(int argc, char** argv, const po::options_description& visible, Options& options) {
-  po::options_description all;
-  all.add(visible).add_options()("image", po::value(&options.image))("reference",
-                                                                     po::value(&options.reference));
-  po::positional_options_description places;
-  places.add("image", 1).add("reference", 1);
-  po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(places).run(), values);
-  po::notify(values);
-  if (!options.help && options.reference.empty()) throw po::error("IMAGE and REFERENCE are needed");
-}
+    "rest\n";
 
 nlohmann::ordered_json pixelJson(Vec3 rgb) { return {rgb.x, rgb.y, rgb.z}; }
 
@@ -100,21 +70,14 @@ std::string toTable(const Metrics& m) {
 }
 
 int run(int argc, char** argv) {
-  Options options;
-  const po::options_description visible = describe(options);
-  try {
-    parse(argc, argv, visible, options);
-  } catch (const po::error& error) {
-    fmt::print(stderr, "ninefold-compare: {}; see ninefold-compare --help\n", error.what());
-    return 2;
-  }
-  if (options.help) {
-    std::cout << kUsage << visible;
-    return 0;
-  }
-  const RgbImage image = readImage(options.image), reference = readImage(options.reference);
-  const Metrics metrics = compareImages(image, reference);
-  std::cout << (options.json ? toJson(metrics).dump(2) + "\n" : toTable(metrics));
+  std::string image, reference;
+  bool json = false;
+  Command command{"ninefold-compare", "IMAGE REFERENCE [--json]", kAbout};
+  command.words = {{"IMAGE", &image}, {"REFERENCE", &reference}};
+  command.flags.add_options()("json", po::bool_switch(&json), "write one JSON object");
+  if (!parseCommandLine(argc, argv, command)) return 0;
+  const Metrics metrics = compareImages(readImage(image), readImage(reference));
+  writeOutput(json ? toJson(metrics).dump(2) + "\n" : toTable(metrics));
   return 0;
 }
 
@@ -122,10 +85,5 @@ int run(int argc, char** argv) {
 }  // namespace ninefold
 
 int main(int argc, char** argv) {
-  try {
-    return ninefold::run(argc, argv);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "ninefold-compare: {}\n", error.what());
-    return 1;
-  }
+  return ninefold::runProgram("ninefold-compare", [&] { return ninefold::run(argc, argv); });
 }

@@ -17,16 +17,14 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <boost/program_options.hpp>
 #include <cstring>
 #include <deque>
-#include <iostream>
 #include <random>
 
 #include "common/base/clock.h"
-#include "common/base/command_line.h"
 #include "common/base/error.h"
 #include "common/base/process.h"
+#include "tools/command.h"
 
 namespace ninefold {
 namespace {
@@ -39,7 +37,6 @@ constexpr size_t kMostBytes = 65536;  // of a packet
 struct Options {
   std::string a, b, cut;
   double mbit = 0, delayMs = 0, loss = 0;
-  bool help = false;
 };
 
 // A TUN device named nfrelay in a namespace of `ip netns`.
@@ -124,7 +121,7 @@ int relay(const Options& o) {
   }
   const UniqueFd a = openTun(o.a), b = openTun(o.b);
   Direction there(a.get(), b.get(), o, 1), back(b.get(), a.get(), o, 2);
-  std::cout << "ready" << std::endl;
+  writeOutput("ready\n");
   const Time start = Clock::now();
   while (true) {
     waitFor(a.get(), b.get(), std::min(there.due(), back.due()));
@@ -138,24 +135,15 @@ int relay(const Options& o) {
 
 int run(int argc, char** argv) {
   Options o;
-  po::options_description flags("Options");
-  flags.add_options()("mbit", po::value(&o.mbit), "rate of each direction, default 0: unlimited")(
+  Command command{"ninefold-link-relay", "NAMESPACE_A NAMESPACE_B [options]",
+                  "A line between two network namespaces that is slow, late, lossy or cut.\n"};
+  command.words = {{"NAMESPACE_A", &o.a}, {"NAMESPACE_B", &o.b}};
+  command.flags.add_options()("mbit", po::value(&o.mbit),
+                              "rate of each direction, default 0: unlimited")(
       "delay-ms", po::value(&o.delayMs), "one way, default 0")("loss", po::value(&o.loss),
                                                                "percent of all packets, default 0")(
-      "cut", po::value(&o.cut), "START:SECONDS: nothing passes then")(
-      "help,h", po::bool_switch(&o.help), "show this text");
-  po::options_description all;
-  all.add(flags).add_options()("a", po::value(&o.a))("b", po::value(&o.b));
-  po::positional_options_description places;
-  places.add("a", 1).add("b", 1);
-  po::variables_map values;
-  po::store(po::command_line_parser(argc, argv).options(all).positional(places).run(), values);
-  po::notify(values);
-  if (o.help) {
-    std::cout << "usage: ninefold-link-relay NAMESPACE_A NAMESPACE_B [options]\n" << flags;
-    return 0;
-  }
-  if (o.a.empty() || o.b.empty()) failUsage("two network namespaces are needed");
+      "cut", po::value(&o.cut), "START:SECONDS: nothing passes then");
+  if (!parseCommandLine(argc, argv, command)) return 0;
   checkRange("mbit", o.mbit, 0.0, 1e6);
   checkRange("delay-ms", o.delayMs, 0.0, 1e4);
   checkRange("loss", o.loss, 0.0, 100.0);
@@ -165,15 +153,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace ninefold
 
-int main(int argc, char** argv) try {
-  return ninefold::run(argc, argv);
-} catch (const ninefold::UsageError& e) {
-  std::cerr << "ninefold-link-relay: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const boost::program_options::error& e) {
-  std::cerr << "ninefold-link-relay: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const std::exception& e) {
-  std::cerr << "ninefold-link-relay: " << e.what() << "\n";
-  return 1;
+int main(int argc, char** argv) {
+  return ninefold::runProgram("ninefold-link-relay", [&] { return ninefold::run(argc, argv); });
 }

@@ -8,15 +8,13 @@
 // machine that they share with the master. Recorded frames repeat. One thread serves all of them.
 // Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
 
-#include <boost/program_options.hpp>
-#include <iostream>
 #include <map>
 #include <set>
 
-#include "common/base/command_line.h"
 #include "common/sampling/interleave.h"
 #include "proto/connection.h"
 #include "proto/recording.h"
+#include "tools/command.h"
 
 namespace ninefold {
 namespace {
@@ -27,7 +25,6 @@ struct Options {
   std::string master, keyFile, recording, pace = "full";
   int clients = 1, threads = 1;
   double slower = 1;
-  bool help = false;
 };
 
 using TaskPlace = std::pair<uint32_t, uint32_t>;  // tile, phase
@@ -212,8 +209,7 @@ class Replay {
     for (size_t i = 0; i < clients_.size(); ++i) dial(i);
     loop_.run();
     if (failure_.empty()) return 0;
-    std::cerr << "ninefold-replay-client: " << failure_ << "\n";
-    return 1;
+    fail("{}", failure_);
   }
 
  private:
@@ -260,22 +256,17 @@ class Replay {
 
 int run(int argc, char** argv) {
   Options o;
-  po::options_description flags("Options");
-  flags.add_options()("master", po::value(&o.master), "ADDR:PORT")(
+  Command command{"ninefold-replay-client",
+                  "--master ADDR:PORT --key-file FILE --recording FILE [options]",
+                  "Clients that trace nothing: they answer with the results of a recording.\n"};
+  command.flags.add_options()("master", po::value(&o.master), "ADDR:PORT")(
       "key-file", po::value(&o.keyFile), "the cluster key")(
       "recording", po::value(&o.recording), "FILE that ninefold-client --record made")(
       "clients", po::value(&o.clients), "how many, default 1")("threads", po::value(&o.threads),
                                                                "of each client, default 1")(
       "pace", po::value(&o.pace), "full: answer at once (default); recorded: as long as it took")(
-      "slower", po::value(&o.slower), "with --pace recorded: times as long; default 1")(
-      "help,h", po::bool_switch(&o.help), "show this text");
-  po::variables_map values;
-  po::store(po::parse_command_line(argc, argv, flags), values);
-  po::notify(values);
-  if (o.help) {
-    std::cout << "usage: ninefold-replay-client [options]\n" << flags;
-    return 0;
-  }
+      "slower", po::value(&o.slower), "with --pace recorded: times as long; default 1");
+  if (!parseCommandLine(argc, argv, command)) return 0;
   for (const auto& [name, value] :
        {std::pair("--master", o.master), {"--key-file", o.keyFile}, {"--recording", o.recording}})
     if (value.empty()) failUsage("{} is missing", name);
@@ -290,15 +281,6 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace ninefold
 
-int main(int argc, char** argv) try {
-  return ninefold::run(argc, argv);
-} catch (const ninefold::UsageError& e) {
-  std::cerr << "ninefold-replay-client: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const boost::program_options::error& e) {
-  std::cerr << "ninefold-replay-client: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const std::exception& e) {
-  std::cerr << "ninefold-replay-client: " << e.what() << "\n";
-  return 1;
+int main(int argc, char** argv) {
+  return ninefold::runProgram("ninefold-replay-client", [&] { return ninefold::run(argc, argv); });
 }

@@ -8,13 +8,11 @@
 // seed: equal options give equal results. Writes one JSON object.
 // Exit status: 0 done, 1 frames were not completed, 2 wrong usage.
 
-#include <boost/program_options.hpp>
 #include <cmath>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "common/base/command_line.h"
+#include "tools/command.h"
 #include "tools/simulated_cluster.h"
 
 namespace ninefold {
@@ -27,7 +25,7 @@ struct Options {
   uint32_t seed = 1;
   std::string size = "640x480";
   double taskMs = 4, setMs = 0.5, failEvery = 0, straggleEvery = 0;
-  bool mixed = false, help = false;
+  bool mixed = false;
 };
 
 constexpr double kComesBack = 5, kStandsStill = 2;  // [s]
@@ -105,8 +103,9 @@ nlohmann::ordered_json report(const Options& o, const SimulatedCluster& cluster)
 
 int run(int argc, char** argv) {
   Options o;
-  po::options_description flags("Options");
-  flags.add_options()("clients", po::value(&o.clients), "1 to 10000, default 16")(
+  Command command{"ninefold-simulate-cluster", "[options]",
+                  "The master's scheduler with simulated clients: how well any number is used.\n"};
+  command.flags.add_options()("clients", po::value(&o.clients), "1 to 10000, default 16")(
       "mixed", po::bool_switch(&o.mixed), "of mixed speed; default: all alike, one thread")(
       "frames", po::value(&o.frames), "to complete, default 100")(
       "frames-in-flight", po::value(&o.framesInFlight),
@@ -116,15 +115,8 @@ int run(int argc, char** argv) {
       "set-ms", po::value(&o.setMs), "work of a light set, default 0.5")(
       "fail-every", po::value(&o.failEvery), "seconds; default 0: never")(
       "straggle-every", po::value(&o.straggleEvery), "seconds; default 0: never")(
-      "seed", po::value(&o.seed), "default 1")("help,h", po::bool_switch(&o.help),
-                                               "show this text");
-  po::variables_map values;
-  po::store(po::parse_command_line(argc, argv, flags), values);
-  po::notify(values);
-  if (o.help) {
-    std::cout << "usage: ninefold-simulate-cluster [options]\n" << flags;
-    return 0;
-  }
+      "seed", po::value(&o.seed), "default 1");
+  if (!parseCommandLine(argc, argv, command)) return 0;
   checkRange("clients", o.clients, 1, 10'000);
   checkRange("frames", o.frames, 1, 1'000'000);
   checkRange("frames-in-flight", o.framesInFlight, 1, 1000);
@@ -136,23 +128,15 @@ int run(int argc, char** argv) {
   job.checkEvery = 100'000;
   SimulatedCluster cluster(job, makeClients(o, job.grid.tasks() * job.taskSeconds));
   cluster.run(1e6);
-  if (!cluster.finished()) {
-    std::cerr << "ninefold-simulate-cluster: only " << cluster.completed() << " frames completed\n";
-    return 1;
-  }
-  std::cout << report(o, cluster).dump(2) << "\n";
+  if (!cluster.finished()) fail("only {} frames completed", cluster.completed());
+  writeOutput(report(o, cluster).dump(2) + "\n");
   return 0;
 }
 
 }  // namespace
 }  // namespace ninefold
 
-int main(int argc, char** argv) try {
-  return ninefold::run(argc, argv);
-} catch (const ninefold::UsageError& e) {
-  std::cerr << "ninefold-simulate-cluster: " << e.what() << "; see --help\n";
-  return 2;
-} catch (const boost::program_options::error& e) {
-  std::cerr << "ninefold-simulate-cluster: " << e.what() << "; see --help\n";
-  return 2;
+int main(int argc, char** argv) {
+  return ninefold::runProgram("ninefold-simulate-cluster",
+                              [&] { return ninefold::run(argc, argv); });
 }

@@ -5,7 +5,7 @@
 // A client works through its tasks in the order in which they came, one for each thread; it makes a
 // light set the first time that it meets one of a randomization; at rest its results wait for each
 // other as client/result_group.h says. A frozen client does nothing, its
-// messages wait; a dead one is noticed when its connection closes (after the line's latency), or,
+// messages wait; one that sticks goes on with its heartbeat; a dead one is noticed when its connection closes (after the line's latency), or,
 // if its line was cut, when its heartbeat has been missing for kHeartbeatLost.
 // Threads: none. Errors: CHECKs what the scheduler promises.
 #pragma once
@@ -36,6 +36,7 @@ struct SimulatedClient {
   double dies = kNever;   // connection closes
   double cut = kNever;    // connection stays, nothing gets through any more
   double freezes = kNever, thaws = kNever;
+  double sticks = kNever, comesBack = kNever;  // meanwhile no task ends, while heartbeats go on
 };
 
 struct SimulatedJob {
@@ -47,6 +48,7 @@ struct SimulatedJob {
   double setSeconds = 5e-4;
   double viewChangeEvery = kNever;  // [s]; frames that it cancels do not count as completed
   uint64_t checkEvery = 10;         // events between two checks of the scheduler's books
+  double rays = 1;                  // FrameKind::rays
 };
 
 class SimulatedCluster {
@@ -84,6 +86,7 @@ class SimulatedCluster {
   // Every task of a completed frame was accepted exactly once.
   bool everyTaskOnce() const { return everyTaskOnce_; }
   int mostInFlight() const { return mostInFlight_; }
+  const std::vector<StuckNote>& notes() const { return notes_; }
 
  private:
   struct Client {
@@ -161,7 +164,7 @@ class SimulatedCluster {
   }
   void changeView() {
     schedule(now_ + job_.viewChangeEvery, [this] {
-      scheduler_.viewChanged(nextFrame_);
+      scheduler_.viewChanged(nextFrame_, at(now_));
       placed_.clear(), opened_.clear();
       changeView();
     });
@@ -176,9 +179,10 @@ class SimulatedCluster {
       const uint32_t frame = nextFrame_++;
       opened_[frame] = now_;
       scheduler_.openFrame({.frame = frame, .randomization = job_.moving ? 0 : frame}, job_.grid,
-                           {.urgent = job_.moving});
+                           {.urgent = job_.moving, .rays = job_.rays});
     }
     const Actions actions = scheduler_.poll(at(now_));
+    notes_.insert(notes_.end(), actions.notes.begin(), actions.notes.end());
     for (const Cancellation& cancel : actions.cancel) {
       const size_t c = cancel.client - 1;
       schedule(now_ + clients_[c].model.latency, [=, this] {
@@ -212,16 +216,18 @@ class SimulatedCluster {
       double end = start + work / client.model.speed;
       if (start < client.model.freezes && end > client.model.freezes)
         end += client.model.thaws - client.model.freezes;
-      schedule(end, [=, this] { finish(c, task, work, end - start); });
+      if (start < client.model.comesBack && end > client.model.sticks)
+        end = client.model.comesBack + work / client.model.speed;
+      schedule(end, [=, this] { finish(c, task, work, {fromSeconds(end - start), newSet}); });
     }
   }
-  void finish(size_t c, const TaskId& task, double work, double took) {
+  void finish(size_t c, const TaskId& task, double work, TaskCost took) {
     Client& client = clients_[c];
     --client.busyThreads;
     client.results.push_back([=, this] { result(c, task, work, took); });
     const double wait = job_.moving ? 0 : seconds(kResultsTogether);
     const bool isNext = !client.queue.empty() && client.queue.front().frame == task.frame;
-    if (!isNext || took >= wait || now_ - client.handedOver >= wait) handOver(c);
+    if (!isNext || seconds(took.busy) >= wait || now_ - client.handedOver >= wait) handOver(c);
     this->work(c);
   }
   void handOver(size_t c) {
@@ -230,10 +236,10 @@ class SimulatedCluster {
     for (auto& result : std::exchange(client.results, {}))
       if (reaches(client)) schedule(now_ + client.model.latency, std::move(result));
   }
-  void result(size_t c, const TaskId& task, double work, double took) {
+  void result(size_t c, const TaskId& task, double work, TaskCost took) {
     if (!clients_[c].known) return;
     scheduler_.clientHeard(id(c), at(now_));
-    const Verdict verdict = scheduler_.resultArrived(id(c), task, fromSeconds(took), at(now_));
+    const Verdict verdict = scheduler_.resultArrived(id(c), task, took, at(now_));
     if (!isAccepted(verdict)) return;
     usefulWork_ += work;
     auto& placed = placed_[task.frame];
@@ -269,6 +275,7 @@ class SimulatedCluster {
   uint32_t nextFrame_ = 0;
   int completed_ = 0, mostInFlight_ = 0;
   bool everyTaskOnce_ = true;
+  std::vector<StuckNote> notes_;
   std::map<uint32_t, std::set<std::pair<int, int>>> placed_;
   std::vector<uint32_t> completionOrder_;
   std::map<uint32_t, double> opened_;  // when

@@ -1,4 +1,4 @@
-// log.h: lines for people, on stderr. Secrets never go here.
+// log.h: lines for people, on stderr (standard_streams.h). Secrets never go here.
 // Threads: any thread. A program calls nameLog once, first.
 #pragma once
 

@@ -71,15 +71,24 @@ ChildProcess::~ChildProcess() {
   while (::waitpid(pid_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
-std::optional<std::string> ChildProcess::ended() {
+std::optional<ChildProcess::Ending> ChildProcess::ended() {
   int status = 0;
   if (pid_ == 0 || ::waitpid(pid_, &status, WNOHANG) != pid_) return std::nullopt;
   pid_ = 0;
-  return describeStatus(status);
+  const bool exited = WIFEXITED(status);
+  return Ending{exited ? std::optional(WEXITSTATUS(status)) : std::nullopt, describeStatus(status)};
 }
 
 void ChildProcess::terminate() const {
   if (pid_ != 0) ::kill(pid_, SIGTERM);
+}
+
+std::vector<int> endingSignals() {
+  std::vector<int> signals{SIGINT, SIGTERM, SIGPIPE};
+  struct sigaction hangUp {};
+  ::sigaction(SIGHUP, nullptr, &hangUp);
+  if (hangUp.sa_handler != SIG_IGN) signals.push_back(SIGHUP);
+  return signals;
 }
 
 std::filesystem::path programBesideUs(const std::string& name) {

@@ -58,14 +58,22 @@ class ChildProcess {
   ~ChildProcess();  // kill -9 and reap, if it still runs
 
   pid_t pid() const { return pid_; }
-  // How it ended ("exit status 1", "signal 9 (Killed)"), once it has; asks without waiting.
-  std::optional<std::string> ended();
+  struct Ending {
+    std::optional<int> status;  // nothing: a signal
+    std::string text;           // "exit status 1", "signal 9 (Killed)"
+  };
+  // How it ended, once it has; asks without waiting.
+  std::optional<Ending> ended();
   void terminate() const;  // SIGTERM, asks it to go
 
  private:
   explicit ChildProcess(pid_t pid) : pid_(pid) {}
   pid_t pid_ = 0;  // 0 = reaped
 };
+
+// The signals that ask a program to end well: Ctrl-C, SIGTERM, a closed terminal (unless whoever started us
+// had it ignored, as nohup does), a pipe without a reader.
+std::vector<int> endingSignals();
 
 inline constexpr int kInheritedDescriptor = 3;
 

@@ -1,5 +1,6 @@
 #include "common/gi/renderer.h"
 
+#include "common/gi/light_check.h"
 #include "common/gi/tile_renderer.h"
 
 namespace ninefold {
@@ -71,13 +72,25 @@ Renderer::~Renderer() = default;
 std::shared_ptr<const LightSet> Renderer::lightSet(const FrameKey& frame, int k) const {
   if (impl_->light->transport.settings.method == Method::pathTrace)
     return std::make_shared<const LightSet>();
-  return std::make_shared<const LightSet>(
+  auto lights = std::make_shared<const LightSet>(
       makeLightSet(impl_->light->transport, frame, k, impl_->light->pathsLog2));
+#ifndef NDEBUG
+  const Transport& t = impl_->light->transport;
+  checkLight(*lights, frame, k, t.tracer.scene(), t.settings);
+#endif
+  return lights;
 }
 
 void Renderer::render(const Task& task, const LightSet& lights, Scratch& scratch,
                       TileResult& out) const {
-  renderTask(impl_->light->transport, impl_->view, task, lights, scratch, out);
+  const Transport& t = impl_->light->transport;
+  renderTask(t, impl_->view, task, lights, scratch, out);
+#ifndef NDEBUG
+  Settings seen = t.settings;
+  seen.camera = impl_->view.camera, seen.width = impl_->view.width,
+  seen.height = impl_->view.height;
+  checkLight(out, task, t.tracer.scene(), seen);
+#endif
 }
 
 std::unique_ptr<Scratch, void (*)(Scratch*)> Renderer::makeScratch() const {

@@ -1,19 +1,17 @@
 #include "common/image/image_file.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <span>
 
 #include "common/base/error.h"
+#include "common/base/written_file.h"
 
 namespace ninefold {
 namespace {
@@ -30,6 +28,12 @@ std::string extensionOf(const std::string& path) {
   return extension;
 }
 
+void checkExtension(const std::string& path) {
+  const std::string extension = extensionOf(path);
+  if (extension != ".exr" && extension != ".hdr" && extension != ".png")
+    fail("cannot write {}: the name must end in .exr, .hdr or .png", path);
+}
+
 // A library's report as part of our one line.
 std::string oneLine(std::string text) {
   while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
@@ -38,29 +42,32 @@ std::string oneLine(std::string text) {
   return text.empty() ? "unknown reason" : text;
 }
 
-// Its file does not outlive a failure.
-class TemporaryFile {
+// Where the library writes to. What goes wrong there is kept: at a close the library may not mind it.
+class FileProxy : public OIIO::Filesystem::IOProxy {
  public:
-  explicit TemporaryFile(const fs::path& target)
-      : target_(target),
-        path_(target.parent_path() /
-              fmt::format(".{}.{}.partial", target.filename().string(), getpid())) {}
-  ~TemporaryFile() {
-    std::error_code ignored;  // nothing there after publish(), or nothing was ever written
-    fs::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  explicit FileProxy(WrittenFile& file) : IOProxy("", Write), file_(file) {}
 
-  std::string path() const { return path_.string(); }
-  void publish() {
-    std::error_code error;
-    fs::rename(path_, target_, error);
-    if (error) fail("cannot write {}: {}", target_.string(), error.message());
+  const char* proxytype() const override { return "ninefold"; }
+  size_t write(const void* bytes, size_t count) override {
+    const size_t written = pwrite(bytes, count, m_pos);
+    m_pos += static_cast<int64_t>(written);
+    return written;
   }
+  size_t pwrite(const void* bytes, size_t count, int64_t offset) override {
+    try {
+      file_.writeAt(static_cast<uint64_t>(offset), {static_cast<const char*>(bytes), count});
+      return count;
+    } catch (const Error& error) {  // must not pass through a library in C
+      if (failure_.empty()) failure_ = error.what();
+      return 0;
+    }
+  }
+  size_t size() const override { return static_cast<size_t>(file_.size()); }
+  const std::string& failure() const { return failure_; }
 
  private:
-  fs::path target_, path_;
+  WrittenFile& file_;
+  std::string failure_;
 };
 
 using Planes = std::vector<const float*>;
@@ -109,10 +116,13 @@ bool writeFloats(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const P
 // Calls write(output) for the open file.
 template <typename Write>
 void writeFile(const std::string& path, const OIIO::ImageSpec& spec, const Write& write) {
-  TemporaryFile file(fs::absolute(path));
-  const auto output = OIIO::ImageOutput::create(extensionOf(path).substr(1));
+  WrittenFile file(path);
+  FileProxy proxy(file);
+  const std::string name = "a" + extensionOf(path);  // tells the format
+  const auto output = OIIO::ImageOutput::create(name, &proxy);
   if (!output) fail("cannot write {}: {}", path, oneLine(OIIO::geterror()));
-  const bool written = output->open(file.path(), spec) && write(*output) && output->close();
+  const bool written = output->open(name, spec) && write(*output) && output->close();
+  if (!proxy.failure().empty()) fail("{}", proxy.failure());
   if (!written) fail("cannot write {}: {}", path, oneLine(output->geterror()));
   file.publish();
 }
@@ -144,23 +154,12 @@ void decodeSrgb(std::vector<float>& plane) {
 }  // namespace
 
 void checkOutputPath(const std::string& path) {
-  const std::string extension = extensionOf(path);
-  if (extension != ".exr" && extension != ".hdr" && extension != ".png")
-    fail("cannot write {}: the name must end in .exr, .hdr or .png", path);
-  const fs::path folder = fs::absolute(path).parent_path();
-  std::error_code error;
-  if (!fs::is_directory(folder, error))
-    fail("cannot write {}: there is no folder {}; create it first", path, folder.string());
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error))
-    fail("cannot write {}: it exists and is no ordinary file; choose another name", path);
-  const TemporaryFile trial(fs::absolute(path));
-  if (!std::ofstream(trial.path()))
-    fail("cannot write {}: no file can be created in {} ({})", path, folder.string(),
-         std::strerror(errno));
+  checkExtension(path);
+  checkWritable(path);
 }
 
 void writeImage(const std::string& path, const Picture& picture, const ToneMap& toneMap) {
-  checkOutputPath(path);
+  checkExtension(path);
   const std::string extension = extensionOf(path);
   if (extension == ".png") {
     DisplayImage codes;
@@ -177,7 +176,6 @@ void writeImage(const std::string& path, const Picture& picture, const ToneMap& 
 }
 
 void writePng(const std::string& path, const DisplayImage& picture) {
-  checkOutputPath(path);
   NINEFOLD_CHECK(extensionOf(path) == ".png");
   writeCodes(path, picture, {});
 }

@@ -5,8 +5,7 @@
 //   .hdr  R, G, B with a shared 8-bit exponent (1 % steps; no negative values); no extra channels
 //   .png  8-bit sRGB through the tone map; no extra channels
 //
-// A file is written under a temporary name in the same folder and renamed: it is whole or not
-// there. Errors: Error with one line that names the file. Threads: reentrant.
+// A file is whole or as it was before (written_file.h). Errors: Error with one line that names the file. Threads: reentrant.
 #pragma once
 
 #include <string>
@@ -27,8 +26,8 @@ struct Picture {
   Metadata metadata;
 };
 
-// Throws if `path` has another extension than above, or cannot be created in its folder. Call it
-// before the work that leads to the picture.
+// Throws if `path` has another extension than above, or no file can be written there. Call it before the
+// work that leads to the picture.
 void checkOutputPath(const std::string& path);
 
 void writeImage(const std::string& path, const Picture& picture,

@@ -31,13 +31,15 @@ inline bool isFinished(uint8_t mask) { return mask == kRadianceMask || mask == k
 
 // Bits of an extra-plane mask: planes that only some tasks ask for, all of the first hit.
 enum ExtraPlane : uint8_t {
-  kAlbedoPlane = 1,    // sum of the lobes' reflectance towards the eye, RGB in [0, 1]
-  kNormalPlane = 2,    // shading normal, unit; 0 where nothing was hit
-  kDepthPlane = 4,     // distance along the camera's forward axis [m]; 0 where nothing was hit
-  kObjectPlane = 8,    // instance index + 1; 0 where nothing was hit
-  kCausticPlane = 16,  // part of E in the diffuse layer that came by way of S [W/m^2]
+  kAlbedoPlane = 1,       // sum of the lobes' reflectance towards the eye, RGB in [0, 1]
+  kNormalPlane = 2,       // shading normal, unit; 0 where nothing was hit
+  kDepthPlane = 4,        // distance along the camera's forward axis [m]; 0 where nothing was hit
+  kObjectPlane = 8,       // instance index + 1; 0 where nothing was hit
+  kCausticPlane = 16,     // part of E in the diffuse layer that came by way of S [W/m^2]
   kIrradiancePlane = 32,  // E there, of methods whose light is all in U [W/m^2]
 };
+// What tells what is at a place of the picture.
+inline constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
 
 struct RgbPlane {
   std::vector<float> r, g, b;

@@ -37,6 +37,8 @@ struct DisplayImage {
 float srgbFromLinear(float y);
 float linearFromSrgb(float code);
 
+inline constexpr float kMostExposure = 50;  // [EV], and its negative
+
 class ToneMap {
  public:
   explicit ToneMap(float exposureEv = 0);

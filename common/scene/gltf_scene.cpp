@@ -1,10 +1,12 @@
 #include "common/scene/gltf_scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
 #include "common/base/log.h"
+#include "common/image/tone_map.h"
 #include "common/scene/animation.h"
 #include "common/scene/gltf_accessor.h"
 #include "common/scene/gltf_animation.h"
@@ -73,6 +75,7 @@ class SceneBuilder {
     std::string name;
   };
   std::vector<int> roots() const;
+  std::optional<float> exposure() const;
   void enter(int node);
   void visit(const Visit& visit, std::vector<Visit>& open);
   bool addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld, bool nothing);
@@ -105,6 +108,20 @@ std::vector<int> SceneBuilder::roots() const {
   return nodes;
 }
 
+// Extras are anybody's: what is no exposure is somebody else's, and no error.
+std::optional<float> SceneBuilder::exposure() const {
+  if (model_->scenes.empty()) return std::nullopt;
+  const auto scene = static_cast<size_t>(std::max(model_->defaultScene, 0));
+  const tinygltf::Value& extras = model_->scenes[scene].extras;
+  if (!extras.IsObject() || !extras.Has("exposure")) return std::nullopt;
+  const tinygltf::Value& value = extras.Get("exposure");
+  const double ev = value.IsNumber() ? value.GetNumberAsDouble() : NAN;
+  if (std::abs(ev) <= double{kMostExposure}) return static_cast<float>(ev);
+  warn("extras.exposure of the scene is no number from {} to {}: left out", -kMostExposure,
+       kMostExposure);
+  return std::nullopt;
+}
+
 // The nodes must form trees: that bounds the work, and a cycle would never end.
 void SceneBuilder::enter(int node) {
   if (node < 0 || static_cast<size_t>(node) >= seen_.size()) fail("node {} does not exist", node);
@@ -131,6 +148,7 @@ SceneDraft SceneBuilder::build() {
     }
   }
   meshes_.warnOfLosses();
+  draft_.scene.exposure = exposure();
   draft_.scene.animated = animations_.take();
   findDeformed();
   if (!draft_.scene.deformed.empty())

@@ -1,5 +1,6 @@
 // gltf_scene.h: the node tree of a glTF file: what stands where. Only what the default scene
 // reaches is read. Matrices are multiplied in double precision.
+// A scene may carry the exposure that it is meant to be shown with, as extras.exposure [EV].
 // Errors: throws Error.
 // Threads: reentrant.
 #pragma once

@@ -1,12 +1,11 @@
 #include "common/scene/gltf_writer.h"
 
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/base/written_file.h"
 #include "common/image/encode.h"
 
 namespace ninefold {
@@ -36,6 +35,7 @@ class Writer {
     for (const PunctualLight& light : scene_.lights) addLight(light);
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"name", scene_.name}, {"nodes", roots_}}});
+    if (scene_.exposure) json_["scenes"][0]["extras"]["exposure"] = *scene_.exposure;
     json_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
     if (!extensions_.empty()) json_["extensionsUsed"] = extensions_;
     return container();
@@ -218,7 +218,7 @@ class Writer {
 
   // Head, JSON chunk, binary chunk, as glTF 2.0 says.
   std::string container() {
-    std::string text = json_.dump();
+    std::string text = json_.dump(-1, ' ', false, Json::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     bytes_.resize((bytes_.size() + 3) / 4 * 4);
     std::string file;
@@ -248,14 +248,7 @@ class Writer {
 
 void writeGltf(const std::string& path, const Scene& scene) {
   if (!path.ends_with(".glb")) fail("{}: the name must end in .glb", path);
-  const std::string bytes = Writer(scene).write();
-  const std::string temporary = path + ".part";
-  std::ofstream file(temporary, std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(temporary, path, problem);
-  if (!file || problem) fail("cannot write {}", path);
+  writeFile(path, Writer(scene).write());
 }
 
 }  // namespace ninefold

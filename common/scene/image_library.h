@@ -25,9 +25,11 @@ class ImageLibrary {
 
   int add(const ImageSource& source, bool srgb);
 
-  // An sRGB image whose alpha is that of `opacity`, or its first channel if it has no alpha.
-  // `colour` may be null (white); its texels decide the size.
-  int addCutout(const ImageSource* colour, const ImageSource& opacity);
+  // An image made of others, which `make` gets as they are in their files. `name` tells it from
+  // what else is made of them.
+  using Make = std::function<TextureImage(std::span<const TextureImage> parts)>;
+  int addMade(const std::string& name, bool srgb, std::span<const ImageSource* const> parts,
+              const Make& make);
 
  private:
   TextureImage decode(const ImageSource& source) const;

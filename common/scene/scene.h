@@ -11,6 +11,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -125,6 +126,7 @@ struct Scene {
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
   std::string deformed;               // the first object whose shape the animation changes
   Radiance environment{0};            // constant radiance from outside
+  std::optional<float> exposure;      // [EV] that it is meant to be shown with; not on the wire
   DVec3 origin{0};                    // file coordinates = scene coordinates + origin
   Bounds bounds;                      // of all instances, in scene coordinates
 };

@@ -11,6 +11,7 @@
 
 #include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/scene/text_lines.h"
 
 namespace ninefold {
 namespace {
@@ -86,6 +87,17 @@ fs::path SceneFolder::locate(std::string_view reference) const {
 bool SceneFolder::exists(std::string_view reference) const {
   std::error_code error;
   return fs::exists(locate(reference), error);
+}
+
+std::string SceneFolder::spelled(std::string_view reference) const {
+  const fs::path folder = locate(reference).parent_path();
+  const size_t name = reference.rfind('/') + 1;
+  const std::string wanted = lowerCase(reference.substr(name));
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (lowerCase(entry.path().filename().string()) == wanted)
+      return std::string(reference.substr(0, name)) + entry.path().filename().string();
+  return {};
 }
 
 fs::path SceneFolder::resolve(std::string_view reference) const {

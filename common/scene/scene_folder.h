@@ -26,6 +26,9 @@ class SceneFolder {
   std::vector<unsigned char> read(std::string_view reference, uint64_t limit) const;
   // False if there is no such file; what leads outside is an Error all the same.
   bool exists(std::string_view reference) const;
+  // The reference as its folder spells it: a file whose name differs in case alone; an empty string
+  // if there is none. Errors as exists.
+  std::string spelled(std::string_view reference) const;
 
  private:
   std::filesystem::path locate(std::string_view reference) const;

@@ -18,12 +18,12 @@ Vec2 filmPosition(Vec2 place, const LiveImage& image) {
 
 void Editor::pick(Vec2 place, const Shown& shown) {
   pick_ = place;
-  live_.wantObjects(true);
+  live_.wantPicks(true);
   look(shown);
 }
 
 void Editor::look(const Shown& shown) {
-  if (!pick_ || shown.image->objects.empty()) return;
+  if (!pick_ || shown.image->picks == nullptr) return;
   const Vec2 film = filmPosition(*pick_, *shown.image);
   pick_.reset();
   const std::optional<uint32_t> instance = instanceAt(shown, film);
@@ -47,7 +47,7 @@ void Editor::selectLight(uint32_t light) {
 
 void Editor::deselect() {
   selection_.reset();
-  live_.wantObjects(false);
+  live_.wantPicks(false);
 }
 
 Bounds Editor::boundsOfSelection() const {
@@ -55,7 +55,7 @@ Bounds Editor::boundsOfSelection() const {
 }
 
 void Editor::beginDrag(DragMode mode, Vec2 place, const Shown& shown) {
-  if (!selection_ || selection_->light || shown.image->objects.empty()) return;
+  if (!selection_ || selection_->light || shown.image->picks == nullptr) return;
   const auto point = pointAt(shown, filmPosition(place, *shown.image));
   if (!point) return;
   SceneEdit thing;

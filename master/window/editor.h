@@ -1,8 +1,8 @@
 // editor.h: what a person does to the scene: selects a thing, drags it, switches a lamp, turns the
 // panel's numbers, takes it back. Each change goes to the run as a small edit and into the history.
 //
-// Places are shares of the picture's width and height, from its upper left corner. A pick waits for a
-// picture that knows its objects (LiveRun::wantObjects).
+// Places are shares of the picture's width and height, from its upper left corner. A pick in motion waits for a
+// picture that knows what is where.
 // Threads: the main thread. Refers to all that it is made of. Errors: an edit that the scene cannot
 // take is told in one line and left out.
 #pragma once
@@ -42,6 +42,8 @@ class Editor {
   void tell(PanelView& view) const;
 
   Scene scene() const { return edited(*scene_, history_.all()); }
+  bool isSaved() const { return saved_ == history_.revision(); }
+  void setSaved() { saved_ = history_.revision(), ++action_; }
 
  private:
   void select(uint32_t instance);
@@ -56,6 +58,7 @@ class Editor {
   std::optional<Selection> selection_;
   std::optional<Drag> drag_;
   uint64_t action_ = 1;  // of the history
+  uint64_t saved_ = 0;   // revision of the history
 };
 
 }  // namespace ninefold

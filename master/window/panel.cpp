@@ -2,7 +2,10 @@
 
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "common/math/units.h"
+#include "master/window/overlays.h"
 
 namespace ninefold {
 namespace {
@@ -14,7 +17,7 @@ const char* nameOf(ClientState state) {
   return kNames[static_cast<size_t>(state)];
 }
 
-void line(const std::string& text) { ImGui::TextUnformatted(text.c_str()); }
+void line(const std::string& text) { ImGui::TextWrapped("%s", text.c_str()); }
 
 template <typename T, typename Value>
 void slide(bool changed, std::optional<T>& to, const Value& value) {
@@ -29,7 +32,8 @@ void drawNumbers(const PanelView& view) {
   line(fmt::format("{}x{}  {:.0f} ms  {}", shown.image->width, shown.image->height, double(last),
                    shown.frame.moving ? (step.empty() ? "moving" : "moving: " + step) : "resting"));
   ImGui::PlotLines("##times", view.frameTimes.data(), static_cast<int>(view.frameTimes.size()), 0,
-                   nullptr, 0, 4 * view.target, ImVec2(ImGui::GetContentRegionAvail().x, 48));
+                   nullptr, 0, 4 * view.target,
+                   ImVec2(ImGui::GetContentRegionAvail().x, scaled(48)));
   line(fmt::format("{:.2f} Mrays/s   {:.0f} tasks/s", 1e-6 * view.raysPerSecond,
                    view.tasksPerSecond));
   if (!shown.frame.moving)
@@ -37,12 +41,15 @@ void drawNumbers(const PanelView& view) {
              ? fmt::format("{} frame", shown.frames)
              : fmt::format("{} frames   error {:.2f} %", shown.frames, 100 * shown.relativeError));
   line(fmt::format("flying {:.2f} m/s", view.speed));
+  const auto stuck = std::ranges::count_if(view.clients, &ClientInfo::isStuck);
+  if (stuck > 0) line(fmt::format("{} client(s) stuck: see Clients", stuck));
 }
 
 void drawClients(const PanelView& view) {
   if (!ImGui::CollapsingHeader("Clients")) return;
   for (const ClientInfo& client : view.clients) {
-    std::string text = fmt::format("{} {}", client.name, nameOf(client.status.state));
+    std::string text =
+        fmt::format("{} {}", client.name, client.isStuck() ? "stuck" : nameOf(client.status.state));
     if (client.status.state == ClientState::syncing)
       text += fmt::format(" {:.0f} %", 100 * client.status.synced);
     if (client.work)
@@ -87,7 +94,9 @@ void drawPicture(const PanelView& view, PanelChanges& changes) {
   if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
   drawViews(view, changes);
   float exposure = view.exposure, target = view.target;
+  bool automatic = view.autoExposure;
   slide(ImGui::SliderFloat("exposure", &exposure, -8, 8, "%.1f EV"), changes.exposure, exposure);
+  slide(ImGui::Checkbox("auto exposure", &automatic), changes.autoExposure, automatic);
   slide(ImGui::SliderFloat("frame in motion", &target, 20, 500, "%.0f ms"), changes.target, target);
   float fov = view.settings.camera.verticalFov * 180 / kPi;
   slide(ImGui::SliderFloat("field of view", &fov, 5, 120, "%.0f deg"), changes.verticalFov,
@@ -154,11 +163,15 @@ void drawThing(const PanelView& view, PanelChanges& changes) {
 
 PanelChanges drawPanel(const PanelView& view) {
   PanelChanges changes;
-  ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize(ImVec2(290, 0), ImGuiCond_FirstUseEver);
+  const float margin = scaled(kPanelMargin), width = scaled(kPanelWidth);
+  ImGui::SetNextWindowPos(ImVec2(margin, margin));
+  ImGui::SetNextWindowSize(ImVec2(width, 0));
+  ImGui::SetNextWindowSizeConstraints(
+      ImVec2(width, 0), ImVec2(width, std::max(1.0f, ImGui::GetIO().DisplaySize.y - 2 * margin)));
+  ImGui::SetNextWindowCollapsed(view.folded, ImGuiCond_Once);
   ImGui::SetNextWindowBgAlpha(0.75f);
-  if (ImGui::Begin("ninefold", nullptr, ImGuiWindowFlags_AlwaysAutoResize)) {
-    ImGui::PushItemWidth(140);
+  if (ImGui::Begin("ninefold", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize)) {
+    ImGui::PushItemWidth(scaled(130));
     drawNumbers(view);
     drawClients(view);
     if (ImGui::CollapsingHeader("Needs"))
@@ -168,18 +181,9 @@ PanelChanges drawPanel(const PanelView& view) {
     drawThing(view, changes);
     ImGui::PopItemWidth();
   }
-  ImGui::End();
+  changes.folded = ImGui::IsWindowCollapsed();
+  changes.area = endDrawn();
   return changes;
-}
-
-void drawProgress(const std::string& state, double done) {
-  const ImVec2 middle(ImGui::GetIO().DisplaySize.x / 2, ImGui::GetIO().DisplaySize.y / 2);
-  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-  ImGui::SetNextWindowSize(ImVec2(360, 0));
-  ImGui::Begin("##progress", nullptr, ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs);
-  line(state);
-  ImGui::ProgressBar(static_cast<float>(done), ImVec2(-1, 0));
-  ImGui::End();
 }
 
 }  // namespace ninefold

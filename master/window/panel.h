@@ -1,5 +1,5 @@
-// panel.h: what lies over the picture: numbers, sliders, clients, the selected thing. Drawn anew for
-// each frame of the window from values, and gives values back; it decides nothing.
+// panel.h: what lies beside the picture: numbers, sliders, clients, the selected thing. It folds to its title.
+// Drawn anew for each frame of the window from values, and gives values back; it decides nothing.
 // Threads: the main thread, between Window::beginFrame and endFrame.
 #pragma once
 
@@ -9,6 +9,7 @@
 
 #include "common/scene/edit.h"
 #include "master/live_run.h"
+#include "master/window_layout.h"
 
 namespace ninefold {
 
@@ -31,6 +32,7 @@ struct PanelView {
   Settings settings;
   PictureView view = PictureView::beauty;
   float exposure = 0;
+  bool autoExposure = false;
   float target = 100;  // frame time in motion [ms]
   double speed = 0;    // of flying [m/s]
   std::optional<Selection> selection;
@@ -40,12 +42,14 @@ struct PanelView {
   std::vector<std::string> cameras;
   bool recording = false;
   std::optional<bool> playing;  // if there is a script or an animation
+  bool folded = false;          // when it is drawn first
 };
 
 struct PanelChanges {
   std::optional<Settings> settings;
   std::optional<PictureView> view;
   std::optional<float> exposure, target;
+  std::optional<bool> autoExposure;
   std::optional<float> verticalFov;
   std::optional<MaterialEdit> material;
   std::optional<LightEdit> light;
@@ -55,11 +59,10 @@ struct PanelChanges {
   bool undo = false, redo = false;
   bool saveView = false, togglePlay = false;
   bool sliderReleased = false;  // the next edit is another action
+  bool folded = false;          // to its title
+  WindowArea area;              // that it takes
 };
 
 PanelChanges drawPanel(const PanelView& view);
-
-// A bar in the middle while there is no picture.
-void drawProgress(const std::string& state, double done);
 
 }  // namespace ninefold

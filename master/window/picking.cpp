@@ -16,15 +16,15 @@ size_t pixelAt(const LiveImage& image, Vec2 film) {
 }  // namespace
 
 std::optional<uint32_t> instanceAt(const Shown& shown, Vec2 film) {
-  const uint32_t object = shown.image->objects[pixelAt(*shown.image, film)];
+  const uint32_t object = shown.image->picks->objects[pixelAt(*shown.image, film)];
   if (object == 0) return std::nullopt;
   return object - 1;
 }
 
 std::optional<Vec3> pointAt(const Shown& shown, Vec2 film) {
   const LiveImage& image = *shown.image;
-  if (image.depth.empty()) return std::nullopt;
-  const float depth = image.depth[pixelAt(image, film)];
+  if (image.picks == nullptr) return std::nullopt;
+  const float depth = image.picks->depth[pixelAt(image, film)];
   if (!(depth > 0)) return std::nullopt;
   const Camera& camera = shown.frame.order.settings.camera;
   const CameraRays rays(camera, image.width, image.height);
@@ -35,9 +35,10 @@ std::optional<Vec3> pointAt(const Shown& shown, Vec2 film) {
 void drawOutline(const Shown& shown, const Scene& scene, const Selection& selection,
                  std::vector<uint8_t>& rgb) {
   const LiveImage& image = *shown.image;
-  if (image.objects.empty()) return;
+  if (image.picks == nullptr) return;
+  const std::vector<uint32_t>& objects = image.picks->objects;
   const auto isSelected = [&](int x, int y) {
-    const uint32_t object = image.objects[image.at(x, y)];
+    const uint32_t object = objects[image.at(x, y)];
     return object != 0 && scene.instances[object - 1].node == selection.node;
   };
   const auto touchesSelected = [&](int x, int y) {

@@ -1,5 +1,5 @@
-// picking.h: what a shown frame says of a place in it. A frame carries objects and depth when they were
-// asked for (LiveRun::wantObjects); one without them says nothing.
+// picking.h: what a shown picture says of a place in it. At rest it knows, in motion if it was asked for
+// (LiveRun::wantPicks); one that does not know says nothing.
 //
 // Film positions count pixels of the shown image from its upper left corner. Threads: pure functions.
 // Errors:  none.
@@ -13,7 +13,7 @@
 
 namespace ninefold {
 
-// The instance seen at a film position; none where nothing was hit. shown.image->objects is not empty.
+// The instance seen at a film position; none where nothing was hit. Needs shown.image->picks.
 std::optional<uint32_t> instanceAt(const Shown& shown, Vec2 film);
 
 // The first hit there, in world space [m].

@@ -1,5 +1,7 @@
 #include "master/window/picture_board.h"
 
+#include <filesystem>
+
 #include "common/base/log.h"
 #include "common/image/image_file.h"
 #include "master/window/picking.h"
@@ -9,6 +11,15 @@ namespace {
 
 constexpr size_t kTimesShown = 120;
 constexpr double kRatesEvery = 0.5;  // [s]
+
+// The next one that no file has.
+std::string freeName(const char* name, int& number, const std::string& extension) {
+  std::error_code ignored;
+  std::string path;
+  do path = fmt::format("{}.{:04}.{}", name, ++number, extension);
+  while (std::filesystem::exists(path, ignored));
+  return path;
+}
 
 }  // namespace
 
@@ -65,13 +76,13 @@ void PictureBoard::save(const std::string& extension) {
     waiting_ = extension;
     return;
   }
-  const std::string path = recording_ ? fmt::format("record.{:04}.{}", ++recorded_, extension)
-                                      : fmt::format("ninefold.{:04}.{}", ++saved_, extension);
+  const std::string path = recording_ ? freeName("record", recorded_, extension)
+                                      : freeName("ninefold", saved_, extension);
   try {
     write(path);
-    log("picture in {}", path);
+    notice_.say("picture in " + std::filesystem::absolute(path).string());
   } catch (const Error& error) {
-    warn("{}", error.what());
+    notice_.complain(error.what());
     recording_ = false;
   }
 }

@@ -1,7 +1,7 @@
 // picture_board.h: the latest picture of a session: on the window, in files, and in the panel's numbers.
 //
 // Pictures come tone mapped; only when the exposure changes while one is shown it is mapped anew. Files are
-// ninefold.NNNN and, while it records, record.NNNN in the working folder.
+// ninefold.NNNN and, while it records, record.NNNN in the working folder, with numbers that no file has.
 // Threads: the main thread. Errors: what cannot be written is told in one line, and ends a recording.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "master/live_run.h"
+#include "master/notice.h"
 #include "master/window/panel.h"
 #include "master/window/window.h"
 
@@ -18,7 +19,7 @@ namespace ninefold {
 
 class PictureBoard {
  public:
-  explicit PictureBoard(float exposure) : exposure_(exposure) {}
+  PictureBoard(float exposure, Notice& notice) : notice_(notice), exposure_(exposure) {}
 
   // The run's latest picture; `tasks`: that the cluster has done so far. False if it is known.
   bool take(const std::shared_ptr<const Shown>& latest, uint64_t tasks);
@@ -39,6 +40,7 @@ class PictureBoard {
   float exposureShown() const;
   const DisplayImage& display();
 
+  Notice& notice_;
   std::shared_ptr<const Shown> shown_;
   float exposure_;
   struct Drawn {

@@ -1,14 +1,18 @@
 #include "master/window/session.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "common/base/log.h"
-#include "common/image/image_file.h"
+#include "common/image/auto_exposure.h"
 #include "common/scene/camera_choice.h"
-#include "common/scene/gltf_writer.h"
 #include "master/cluster_setup.h"
 #include "master/headless.h"
+#include "master/invitation.h"
+#include "master/output_files.h"
 #include "master/script_run.h"
+#include "master/stats.h"
+#include "master/window/overlays.h"
 
 namespace ninefold {
 namespace {
@@ -26,15 +30,24 @@ std::string progressOf(const Cluster& cluster, double& done) {
 
 }  // namespace
 
-WindowSession::WindowSession(const Options& options, Window& window)
+WindowSession::WindowSession(const Options& options, Window& window, const WindowMemory& memory)
     : options_(options),
       window_(window),
       loading_(std::async(std::launch::async, [&options] { return makeJob(options); })),
       input_(Clock::now()),
-      board_(options.exposure),
+      board_(options.exposure.value_or(0), notice_),
+      saving_(
+          options.scene, [this] { return sceneNow(); },
+          [this] {
+            editor_->setSaved();
+            savedCameras_ = cameras_.size();
+          },
+          notice_),
       latency_(Clock::now()),
       view_(options.view),
-      target_(static_cast<float>(options.frameTime)) {}
+      target_(static_cast<float>(options.frameTime)),
+      autoExposure_(options.autoExposure),
+      memory_(memory) {}
 
 WindowSession::~WindowSession() = default;
 
@@ -60,9 +73,12 @@ bool WindowSession::load() {
 
 void WindowSession::start() {
   cameras_ = job_->scene->cameras;
+  savedCameras_ = cameras_.size();
+  board_.expose(job_->exposure);
   camera_ = std::make_unique<CameraControl>(job_->settings.camera, job_->scene->bounds);
-  const LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure(),
-                           wantsCodesOnly(options_)};
+  LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure(),
+                     wantsCodesOnly(options_)};
+  pace.person = true;
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
                                     [this](const std::shared_ptr<const Shown>& shown) {
                                       const std::lock_guard lock(latencyMutex_);
@@ -91,6 +107,7 @@ void WindowSession::step() {
     takePicture();
   }
   redraw();
+  tellTitle();
 }
 
 // From the first picture on: before, there is nobody to see it.
@@ -105,25 +122,55 @@ void WindowSession::play() {
 void WindowSession::takePicture() {
   const std::shared_ptr<const Shown> latest = live_->shown();
   if (board_.take(latest, live_->cluster().tally().tasks.accepted)) {
-    window_.setTitle(latest->frame.moving ? "ninefold: moving"
-                                          : fmt::format("ninefold: {} frame(s)", latest->frames));
     editor_->look(*latest);
+    if (autoExposure_) exposeByPicture();
   }
   board_.draw(*job_->scene, editor_->selection(), window_);
 }
 
+// How far the picture is, of which scene, and whether that has changes (*) that no file has.
+void WindowSession::tellTitle() {
+  std::string title = "ninefold";
+  if (const Shown* shown = board_.shown())
+    title += shown->frame.moving
+                 ? ": moving"
+                 : fmt::format(": {} frame{}", shown->frames, shown->frames == 1 ? "" : "s");
+  title += " - " + std::filesystem::path(options_.scene).filename().string();
+  if (editor_ && (!editor_->isSaved() || savedCameras_ != cameras_.size())) title += "*";
+  if (title != std::exchange(title_, title)) window_.setTitle(title);
+}
+
 void WindowSession::redraw() {
-  window_.beginFrame();
+  window_.beginFrame(column_);
   if (!live_) {
     drawProgress("reading " + options_.scene, 0.05);
   } else if (board_.shown() == nullptr) {
     double done = 0;
     const std::string state = progressOf(live_->cluster(), done);
     drawProgress(state, done);
-  } else if (panel_) {
-    apply(drawPanel(panelView()));
+  } else {
+    drawPanelAndOverlays();
   }
+  if (keys_) {
+    WindowArea area;
+    keys_ = drawKeys(area);
+    window_.cover(area);
+  }
+  if (const auto notice = notice_.text(Clock::now())) drawNotice(*notice);
+  window_.size(memory_.width, memory_.height);
   window_.endFrame();
+}
+
+void WindowSession::drawPanelAndOverlays() {
+  column_ = 0;
+  if (panel_) {
+    const PanelChanges changes = drawPanel(panelView());
+    window_.cover(changes.area);
+    memory_.folded = changes.folded;
+    if (!changes.folded) column_ = changes.area.high.x + changes.area.low.x;
+    apply(changes);
+  }
+  saving_.draw(window_);
 }
 
 void WindowSession::carryOut(const Command& command) {
@@ -145,6 +192,7 @@ void WindowSession::carryOut(const Command& command) {
     case Kind::view:
       return show(command.view);
     case Kind::exposure:
+      autoExposure_ = false;
       return expose(board_.exposure() + command.amount);
     case Kind::reset:
       return camera_->reset();
@@ -168,10 +216,13 @@ void WindowSession::carryOut(const Command& command) {
     case Kind::togglePanel:
       panel_ = !panel_;
       return;
+    case Kind::toggleKeys:
+      keys_ = !keys_;
+      return;
     case Kind::close:
       return window_.close();
     case Kind::saveScene:
-      return saveScene();
+      return saving_.save();
     case Kind::frameSelection:
       return camera_->frame(editor_->boundsOfSelection());
   }
@@ -186,6 +237,8 @@ PanelView WindowSession::panelView() const {
   view.needs = describe(live_->needs());
   view.settings = live_->settings();
   view.view = view_;
+  view.autoExposure = autoExposure_;
+  view.folded = memory_.folded;
   view.target = target_;
   view.speed = camera_->speed();
   for (const Camera& camera : cameras_) view.cameras.push_back(camera.name);
@@ -197,7 +250,12 @@ void WindowSession::apply(const PanelChanges& changes) {
   editor_->take(changes);
   if (changes.settings) live_->setSettings(*changes.settings);
   if (changes.view) show(*changes.view);
-  if (changes.exposure) expose(*changes.exposure);
+  if (changes.autoExposure) autoExposure_ = *changes.autoExposure;
+  if (changes.autoExposure && autoExposure_) exposeByPicture();
+  if (changes.exposure) {
+    autoExposure_ = false;
+    expose(*changes.exposure);
+  }
   if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
   if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
   if (changes.camera) camera_->go(cameras_[*changes.camera]);
@@ -205,7 +263,7 @@ void WindowSession::apply(const PanelChanges& changes) {
   if (changes.togglePlay) playback_->toggle();
   if (changes.savePng) board_.save("png");
   if (changes.saveExr) board_.save("exr");
-  if (changes.saveScene) saveScene();
+  if (changes.saveScene) saving_.save();
   if (changes.record) board_.toggleRecording();
 }
 
@@ -213,6 +271,13 @@ void WindowSession::expose(float wanted) {
   const float exposure = std::clamp(wanted, -kMostExposure, kMostExposure);
   board_.expose(exposure);
   live_->setExposure(exposure);
+}
+
+// Of light at rest; what moves, and what is no light, leaves it as it was.
+void WindowSession::exposeByPicture() {
+  const Shown* shown = board_.shown();
+  if (shown == nullptr || shown->frame.moving || !isLight(shown->view)) return;
+  if (shown->image->radiance.count() > 0) expose(autoExposure(shown->image->radiance));
 }
 
 // One more camera, in the panel, under C, and in scenes that are saved.
@@ -223,20 +288,14 @@ void WindowSession::keepView() {
   };
   for (int i = 1; camera.name.empty() || isTaken(camera.name); ++i)
     camera.name = fmt::format("view {}", i);
-  log("{}: --camera {}", camera.name, specOf(*job_->scene, camera));
+  notice_.say(fmt::format("{}: --camera {}", camera.name, specOf(*job_->scene, camera)));
   cameras_.push_back(std::move(camera));
 }
 
-void WindowSession::saveScene() {
-  const std::string path = fmt::format("edited.{:04}.glb", ++saved_);
+Scene WindowSession::sceneNow() const {
   Scene scene = editor_->scene();
   scene.cameras = cameras_;
-  try {
-    writeGltf(path, scene);
-    log("the edited scene is in {}", path);
-  } catch (const Error& error) {
-    warn("{}", error.what());
-  }
+  return scene;
 }
 
 void WindowSession::writeLast() {
@@ -245,23 +304,31 @@ void WindowSession::writeLast() {
     log("{} frame(s) in {}", board_.shown()->frames, *options_.output);
   }
   const std::lock_guard lock(latencyMutex_);
-  if (options_.stats) latency_.write(*options_.stats, options_.scene);
+  if (options_.stats)
+    writeStats(*options_.stats, latency_.json(options_.scene, live_->cluster().tally()));
 }
 
 int runWindow(const Options& options) {
-  if (options.output) checkOutputPath(*options.output);
+  checkGuests(options);
+  checkFiles(options);
+  const auto memoryAt = memoryFile(processVariable);
+  const WindowMemory memory = memoryAt ? recall(*memoryAt) : WindowMemory{};
   std::optional<Window> window;
   try {
-    const int height = std::max(480, options.settings.height);
-    window.emplace("ninefold", std::max(720, options.settings.width), height);
+    window.emplace("ninefold", options.settings.width, options.settings.height, memory);
   } catch (const NoDisplay& none) {
+    if (!options.output)
+      fail("{}; start from a desktop, or give --output FILE to render without a window",
+           none.what());
     warn("{}; going on without a window", none.what());
     Options headless = options;
     headless.window = false;
     return isLive(headless) ? runScript(headless) : runHeadless(headless);
   }
-  WindowSession session(options, *window);
-  return session.run();
+  WindowSession session(options, *window, memory);
+  const int status = session.run();
+  if (memoryAt) remember(session.memory(), *memoryAt);
+  return status;
 }
 
 }  // namespace ninefold

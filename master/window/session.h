@@ -14,17 +14,19 @@
 #include "master/playback.h"
 #include "master/window/editor.h"
 #include "master/window/picture_board.h"
+#include "master/window/save_dialog.h"
 #include "master/window_input.h"
 
 namespace ninefold {
 
 class WindowSession {
  public:
-  WindowSession(const Options& options, Window& window);
+  WindowSession(const Options& options, Window& window, const WindowMemory& memory);
   ~WindowSession();
 
   // Until the window is closed; the exit status as of runHeadless.
   int run();
+  const WindowMemory& memory() const { return memory_; }  // for the next session
 
  private:
   bool load();  // true once the scene is there
@@ -40,14 +42,19 @@ class WindowSession {
   PanelView panelView() const;
   void show(PictureView view) { live_->setView(view_ = view); }
   void expose(float exposure);
+  void exposeByPicture();
   void keepView();
-  void saveScene();
+  Scene sceneNow() const;
+  void tellTitle();
+  void drawPanelAndOverlays();
 
   const Options& options_;
   Window& window_;
   std::future<Job> loading_;
   WindowInput input_;
+  Notice notice_;
   PictureBoard board_;
+  SaveDialog saving_;
   std::mutex latencyMutex_;
   LatencyLog latency_;  // of all frames, if somebody wants it; guarded by latencyMutex_
 
@@ -59,12 +66,16 @@ class WindowSession {
   std::optional<Playback> playback_;
   Time played_{};                // up to now
   std::vector<Camera> cameras_;  // the scene's, and those that were kept
+  size_t savedCameras_ = 0;      // of them, in the file
 
   PictureView view_ = PictureView::beauty;
   float target_ = 100;  // of frames in motion [ms]
-  bool panel_ = true;
+  bool autoExposure_ = false;
+  bool panel_ = true, keys_ = false;
+  WindowMemory memory_;
+  float column_ = 0;  // that the panel takes [screen units]
+  std::string title_;
   size_t nextCamera_ = 1;
-  int saved_ = 0;  // scenes
 };
 
 // --window: opens the window, or says why not and runs without one.

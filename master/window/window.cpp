@@ -7,6 +7,7 @@
 #include <imgui.h>
 // clang-format on
 
+#include <algorithm>
 #include <utility>
 
 namespace ninefold {
@@ -22,6 +23,17 @@ constexpr float kFontSize = 15;  // [screen units]
                               description != nullptr ? description : "no display is there"));
 }
 
+ScreenSpace screen() {
+  ScreenSpace space;
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  if (monitor == nullptr) return space;
+  int x = 0, y = 0;
+  float scaleY = 1;
+  glfwGetMonitorWorkarea(monitor, &x, &y, &space.width, &space.height);
+  glfwGetMonitorContentScale(monitor, &space.scale, &scaleY);
+  return space;
+}
+
 void setUpStyle(GLFWwindow* window) {
   float scaleX = 1, scaleY = 1;
   glfwGetWindowContentScale(window, &scaleX, &scaleY);
@@ -31,19 +43,20 @@ void setUpStyle(GLFWwindow* window) {
   ImFontConfig font;
   font.SizePixels = kFontSize * scaleX;
   ImGui::GetIO().Fonts->AddFontDefault(&font);
-  ImGui::GetIO().IniFilename = nullptr;  // leave no file behind
+  ImGui::GetIO().IniFilename = nullptr;  // see window_memory.h
 }
 
 }  // namespace
 
-Window::Window(const std::string& title, int width, int height) {
+Window::Window(const std::string& title, int pictureWidth, int pictureHeight,
+               const WindowMemory& memory) {
   if (glfwInit() != GLFW_TRUE) failWithoutDisplay();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  const WindowSize size = firstSize(pictureWidth, pictureHeight, memory, screen());
+  window_ = glfwCreateWindow(size.width, size.height, title.c_str(), nullptr, nullptr);
   if (window_ == nullptr) failWithoutDisplay();
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
@@ -52,7 +65,11 @@ Window::Window(const std::string& title, int width, int height) {
   glfwSetMouseButtonCallback(window_, onButton);
   glfwSetCursorPosCallback(window_, onMove);
   glfwSetScrollCallback(window_, onScroll);
+  glfwSetCharCallback(window_, onText);
   glfwSetWindowFocusCallback(window_, onFocus);
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  pointer_ = Vec2(static_cast<float>(x), static_cast<float>(y));
   ImGui::CreateContext();
   setUpStyle(window_);
   ImGui_ImplGlfw_InitForOpenGL(window_, true);  // calls ours after its own
@@ -81,13 +98,17 @@ Window& Window::of(GLFWwindow* window) {
 }
 
 void Window::push(WindowEvent event, int modifiers) {
-  double x = 0, y = 0;
-  glfwGetCursorPos(window_, &x, &y);
-  event.pointer = Vec2(static_cast<float>(x), static_cast<float>(y));
+  event.pointer = pointer_;  // not where it is by now
   event.time = Clock::now();
   event.modifiers = {(modifiers & GLFW_MOD_SHIFT) != 0, (modifiers & GLFW_MOD_CONTROL) != 0,
                      (modifiers & GLFW_MOD_ALT) != 0};
   events_.push_back(event);
+}
+
+bool Window::isCovered() const {
+  return popup_ || std::ranges::any_of(covered_, [this](const WindowArea& area) {
+           return area.contains(pointer_);
+         });
 }
 
 // What begins on the panel is the panel's; what ends is told always, so that nothing stays held.
@@ -99,9 +120,18 @@ void Window::onKey(GLFWwindow* window, int key, int, int action, int modifiers) 
   of(window).push(event, modifiers);
 }
 
+// Of what is typed only '?' is a command: on which key it lies is the keyboard's business.
+void Window::onText(GLFWwindow* window, unsigned character) {
+  if (character != '?' || ImGui::GetIO().WantCaptureKeyboard) return;
+  WindowEvent event;
+  event.kind = WindowEvent::Kind::keyDown;
+  event.key = '?';
+  of(window).push(event, 0);
+}
+
 void Window::onButton(GLFWwindow* window, int button, int action, int modifiers) {
   if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;
-  if (action == GLFW_PRESS && ImGui::GetIO().WantCaptureMouse) return;
+  if (action == GLFW_PRESS && of(window).isCovered()) return;
   WindowEvent event;
   event.kind = action == GLFW_PRESS ? WindowEvent::Kind::buttonDown : WindowEvent::Kind::buttonUp;
   event.button = button == GLFW_MOUSE_BUTTON_LEFT    ? Button::left
@@ -110,10 +140,13 @@ void Window::onButton(GLFWwindow* window, int button, int action, int modifiers)
   of(window).push(event, modifiers);
 }
 
-void Window::onMove(GLFWwindow* window, double, double) { of(window).push({}, 0); }
+void Window::onMove(GLFWwindow* window, double x, double y) {
+  of(window).pointer_ = Vec2(static_cast<float>(x), static_cast<float>(y));
+  of(window).push({}, 0);
+}
 
 void Window::onScroll(GLFWwindow* window, double, double y) {
-  if (ImGui::GetIO().WantCaptureMouse) return;
+  if (of(window).isCovered()) return;
   WindowEvent event;
   event.kind = WindowEvent::Kind::scroll;
   event.notches = static_cast<float>(y);
@@ -141,16 +174,16 @@ void Window::setPicture(const DisplayImage& picture) {
 }
 
 WindowArea Window::pictureArea() const {
-  int windowWidth = 0, windowHeight = 0;
-  glfwGetWindowSize(window_, &windowWidth, &windowHeight);
-  const Vec2 window(static_cast<float>(windowWidth), static_cast<float>(windowHeight));
-  if (width_ == 0) return {Vec2(0), window};
-  const Vec2 picture(static_cast<float>(width_), static_cast<float>(height_));
-  const Vec2 size = std::min(window.x / picture.x, window.y / picture.y) * picture;
-  return {0.5f * (window - size), 0.5f * (window + size)};
+  int width = 0, height = 0;
+  size(width, height);
+  return areaOfPicture({width, height}, column_, {width_, height_});
 }
 
-void Window::beginFrame() {
+void Window::size(int& width, int& height) const { glfwGetWindowSize(window_, &width, &height); }
+
+void Window::beginFrame(float column) {
+  column_ = column;
+  covered_.clear();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
@@ -162,6 +195,7 @@ void Window::beginFrame() {
 }
 
 void Window::endFrame() {
+  popup_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
   ImGui::Render();
   int width = 0, height = 0;
   glfwGetFramebufferSize(window_, &width, &height);

@@ -1,8 +1,10 @@
 // window.h: a window with one picture and an immediate-mode panel over it. GLFW for window and
 // events, OpenGL 3.3 and Dear ImGui for what is in it.
 //
-// The picture keeps its proportions and is as large as fits; the window's pixel density is the
-// screen's. What ImGui wants for itself (a click on the panel, typing into it) makes no event.
+// The picture keeps its proportions and is as large as fits beside the panel, or under it where less than half
+// of the window would be left; the window's pixel density is the screen's. What belongs to the panel makes
+// no event: a press over it as it was last drawn (ImGui itself learns only with its next frame where the
+// pointer is), and keys while it is typed into.
 //
 // Threads: the main thread, wake() excepted. Owner: at most one at a time.
 // Errors: the constructor throws NoDisplay with one line.
@@ -16,6 +18,7 @@
 #include "common/base/error.h"
 #include "common/image/tone_map.h"
 #include "master/window_events.h"
+#include "master/window_layout.h"
 
 struct GLFWwindow;
 
@@ -26,19 +29,11 @@ class NoDisplay : public Error {
   using Error::Error;
 };
 
-// A rectangle of the window [screen units].
-struct WindowArea {
-  Vec2 low{0}, high{0};
-  // As shares of its width and height, y downwards.
-  Vec2 share(Vec2 p) const { return (p - low) / (high - low); }
-  bool contains(Vec2 p) const {
-    return p.x >= low.x && p.x < high.x && p.y >= low.y && p.y < high.y;
-  }
-};
-
 class Window {
  public:
-  Window(const std::string& title, int width, int height);
+  // Of the remembered size, else one at which a picture of that size and a panel fit, as far as the
+  // screen goes.
+  Window(const std::string& title, int pictureWidth, int pictureHeight, const WindowMemory& memory);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -53,23 +48,32 @@ class Window {
 
   void setPicture(const DisplayImage& picture);  // from now on
   WindowArea pictureArea() const;
+  void size(int& width, int& height) const;  // [screen units]
 
-  // What is drawn with ImGui between the two is in the window afterwards.
-  void beginFrame();
+  // What is drawn with ImGui between the two is in the window afterwards; cover() tells where that takes the
+  // pointer. The picture is drawn right of `column`.
+  void beginFrame(float column);
+  void cover(const WindowArea& area) { covered_.push_back(area); }
   void endFrame();
 
  private:
   static void onKey(GLFWwindow*, int key, int, int action, int modifiers);
+  static void onText(GLFWwindow*, unsigned character);
   static void onButton(GLFWwindow*, int button, int action, int modifiers);
   static void onMove(GLFWwindow*, double x, double y);
   static void onScroll(GLFWwindow*, double, double y);
   static void onFocus(GLFWwindow*, int focused);
   static Window& of(GLFWwindow* window);
   void push(WindowEvent event, int modifiers);
+  bool isCovered() const;
 
   GLFWwindow* window_ = nullptr;
   unsigned texture_ = 0;
   int width_ = 0, height_ = 0;  // of the picture; 0: none yet
+  float column_ = 0;            // left of the picture [screen units]
+  Vec2 pointer_{0};             // as of the latest event
+  std::vector<WindowArea> covered_;
+  bool popup_ = false;  // takes every press
   std::vector<WindowEvent> events_;
 };
 

@@ -1,6 +1,6 @@
 """Writes a scene as one glTF 2.0 binary.
 
-Layout of the binary chunk: positions, normals, texture coordinates, 16-bit indices, 32-bit indices
+Layout of the binary chunk: positions, normals, texture coordinates, 16-bit indices, 32-bit indices, motions
 (one view each, accessors side by side), then the images.
 """
 
@@ -15,7 +15,7 @@ _FLOAT, _USHORT, _UINT = 5126, 5123, 5125
 class _Views:
     """The binary chunk while it grows: named views, each a list of packed pieces."""
 
-    NAMES = ("positions", "normals", "uvs", "indices16", "indices32")
+    NAMES = ("positions", "normals", "uvs", "indices16", "indices32", "motions")
     STRIDE = {"positions": 12, "normals": 12, "uvs": 8}
 
     def __init__(self):
@@ -36,7 +36,8 @@ class _Views:
             if not self.pieces[name]:
                 continue
             view = {"buffer": 0, "byteOffset": len(chunk), "byteLength": len(self.pieces[name])}
-            view["target"] = 34963 if name.startswith("indices") else 34962
+            if name != "motions":
+                view["target"] = 34963 if name.startswith("indices") else 34962
             if name in self.STRIDE:
                 view["byteStride"] = self.STRIDE[name]
             index[name] = len(views)
@@ -162,6 +163,22 @@ def _nodes(scene, mesh_index):
     return nodes
 
 
+def _animation(document, scene):
+    """All motions as one animation. Node i + cameras is placement i."""
+    channels, samplers = [], []
+    for motion in scene.motions:
+        place = [p.name for p in scene.placements].index(motion.name)
+        at = scene.placements[place].at
+        flat = [x for offset in motion.offsets for x in _rounded([a + b for a, b in zip(at, offset)])]
+        span = {"min": [motion.times[0]], "max": [motion.times[-1]]}
+        times = document.accessor("motions", motion.times, "SCALAR", _FLOAT, **span)
+        places = document.accessor("motions", flat, "VEC3", _FLOAT)
+        target = {"node": len(scene.cameras) + place, "path": "translation"}
+        channels.append({"sampler": len(samplers), "target": target})
+        samplers.append({"input": times, "output": places, "interpolation": "LINEAR"})
+    return {"channels": channels, "samplers": samplers}
+
+
 def encode(scene):
     """The bytes of the .glb file."""
     document, meshes, mesh_index = _Document(), [], {}
@@ -170,6 +187,7 @@ def encode(scene):
             mesh_index[id(p.model)] = len(meshes)
             primitives = [document.primitive(m, mesh) for m, mesh in p.model.meshes.items()]
             meshes.append({"name": p.model.name, "primitives": primitives})
+    animation = _animation(document, scene)
     chunk, views, view_index = document.views.finish()
     for accessor in document.accessors:
         accessor["bufferView"] = view_index[accessor["bufferView"]]
@@ -187,6 +205,10 @@ def encode(scene):
         "bufferViews": views,
         "buffers": [{"byteLength": len(chunk)}],
     }
+    if scene.exposure:
+        content["scenes"][0]["extras"] = {"exposure": scene.exposure}
+    if scene.motions:
+        content["animations"] = [animation]
     if document.textures:
         content["samplers"] = [{"magFilter": 9729, "minFilter": 9987}]
         content["textures"] = [{"sampler": 0, "source": i} for i in range(len(document.textures))]

@@ -67,6 +67,7 @@ def laid_table(scene, x, z):
 
 def build():
     scene = Scene("invisible_date")
+    scene.exposure = -1  # else the ceiling, which the lamps shine on, is white
     sides = {"north": p.PLASTER, "south": p.PLASTER, "west": ROSE, "east": GREEN}
     scene.place(rooms.shell(-X, X, -Z, Z, HEIGHT, FLOOR, p.PLASTER, sides))
     scene.place(rooms.skirting(-X, X, -Z, Z, p.WHITE))

@@ -41,11 +41,22 @@ def _product(p, q):
     return (*w, p[3] * q[3] - vec.dot(u, v))
 
 
+@dataclass(frozen=True)
+class Motion:
+    """Of the placement of that name: at `times` [s] it is moved by `offsets` [m] from where it was placed."""
+
+    name: str
+    times: Tuple[float, ...]
+    offsets: Tuple[Tuple[float, float, float], ...]
+
+
 class Scene:
     def __init__(self, name):
         self.name = name
         self.placements = []
         self.cameras = []
+        self.motions = []
+        self.exposure = 0  # [EV] that suits the views
 
     def place(self, model, at=(0, 0, 0), turn=0, name=None, tilt=0, scale=1):
         """`turn` degrees about y (from +z towards +x), after `tilt` about x (+y towards +z)."""
@@ -53,6 +64,11 @@ class Scene:
         size = scale if isinstance(scale, tuple) else (scale, scale, scale)
         name = name or model.name
         self.placements.append(Placement(name, model, _round(at), _round(rotation), size))
+
+    def move(self, name, times, offsets):
+        """An animation, straight from one place to the next. It begins where the thing was placed."""
+        assert times[0] == 0 and offsets[0] == (0, 0, 0)
+        self.motions.append(Motion(name, tuple(times), tuple(offsets)))
 
     def camera(self, name, eye, target, fov):
         """`fov`: vertical, in degrees. The image is meant to be 4:3."""

@@ -1,5 +1,6 @@
 """A table under a lamp, a glass sphere on the table. The smallest scene: soft shadows, colour
-bleeding from two coloured walls, and the caustic of the sphere on the table."""
+bleeding from two coloured walls, and the caustic of the sphere on the table, on which it goes once round
+when the animation plays."""
 
 from . import palette as p
 from .curved import ball
@@ -81,6 +82,12 @@ def build():
     scene.place(books(), (-0.4, TABLE_TOP, -0.5), 24)
     scene.place(lamp(), (0, 2.34, -0.5))
     scene.place(framed_picture(p.LANDSCAPE, p.DARK_WOOD, 1.2, 0.8), (-0.1, 1.55, -2.4))
+    # Over the table's edge to the left and back, once round in four seconds.
+    scene.move(
+        "glass sphere",
+        (0, 1, 2, 3, 4),
+        ((0, 0, 0), (0.2, 0, 0.3), (-0.1, 0, 0.35), (-0.25, 0, 0.05), (0, 0, 0)),
+    )
     scene.camera("front", (0.15, 1.5, 2.25), (0.02, 0.88, -0.6), 52)
     scene.camera("sphere", (0.75, 1.25, 0.75), (0.15, 0.78, -0.4), 40)
     return scene

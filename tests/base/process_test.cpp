@@ -15,7 +15,7 @@ namespace {
 
 std::string waitForEnd(ChildProcess& child) {
   for (;;) {
-    if (const auto how = child.ended()) return *how;
+    if (const auto how = child.ended()) return how->text;
     std::this_thread::sleep_for(milliseconds(2));
   }
 }

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <random>
 
@@ -120,6 +121,27 @@ TEST_F(BlobCacheTest, StaysWithinItsBoundByForgettingWhatWasUsedLongestAgo) {
   EXPECT_TRUE(fs::exists(fileOf(blobs[0])));
   EXPECT_FALSE(fs::exists(fileOf(blobs[1])));
   EXPECT_TRUE(fs::exists(fileOf(blobs[2])));
+}
+
+// A folder that was taken away stands for a disk that is full or read-only.
+TEST_F(BlobCacheTest, AFolderThatTakesNothingIsToldOnceAndHarmsNothing) {
+  BlobCache cache(folder());
+  fs::remove_all(folder());
+  testing::internal::CaptureStderr();
+  for (const Blob& blob : blobs) cache.store(blob.info, blob.compressed);
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::ranges::count(said, '\n'), 1) << said;
+  EXPECT_NE(said.find("going on"), std::string::npos) << said;
+  EXPECT_EQ(cache.load(blobs[0].info), std::nullopt);
+}
+
+TEST_F(BlobCacheTest, ReplacesALinkInsteadOfFollowingIt) {
+  BlobCache cache(folder());
+  std::ofstream(base / "outside") << "private";
+  fs::create_symlink(base / "outside", fileOf(blobs[0]));
+  cache.store(blobs[0].info, blobs[0].compressed);
+  EXPECT_EQ(fs::file_size(base / "outside"), 7u);
+  EXPECT_TRUE(cache.load(blobs[0].info));
 }
 
 TEST_F(BlobCacheTest, DoesNotKeepWhatIsLargerThanItsBound) {

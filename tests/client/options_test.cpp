@@ -77,8 +77,11 @@ TEST(ClientOptions, ComplaintsNameTheFlag) {
 
 TEST(ClientOptions, HelpNamesEveryPublicFlagAndNoInternalOne) {
   EXPECT_TRUE(parse({"--help"}).help);
+  EXPECT_TRUE(parse({"-h"}).help);
+  EXPECT_TRUE(parse({"--version"}).version);
   const std::string help = helpText();
-  for (const char* flag : {"--master", "--key-file", "--threads", "--cache", "--isa", "--help"})
+  for (const char* flag : {"--master", "--key-file", "--threads", "--cache", "--isa", "--help",
+                           "--version", "Exit status: 0"})
     EXPECT_NE(help.find(flag), std::string::npos) << flag;
   EXPECT_EQ(help.find("--key-descriptor"), std::string::npos);
 }

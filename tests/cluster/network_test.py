@@ -180,12 +180,21 @@ class Lan(ClusterTest):
         for attempt in ("empty cache", "full cache"):
             master = self.master("--local-clients", 0, "--listen", "0.0.0.0:4700", "--key-file",
                                  "cluster.key", scene="table_room", frames=4, prefix=self.on(0))
-            master.waits_for("listening on")
-            client = self.client("10.77.0.1:4700", prefix=self.on(1), cache="cache")
+            typed = master.waits_for(r"--master (\S+) --key-file").group(1)
+            self.assertEqual(typed, "10.77.0.1:4700")
+            client = self.client(typed, prefix=self.on(1), cache="cache")
             stats = self.finish(master)
             self.assertEqual(client.ends(), 0, client.text)
             self.assertEqual(stats["image_hash"], here["image_hash"], attempt)
             self.assertTrue(any((self.folder / "cache").iterdir()))
+
+    def test_a_host_without_an_interface_says_that_nobody_can_come(self):
+        ip("-n", self.hosts[0], "link", "set", "lan", "down")
+        self.new_key()
+        master = self.master("--local-clients", 1, "--listen", "0.0.0.0:4700", "--key-file", "cluster.key", frames=1,
+                             prefix=self.on(0))
+        self.finish(master)
+        self.assertIn("no network interface is up", master.text)
 
     def test_a_slow_line_carries_fewer_bytes_and_the_same_picture(self):
         self.new_key()

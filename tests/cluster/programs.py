@@ -29,21 +29,23 @@ def eventually(condition, what):
 
 
 class Program:
-    """A running program whose standard error is collected line by line."""
+    """A running program whose standard error is collected line by line.
 
-    def __init__(self, command, cwd):
+    `more` goes to subprocess.Popen. With a standard error of the test's own nothing is collected."""
+
+    def __init__(self, command, cwd, **more):
         environment = {k: v for k, v in os.environ.items() if not k.startswith("NINEFOLD_")}
         environment["HOME"] = str(cwd)
         environment.pop("XDG_CACHE_HOME", None)
         self.lines = []
-        self.process = subprocess.Popen([str(c) for c in command], cwd=cwd, env=environment,
-                                        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                                        stderr=subprocess.PIPE, text=True, errors="replace")
+        streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}
+        self.process = subprocess.Popen([str(c) for c in command], cwd=cwd, env=environment, text=True,
+                                        errors="replace", **streams | more)
         self.reader = threading.Thread(target=self._read)
         self.reader.start()
 
     def _read(self):
-        for line in self.process.stderr:
+        for line in self.process.stderr or ():
             self.lines.append(line.rstrip("\n"))
 
     @property
@@ -86,7 +88,8 @@ class Program:
             self.process.kill()
             self.process.wait()
         self.reader.join()
-        self.process.stderr.close()
+        if self.process.stderr:
+            self.process.stderr.close()
 
 
 def is_running(pid):
@@ -107,18 +110,18 @@ class ClusterTest(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.runs = 0
 
-    def start(self, *command):
-        program = Program(command, self.folder)
+    def start(self, *command, **more):
+        program = Program(command, self.folder, **more)
         self.addCleanup(program.close)
         return program
 
-    def master(self, *options, scene="cornell", frames=8, prefix=()):
+    def master(self, *options, scene="cornell", frames=8, prefix=(), **more):
         """A master that writes out<N>.exr and stats<N>.json."""
         self.runs += 1
         limit = ["--frames", frames] if frames else []
         program = self.start(*prefix, BIN / "ninefold-master", SCENES / f"{scene}.glb", "--size",
                              self.SIZE, *limit, "--output", f"out{self.runs}.exr", "--stats",
-                             f"stats{self.runs}.json", *options)
+                             f"stats{self.runs}.json", *options, **more)
         program.picture = self.folder / f"out{self.runs}.exr"
         program.stats_file = self.folder / f"stats{self.runs}.json"
         return program

@@ -37,7 +37,7 @@ class SameBytes(ClusterTest):
 
     def test_a_killed_client_does_not_show(self):
         undisturbed = self.render("--local-clients", 2, frames=self.LONG)
-        master = self.master("--local-clients", 2, frames=self.LONG)
+        master = self.master("--local-clients", 2, "--wait-clients", 2, frames=self.LONG)
         master.waits_for(r"client \d+ is ready(.|\n)*client \d+ is ready")
         victim = master.children()[0]
         self.send(victim, signal.SIGKILL)
@@ -47,7 +47,7 @@ class SameBytes(ClusterTest):
 
     def test_a_frozen_client_does_not_show_and_is_not_left_behind(self):
         undisturbed = self.render("--local-clients", 2, frames=self.LONG)
-        master = self.master("--local-clients", 2, frames=self.LONG)
+        master = self.master("--local-clients", 2, "--wait-clients", 2, frames=self.LONG)
         master.waits_for(r"client \d+ is ready(.|\n)*client \d+ is ready")
         clients = master.children()
         self.send(clients[1], signal.SIGSTOP)

@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   check(tile);
   // A decoded tile is an ordinary tile: it can be sent on, and loses nothing but its dither.
   const auto again = TileEncoder().encode(tile, 1, 1);
-  NINEFOLD_CHECK(again.replaced == 0);
+  NINEFOLD_CHECK(again.replaced.count == 0);
   decodeAll(again.bytes, shape);
   return 0;
 }

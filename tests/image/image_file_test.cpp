@@ -2,6 +2,8 @@
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <cmath>
@@ -136,6 +138,28 @@ TEST_F(ImageFile, ReplacesTheOldFileOrLeavesIt) {
   EXPECT_NE(errorOf([&] { writeImage(path("a.exr"), {RgbImage{}, {}, {}}); }), "");
   EXPECT_EQ(readImage(path("a.exr")).width, 3);
   EXPECT_EQ(files(), 1u);
+}
+
+// Whichever byte it is that does not fit, the library's last one at its close among them.
+TEST_F(ImageFile, ADiskThatIsFullLeavesTheOldFileAndIsToldInOneLine) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = ::signal(SIGXFSZ, SIG_IGN);
+  for (const char* name : {"a.png", "a.hdr", "a.exr"}) {
+    writeImage(path(name), {sample(), {}, {}});
+    const uintmax_t whole = fs::file_size(path(name));
+    std::ofstream(path(name)) << "old";
+    for (const uintmax_t room : {uintmax_t{0}, uintmax_t{20}, whole / 2, whole - 1}) {
+      const rlimit small{room, before.rlim_max};
+      ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+      const std::string line = errorOf([&] { writeImage(path(name), {sample(), {}, {}}); });
+      ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
+      EXPECT_EQ(line, "cannot write " + path(name) + ": File too large") << room;
+      EXPECT_EQ(fs::file_size(path(name)), 3u) << room;
+    }
+  }
+  ::signal(SIGXFSZ, handler);
+  EXPECT_EQ(files(), 3u);
 }
 
 TEST_F(ImageFile, RefusesPathsItCannotWriteInOneLine) {

@@ -200,5 +200,18 @@ TEST(CameraControl, ResetGoesHomeAndNonsenseIsIgnored) {
   EXPECT_LT(control.camera().verticalFov, 3.14f);
 }
 
+// A view that was kept, with any direction: going there from there changes no bit, so that nothing begins anew.
+TEST(CameraControl, GoingToWhereItIsChangesNothing) {
+  CameraControl control(home(), room());
+  for (int i = 0; i < 200; ++i) {
+    control.look(0.1 * i, 0.07 * (i % 5 - 2));
+    Camera kept = control.camera();
+    kept.name = "view 1";
+    control.go(kept);
+    kept.name.clear();
+    ASSERT_EQ(control.camera(), kept);
+  }
+}
+
 }  // namespace
 }  // namespace ninefold

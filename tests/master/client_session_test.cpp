@@ -215,6 +215,18 @@ TEST_F(ClientSessionTest, KnowsHowFarTheTransferIs) {
   EXPECT_EQ(s.status().state, ClientState::ready);
 }
 
+TEST_F(ClientSessionTest, TellsHowLongTheSceneTookToBuild) {
+  ClientSession s = session();
+  s.received(hello(), now);
+  s.received(msg::Progress{Phase::building, 0, 1}, now);
+  for (int i = 0; i < 40; ++i) s.received(msg::Progress{Phase::building, 0, 1}, now += seconds(1));
+  s.received(msg::Ready{JobOffer::kScene, kJob}, now += seconds(2));
+  auto actions = s.takeActions();
+  const auto joins = take<todo::Join>(actions);
+  ASSERT_EQ(joins.size(), 1u);
+  EXPECT_EQ(joins[0].sceneTime, seconds(42));
+}
+
 TEST_F(ClientSessionTest, NothingFollowsTheEnd) {
   ClientSession s = ready();
   s.expel("tile 3 cannot be decoded");

@@ -114,5 +114,30 @@ TEST(EditHistory, WhatChangesByAnUndoIsJustWhatTheActionTouched) {
   EXPECT_TRUE(back->objects.empty() && back->lights.empty());
 }
 
+// The number of the last action: undo brings back the one before, and another way on has another.
+TEST(EditHistory, TheRevisionTellsWhatIsSaved) {
+  auto scene = std::make_shared<Scene>();
+  scene->materials.resize(1);
+  SceneEdit edit;
+  edit.materials.push_back(editOfMaterial(*scene, 0));
+  EditHistory history(scene);
+  EXPECT_EQ(history.revision(), 0u);
+  for (uint64_t action = 1; action <= EditHistory::kMostActions + 5; ++action) {
+    history.apply(edit, action);
+    EXPECT_EQ(history.revision(), action);
+  }
+  history.undo();
+  EXPECT_EQ(history.revision(), EditHistory::kMostActions + 4);
+  history.redo();
+  EXPECT_EQ(history.revision(), EditHistory::kMostActions + 5);
+  while (history.undo()) {
+  }
+  EXPECT_EQ(history.revision(), 5u) << "the first that can be undone is the sixth";
+  history.follow(edit);
+  EXPECT_EQ(history.revision(), 5u) << "a script's doing is nobody's change";
+  history.apply(edit, 2000);
+  EXPECT_EQ(history.revision(), 2000u);
+}
+
 }  // namespace
 }  // namespace ninefold

@@ -5,17 +5,54 @@
 namespace ninefold {
 namespace {
 
-TEST(Invitation, NamesTheCommandForOtherMachines) {
+// What is to be typed, line by line.
+std::vector<std::string> commands(const Options& options, const Endpoint& at,
+                                  const std::vector<std::string>& addresses = {}) {
+  std::vector<std::string> found;
+  for (const std::string& line : invitation(options, at, addresses))
+    if (const size_t begin = line.find("ninefold-client"); begin != std::string::npos)
+      found.push_back(line.substr(begin));
+  return found;
+}
+
+using Lines = std::vector<std::string>;
+
+TEST(Invitation, NamesAnAddressThatWorksElsewhere) {
   Options options;
   options.keyFile = "cluster.key";
-  EXPECT_EQ(clientCommand(options, {"0.0.0.0", 4700}, "pc1"),
-            "ninefold-client --master pc1:4700 --key-file cluster.key");
-  EXPECT_EQ(clientCommand(options, {"10.0.0.1", 4700}, "pc1"),
-            "ninefold-client --master 10.0.0.1:4700 --key-file cluster.key");
-  EXPECT_EQ(clientCommand(options, {"fe80::1", 4700}, "pc1"),
-            "ninefold-client --master [fe80::1]:4700 --key-file cluster.key");
-  options.keyFile.reset();
-  EXPECT_EQ(clientCommand(options, {"127.0.0.1", 4700}, "pc1"), std::nullopt);
+  EXPECT_EQ(commands(options, {"10.0.0.1", 4700}, {"192.0.2.7"}),
+            Lines{"ninefold-client --master 10.0.0.1:4700 --key-file cluster.key"});
+  EXPECT_EQ(commands(options, {"fd00::1", 4700}),
+            Lines{"ninefold-client --master [fd00::1]:4700 --key-file cluster.key"});
+  EXPECT_EQ(commands(options, {"0.0.0.0", 4700}, {"192.0.2.7", "10.1.0.2"}),
+            (Lines{"ninefold-client --master 192.0.2.7:4700 --key-file cluster.key",
+                   "ninefold-client --master 10.1.0.2:4700 --key-file cluster.key"}));
+  EXPECT_EQ(commands(options, {"::", 4700}, {"192.0.2.7", "2001:db8::7"}),
+            (Lines{"ninefold-client --master 192.0.2.7:4700 --key-file cluster.key",
+                   "ninefold-client --master [2001:db8::7]:4700 --key-file cluster.key"}));
+}
+
+TEST(Invitation, SaysWhenNobodyElsewhereCanCome) {
+  Options options;
+  EXPECT_EQ(invitation(options, {"127.0.0.1", 4700}, {}), Lines{"listening on 127.0.0.1:4700"});
+  options.keyFile = "cluster.key";
+  const std::string alone = invitation(options, {"0.0.0.0", 4700}, {}).back();
+  EXPECT_NE(alone.find("no network interface is up"), std::string::npos) << alone;
+  EXPECT_NE(alone.find("--master 127.0.0.1:4700"), std::string::npos) << alone;
+  const std::string loopback = invitation(options, {"127.0.0.1", 4700}, {}).back();
+  EXPECT_NE(loopback.find("on this machine"), std::string::npos) << loopback;
+  EXPECT_NE(loopback.find("--listen 0.0.0.0:4700"), std::string::npos) << loopback;
+}
+
+// Numbers only: no name that another machine may understand otherwise, and nothing that ends at its reader.
+TEST(Invitation, AddressesAreThoseOfInterfacesAndNotLoopback) {
+  for (const char* any : {"0.0.0.0", "::"})
+    for (const std::string& address : addressesBehind(any)) {
+      EXPECT_FALSE(isLoopback(address)) << address;
+      EXPECT_FALSE(address.starts_with("fe80")) << address;
+      EXPECT_EQ(address.find_first_not_of("0123456789abcdef.:"), std::string::npos) << address;
+      EXPECT_TRUE(any == std::string("::") || address.find(':') == std::string::npos) << address;
+    }
 }
 
 TEST(Invitation, RefusesToWaitForClientsThatCannotCome) {

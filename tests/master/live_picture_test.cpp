@@ -122,7 +122,7 @@ class LivePictureTest : public testing::Test {
     return codes;
   }
 
-  LivePicture picture{kTest, 2, 1, true};
+  LivePicture picture{{kTest, 2, 1, true, true}};
 };
 
 constexpr PictureView kBeauty = PictureView::beauty;
@@ -218,6 +218,66 @@ TEST_F(LivePictureTest, RadianceOfClientsIsSummedUp) {
     EXPECT_TRUE(image->radiance == mean);
     EXPECT_TRUE(image->display == codesOf(mean, 0));
   }
+}
+
+// Sets are painted over frames 2 and 3; the light of all frames is there when it is looked at again.
+TEST_F(LivePictureTest, LightIsSummedUpWhateverIsShownOfIt) {
+  std::vector<GatheredFrame> frames;
+  for (uint32_t i = 0; i < 5; ++i) {
+    frames.push_back(frameOf(i, 200, 130));
+    const bool painted = i == 2 || i == 3;
+    const auto image = atRest(frames[i], i, {painted ? PictureView::sets : kBeauty, 0.0f});
+    EXPECT_EQ(image->radiance == expectedMean(frames), !painted);
+    EXPECT_EQ(picture.frames(), painted ? i - 1 : i + 1);
+  }
+  // What is painted is not mixed with what was painted before another view was chosen.
+  const Vec3 color = atRest(frameOf(5, 200, 130), 5, {PictureView::sets, 0.0f})->radiance.rgb(0);
+  EXPECT_EQ(color, colorOf(static_cast<uint32_t>(lightSetOfPhase(0, 0, 6))));
+  EXPECT_EQ(picture.frames(), 1);
+}
+
+// A frame may be given up with half of its tiles done, for another look, and begun anew.
+TEST_F(LivePictureTest, AFrameThatIsBegunAnewCountsOnce) {
+  std::vector<GatheredFrame> frames;
+  for (const uint32_t number : {0u, 1u}) frames.push_back(frameOf(number, 200, 130));
+  atRest(frames[0], 0, {kBeauty, 0.0f});
+  const std::vector<uint32_t> owners(frames[1].tasks.size());
+  LiveFrame plan;
+  plan.rested = 1;
+  for (const int tile : {0, 3})
+    picture.finishTile(0, frames[1], plan, {kBeauty, 0.0f}, owners, tile);
+  GatheredFrame again = frameOf(1, 200, 130);
+  again.view.key.frame = 2;
+  EXPECT_TRUE(atRest(again, 1, {kBeauty, 0.0f})->radiance == expectedMean(frames));
+}
+
+// Pick planes of the first frame hold for the rest; a frame in motion without them has none.
+TEST_F(LivePictureTest, WhatIsWhereHoldsForAllFramesOfARest) {
+  GatheredFrame first = frameOf(0, 100, 60);
+  first.view.shape.extraMask = kPickPlanes;
+  const TileGrid& grid = first.view.shape.grid;
+  for (int tile = 0; tile < grid.tiles(); ++tile)
+    for (int phase = 0; phase < grid.interleave().sets(); ++phase) {
+      const TaskRect rect = grid.rect(tile, phase);
+      TileResult task;
+      task.reset(rect.width, rect.height, kDiffuseBit, kPickPlanes);
+      for (size_t i = 0; i < task.extras.object.size(); ++i)
+        task.extras.object[i] = static_cast<uint32_t>(phase + 1), task.extras.depth[i] = 3;
+      first.tasks[static_cast<size_t>(tile * grid.interleave().sets() + phase)] =
+          TileDecoder().unpack(TileEncoder().encode(task, 1, 0).bytes,
+                               {rect.width, rect.height, kDiffuseBit, kPickPlanes});
+    }
+  const auto picks = atRest(first, 0, {kBeauty, 0.0f})->picks;
+  ASSERT_NE(picks, nullptr);
+  for (int phase = 0; phase < 6; ++phase) {
+    const size_t pixel = static_cast<size_t>(grid.pixelY(phase, 4)) * 100 +
+                         static_cast<size_t>(grid.pixelX(phase, 7));
+    EXPECT_EQ(picks->objects[pixel], static_cast<uint32_t>(phase + 1));
+    EXPECT_EQ(picks->depth[pixel], 3);
+  }
+  EXPECT_EQ(atRest(frameOf(1, 100, 60), 1, {kBeauty, 0.0f})->picks, picks);
+  EXPECT_EQ(inMotion(frameOf(2, 100, 60), {kBeauty, 0.0f})->picks, nullptr);
+  EXPECT_EQ(atRest(frameOf(3, 100, 60), 0, {kBeauty, 0.0f})->picks, nullptr);
 }
 
 TEST_F(LivePictureTest, TheErrorViewIsTheFilmsErrorOverItsMean) {

@@ -6,6 +6,8 @@
 #include <random>
 #include <set>
 
+#include "common/image/layers.h"
+
 namespace ninefold {
 namespace {
 
@@ -280,6 +282,93 @@ TEST_F(LivePlanTest, AStillHasAsManyFramesAsItShallHave) {
     EXPECT_EQ(done().rested, 1);
     EXPECT_FALSE(plan.next(now));
   }
+}
+
+TEST_F(LivePlanTest, WhatNobodyCanRenderAnyMoreIsShownByOtherFrames) {
+  done();
+  opened();  // the second at rest
+  EXPECT_EQ(plan.giveUp(), 2u);
+  const LiveFrame again = done();
+  EXPECT_EQ(again.order.key.frame, 2u);
+  EXPECT_EQ(again.rested, 0) << "the film begins anew";
+  moveTo(7);
+  const LiveFrame moving = opened();
+  EXPECT_EQ(plan.giveUp(), 4u);
+  EXPECT_FALSE(plan.completed(moving.order.key.frame, now));
+  const LiveFrame other = opened();
+  EXPECT_TRUE(other.moving);
+  EXPECT_EQ(other.order.settings.camera.eye.x, 7);
+  EXPECT_EQ(other.order.job, moving.order.job);
+}
+
+// A look at the same light: what is open is opened anew with it, from the first frame that is not complete.
+TEST_F(LivePlanTest, AnotherLookRestsOn) {
+  FramePlan headless(5 * 0.02f, 9, true);
+  for (int i = 0; i < 3; ++i) done(), headless.next();
+  const LiveFrame open = opened(), ahead = opened();
+  LiveState state = plan.state();
+  state.look = 2, state.extraMask = kNormalPlane;
+  const auto wanted = plan.change(state, now);
+  ASSERT_TRUE(wanted);
+  EXPECT_FALSE(plan.isMoving());
+  EXPECT_FALSE(plan.completed(open.order.key.frame, now));
+  EXPECT_FALSE(plan.completed(ahead.order.key.frame, now));
+  for (int64_t i = 3; i < 6; ++i) {
+    const LiveFrame frame = done();
+    const FrameKey key = headless.next();
+    EXPECT_EQ(frame.order.key.frame, *wanted + static_cast<uint32_t>(i - 3));
+    EXPECT_EQ(frame.rested, i);
+    EXPECT_EQ(frame.order.key.randomization, key.randomization);
+    EXPECT_EQ(frame.order.key.photonRadius, key.photonRadius);
+    EXPECT_EQ(frame.order.extraMask, kNormalPlane);
+    EXPECT_EQ(frame.order.urgent, i == 3) << "somebody waits for the new look";
+    EXPECT_EQ(frame.order.job, open.order.job);
+  }
+}
+
+TEST_F(LivePlanTest, ALookInMotionIsShownInMotion) {
+  moveTo(1);
+  opened();
+  LiveState state = plan.state();
+  state.look = 2;
+  EXPECT_FALSE(plan.change(state, now));
+  EXPECT_TRUE(opened().moving);
+}
+
+// Nobody who cannot click pays for the planes; who can finds them in the first frame of each rest.
+TEST_F(LivePlanTest, TheFirstFrameAtRestCarriesPickPlanesIfSomebodyMayClick) {
+  EXPECT_EQ(done().order.extraMask, 0);
+  LivePlan::Setup person = setup();
+  person.picks = true;
+  plan = LivePlan(person, now);
+  Delivery radiance, codes;
+  radiance.form = Delivery::Form::radiance;
+  codes.form = Delivery::Form::display, codes.exposure = 1;
+  plan.setDelivery(radiance, codes);
+  for (int rest = 0; rest < 2; ++rest) {
+    const LiveFrame first = done(), second = done();
+    EXPECT_EQ(first.order.extraMask, kPickPlanes);
+    EXPECT_EQ(first.order.delivery, Delivery{}) << "planes come as layers";
+    EXPECT_EQ(second.order.extraMask, 0);
+    EXPECT_EQ(second.order.delivery, radiance);
+    moveTo(static_cast<float>(rest + 1));
+    EXPECT_EQ(done().order.extraMask, 0);
+    pass(LivePlan::kSettle);
+  }
+}
+
+TEST_F(LivePlanTest, ASelectionIsNoChangeAtRestAndIsThereInMotion) {
+  done();
+  const LiveFrame open = opened();
+  LiveState state = plan.state();
+  state.picks = true;
+  EXPECT_FALSE(plan.change(state, now));
+  finish(open);
+  const LiveFrame next = done();
+  EXPECT_EQ(next.rested, 2);
+  EXPECT_EQ(next.order.extraMask, 0);
+  moveTo(1);
+  EXPECT_EQ(done().order.extraMask, kPickPlanes);
 }
 
 TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {

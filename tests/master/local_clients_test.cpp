@@ -7,6 +7,8 @@
 #include <functional>
 #include <thread>
 
+#include "proto/messages.h"
+
 namespace ninefold {
 namespace {
 
@@ -49,6 +51,17 @@ TEST(RestartPolicy, ALongLifeForgivesEarlierCrashes) {
   }
 }
 
+TEST(RestartPolicy, ThreeHangsInARowAreEnoughUnlessAResultCameBetween) {
+  RestartPolicy policy;
+  const Time now(seconds(100));
+  for (const bool gaveResults : {false, false, true, false}) {
+    const auto next = policy.hung(gaveResults, now);
+    ASSERT_TRUE(next);
+    EXPECT_GT(*next, now);
+  }
+  EXPECT_FALSE(policy.hung(false, now));
+}
+
 TEST(LocalClients, GetTheKeyByTheirDescriptor) {
   std::string file = testing::TempDir() + "ninefold-key-bytes-XXXXXX";
   ASSERT_GE(UniqueFd(::mkstemp(file.data())).get(), 0);
@@ -83,6 +96,42 @@ TEST(LocalClients, AreGivenUpWhenTheyKeepCrashing) {
     return clients.exhausted();
   }));
   EXPECT_GE(clients.crashes(), 6u);
+}
+
+TEST(LocalClients, OneThatHangsThreeTimesIsGivenUpAndItsTaskIsNamed) {
+  std::string asked;
+  LocalClients clients(shell(fmt::format("exit {}", kHungStatus), 1),
+                       [&](const std::string& name) -> LocalClients::Work {
+                         asked = name;
+                         return {0, "frame 3, tile 5, set 2"};
+                       });
+  Time now(seconds(100));
+  clients.start(now);
+  EXPECT_TRUE(clients.isStarting(now));
+  EXPECT_TRUE(eventually([&] {
+    clients.poll(now += seconds(60));
+    return clients.exhausted();
+  }));
+  EXPECT_EQ(clients.crashes(), 3u);
+  EXPECT_EQ(asked, "local1");
+  ASSERT_TRUE(clients.hang());
+  EXPECT_NE(clients.hang()->find("frame 3, tile 5, set 2"), std::string::npos) << *clients.hang();
+  EXPECT_FALSE(clients.isStarting(now));
+}
+
+TEST(LocalClients, OneThatHangsAgainAndAgainBetweenResultsIsStartedAgain) {
+  LocalClients clients(shell(fmt::format("exit {}", kHungStatus), 1),
+                       [](const std::string&) -> LocalClients::Work {
+                         return {1, "frame 3, tile 5, set 2"};
+                       });
+  Time now(seconds(100));
+  clients.start(now);
+  EXPECT_TRUE(eventually([&] {
+    clients.poll(now += seconds(60));
+    return clients.crashes() == 10;
+  }));
+  EXPECT_FALSE(clients.exhausted());
+  EXPECT_FALSE(clients.hang());
 }
 
 TEST(LocalClients, GoWhenAskedAndAreKilledWhenTheyDoNot) {

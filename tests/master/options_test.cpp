@@ -5,6 +5,9 @@
 #include <map>
 #include <sstream>
 
+#include "common/scene/replay_line.h"
+#include "tests/scene/simple_scene.h"
+
 namespace ninefold {
 namespace {
 
@@ -34,6 +37,41 @@ std::string complaint(const std::string& line, const Variables& variables = {},
   } catch (const UsageError& error) {
     return error.what();
   }
+}
+
+// The command that clients name when a task goes wrong asks for the settings that the task had.
+TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
+  Scene scene = simpleScene();
+  scene.origin = {100, 0, -50};
+  Settings s;
+  s.width = 123, s.height = 45, s.interleave = {2, 4}, s.seed = 1ull << 63;
+  s.camera.eye = Vec3(1, 2, 3.5f), s.camera.forward = glm::normalize(Vec3(1, -0.5f, 0.25f));
+  s.directVpls = 5, s.indirectVpls = 99, s.photons = 12345, s.pathLength = 3, s.specularDepth = 7;
+  s.bound = 12.345f, s.vplRoulette = 1.25f, s.photonRadius = 0.0123f;
+  s.caustics = Caustics::direct, s.randomization = Randomization::exclusiveOr;
+  s.environment = Vec3(0.1f, 0.25f, 1e-3f);
+  const std::string line = replayLine(scene, s, 6);
+  const std::string program = "ninefold-master ";
+  ASSERT_TRUE(line.starts_with(program));
+  const Options o = parse(line.substr(program.size()), {}, false);
+  EXPECT_EQ(o.scene, "SCENE");
+  EXPECT_EQ(o.stop.frames, 7) << "frames are numbered from 0";
+  Settings again = makeSettings(o, scene);
+  EXPECT_LT(glm::length(again.camera.eye - s.camera.eye), 1e-5f);
+  EXPECT_LT(glm::length(again.camera.forward - s.camera.forward), 1e-5f);
+  EXPECT_NEAR(again.camera.verticalFov, s.camera.verticalFov, 1e-5f);
+  again.camera = s.camera;
+  EXPECT_EQ(again, s);
+
+  s.method = Method::pathTrace;
+  const Options traced = parse(replayLine(scene, s, 0).substr(program.size()), {}, false);
+  EXPECT_EQ(traced.settings.method, Method::pathTrace);
+}
+
+TEST(Options, PatienceIsTwoMinutesUnlessItIsStated) {
+  EXPECT_EQ(parse("room.glb").patience, 120);
+  EXPECT_EQ(parse("room.glb --patience 2.5").patience, 2.5);
+  EXPECT_NE(complaint("room.glb --patience -1").find("--patience"), std::string::npos);
 }
 
 TEST(Options, DefaultsAreTheDocumentedOnes) {
@@ -96,7 +134,8 @@ TEST(Options, EveryFlagIsRead) {
   EXPECT_EQ(o.stop.seconds, 1.5);
   EXPECT_EQ(o.stop.untilError, 0.01);
   EXPECT_TRUE(o.aovs);
-  EXPECT_FLOAT_EQ(o.exposure, -1.5f);
+  EXPECT_EQ(o.exposure, -1.5f);
+  EXPECT_FALSE(o.autoExposure);
   EXPECT_EQ(o.surfaceTest, SurfaceTest::none);
   EXPECT_EQ(o.settings.randomization, Randomization::random);
   EXPECT_EQ(o.settings.seed, UINT64_MAX);
@@ -117,6 +156,12 @@ TEST(Options, ClientsFilterWhatTheyCan) {
             std::string::npos);
   EXPECT_EQ(parse("room.glb --wire-level auto").wireLevel, Delivery::kAdaptive);
   EXPECT_NE(complaint("room.glb --wire-level 20"), "");
+}
+
+TEST(Options, TheExposureIsTheScenesOrGivenOrThePictures) {
+  EXPECT_EQ(parse("room.glb").exposure, std::nullopt);
+  EXPECT_TRUE(parse("room.glb --exposure auto").autoExposure);
+  EXPECT_EQ(parse("room.glb --exposure 0").exposure, 0.0f);
 }
 
 TEST(Options, EqualSignsWorkToo) {
@@ -183,6 +228,7 @@ TEST(Options, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
       {"--until-error", "0"},
       {"--until-error", "2"},
       {"--exposure", "1000"},
+      {"--exposure", "automatic"},
       {"--seed", "-1"},
       {"--isa", "sse"},
       {"--local-clients", "-1"},
@@ -288,6 +334,14 @@ TEST(Options, HelpNamesEveryFlagOfTheInterface) {
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Options, ShortHelpIsHelpAndANegativeNumberIsAValue) {
+  EXPECT_TRUE(parse("-h", {}, false).help);
+  EXPECT_TRUE(parse("--version", {}, false).version);
+  EXPECT_FLOAT_EQ(parse("a.glb --exposure -5").exposure, -5);
+  for (const char* status : {"0 done", "1 a failure", "2 wrong usage", "143 SIGTERM", "129 SIGHUP"})
+    EXPECT_NE(helpText().find(status), std::string::npos) << status;
 }
 
 TEST(Options, SettingsTakeCameraAndLightFromTheScene) {

@@ -17,6 +17,7 @@ class SchedulerBench {
   Scheduler scheduler;
   Time now{};
   std::map<ClientId, std::vector<TaskId>> sent;  // and not answered
+  std::vector<StuckNote> notes;                  // all so far
 
   // A picture of `tiles` tiles with n x m phases each: tiles * n * m tasks.
   static TileGrid grid(int tiles, Interleave interleave = {3, 3}) {
@@ -30,8 +31,9 @@ class SchedulerBench {
   void open(uint32_t frame, const TileGrid& grid, uint32_t randomization = 0, FrameKind kind = {}) {
     scheduler.openFrame({.frame = frame, .randomization = randomization}, grid, kind), act();
   }
-  void viewChanged(uint32_t firstWanted) { scheduler.viewChanged(firstWanted), act(); }
+  void viewChanged(uint32_t firstWanted) { scheduler.viewChanged(firstWanted, now), act(); }
   void pass(Duration time) { now += time, act(); }
+  void pause(Duration time) { now += time, scheduler.paused(time), act(); }
 
   // The client gives the result of the first task that it was sent, or of `task`.
   Verdict answer(ClientId client, Duration cost = milliseconds(4)) {
@@ -80,6 +82,7 @@ class SchedulerBench {
     for (const Cancellation& c : actions.cancel)
       std::erase_if(sent[c.client], [&](const TaskId& t) { return t.frame < c.firstWanted; });
     for (const Assignment& a : actions.assign) sent[a.client].push_back(a.task);
+    notes.insert(notes.end(), actions.notes.begin(), actions.notes.end());
     scheduler.checkInvariants();
   }
 };

@@ -31,14 +31,16 @@ TEST(SchedulerFailure, AFrameSurvivesTheLossOfAllClients) {
   EXPECT_EQ(b.scheduler.counts().accepted, 27u);
 }
 
-TEST(SchedulerFailure, AResultAfterTheLossIsUnknown) {
+TEST(SchedulerFailure, AResultAfterTheLossIsStaleAndNoFaultOfTheClient) {
   Bench b;
   b.join(1);
   b.open(0, Bench::grid(1));
   const TaskId task = b.sent[1].front();
   b.lose(1);
-  EXPECT_EQ(b.answer(1, task), Verdict::unknown);
-  EXPECT_EQ(b.scheduler.counts().droppedUnknown, 1u);
+  EXPECT_EQ(b.answer(1, task), Verdict::stale);
+  EXPECT_EQ(b.scheduler.counts().droppedStale, 1u);
+  EXPECT_EQ(b.scheduler.counts().droppedUnknown, 0u);
+  EXPECT_EQ(b.answer(9, task), Verdict::unknown) << "of a client that never was";
   EXPECT_EQ(b.scheduler.tasksLeft(0), 9);
 }
 

@@ -17,7 +17,7 @@ class RandomLife {
     }
     // In the end all frames complete as soon as one client works.
     join();
-    frozen_.clear();
+    frozen_.clear(), stuck_.clear();
     for (int round = 0; round < 100 && bench_.scheduler.openFrames() > 0; ++round) {
       bench_.drain();
       bench_.pass(milliseconds(100));
@@ -31,6 +31,8 @@ class RandomLife {
     EXPECT_GT(n.droppedDuplicate, 0u);
     EXPECT_GT(n.droppedStale, 0u);
     EXPECT_GT(n.droppedUnknown, 0u);
+    EXPECT_GT(n.clientsStuck, 0u);
+    EXPECT_GT(std::ranges::count_if(bench_.notes, &StuckNote::isBack), 0);
   }
 
  private:
@@ -47,18 +49,22 @@ class RandomLife {
     const int dice = below(1000);
     if (present_.empty() || (dice < 15 && present_.size() < 12)) return join();
     const ClientId c = anyone();
-    if (dice < 25) return std::erase(present_, c), frozen_.erase(c), bench_.lose(c);
-    if (dice < 40) return frozen_.insert(c), void();
-    if (dice < 60) return frozen_.erase(c), void();
+    if (dice < 25)
+      return std::erase(present_, c), frozen_.erase(c), stuck_.erase(c), bench_.lose(c);
+    if (dice < 33) return frozen_.insert(c), void();
+    if (dice < 40) return stuck_.insert(c), void();
+    if (dice < 60) return frozen_.erase(c), stuck_.erase(c), void();
     if (dice < 70) return bench_.viewChanged(nextFrame_ - static_cast<uint32_t>(below(2)));
     if (dice < 90) return strange(c);
     if (dice < 100) return bench_.scheduler.roundTripMeasured(c, milliseconds(below(50)));
-    if (dice < 105) return bench_.pass(milliseconds(below(8000)));
+    if (dice < 105) return bench_.pass(milliseconds(below(below(5) == 0 ? 60000 : 8000)));
+    if (dice < 107) return bench_.pause(milliseconds(below(100000)));
     if (dice < 150 || (bench_.scheduler.wantsFrame() && bench_.scheduler.openFrames() < 2))
       return open();
     bench_.pass(std::chrono::microseconds(below(4000)));
     if (frozen_.contains(c)) return;
     bench_.scheduler.clientHeard(c, bench_.now);
+    if (stuck_.contains(c)) return answerWithAnotherThread(c);
     if (!bench_.sent[c].empty()) answerOne(c);
   }
   void open() {
@@ -67,9 +73,16 @@ class RandomLife {
     bench_.open(nextFrame_, grid, static_cast<uint32_t>(below(2)), {below(2) == 0, below(2) == 0});
     tasks_ += static_cast<uint64_t>(bench_.scheduler.tasksLeft(nextFrame_++));
   }
+  // Only its oldest task does not end, if it has threads for others.
+  void answerWithAnotherThread(ClientId c) {
+    const auto& tasks = bench_.sent[c];
+    if (tasks.size() > 1 && below(2) == 0) answer(c, tasks.back());
+  }
   void answerOne(ClientId c) {
     const auto& tasks = bench_.sent[c];
-    const TaskId task = tasks[static_cast<size_t>(below(static_cast<int>(tasks.size())))];
+    answer(c, tasks[static_cast<size_t>(below(static_cast<int>(tasks.size())))]);
+  }
+  void answer(ClientId c, TaskId task) {
     const Verdict expected = bench_.scheduler.verdictOn(c, task);
     const bool wasOpen = bench_.scheduler.isOpen(task.frame);
     EXPECT_EQ(bench_.answer(c, task, milliseconds(1 + below(20))), expected);
@@ -94,7 +107,8 @@ class RandomLife {
   std::mt19937 random_;
   SchedulerBench bench_;
   std::vector<ClientId> present_;
-  std::set<ClientId> frozen_;
+  std::set<ClientId> frozen_;  // do nothing
+  std::set<ClientId> stuck_;   // are heard of, and do not get on
   ClientId nextClient_ = 1;
   uint32_t nextFrame_ = 0;
   uint64_t tasks_ = 0;

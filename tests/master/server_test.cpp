@@ -92,6 +92,10 @@ class ServerTest : public testing::Test {
       loop.post([this, tile] { server->decoded(tile, judge(tile), Clock::now()); });
       return true;
     };
+    duty.giveUp = [this] {  // one more frame takes their place
+      frames = opened + 1;
+      return givenUp = opened;
+    };
     const ServerSetup setup{{"127.0.0.1", 0}, {key, nullptr}, 1};
     server = std::make_unique<Server>(loop, setup, offer, std::move(duty));
   }
@@ -137,7 +141,7 @@ class ServerTest : public testing::Test {
   std::function<std::optional<std::string>(const ReceivedTile&)> judge = [](const ReceivedTile&) {
     return std::nullopt;
   };
-  uint32_t frames = 3, opened = 0, firstUrgent = ~0u;
+  uint32_t frames = 3, opened = 0, firstUrgent = ~0u, givenUp = 0;
   std::unique_ptr<Server> server;
   std::vector<std::unique_ptr<PlayedClient>> played;
 };
@@ -244,6 +248,54 @@ TEST_F(ServerTest, AClientThatComesLateGetsNoTaskOfAJobThatItMissed) {
   until([&] { return server->tally().tasks.completedFrames >= 1; });
   for (const msg::Tasks& tasks : later) first.answerAll(tasks);
   until([this] { return server->tally().tasks.completedFrames == frames; });
+}
+
+// Two frames of two jobs are open when the only client leaves: who comes now can do neither.
+TEST_F(ServerTest, FramesThatNobodyCanDoAnyMoreAreGivenUp) {
+  jobOf = [](uint32_t frame) { return std::min(frame, 1u) + 1; };
+  frames = 2;
+  bool both = false, kept = false;
+  PlayedClient& first = play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    both = both || tasks.jobVersion == 2;
+    for (size_t i = std::exchange(kept, true) ? 0 : 1; i < tasks.items.size() && !both; ++i)
+      c.answer(tasks, i);
+  });
+  until([&] { return both; });
+  first.send(msg::Goodbye{"enough"});
+  play([](PlayedClient& c, const msg::Tasks& tasks) {
+    EXPECT_EQ(tasks.frame.frame, 2u);
+    c.answerAll(tasks);
+  });
+  until([this] { return server->tally().tasks.completedFrames == 1; });
+  EXPECT_EQ(givenUp, 2u);
+  EXPECT_EQ(server->tally().tasks.cancelledFrames, 2u);
+}
+
+TEST_F(ServerTest, CountsAndTellsOfValuesThatAreNotFinite) {
+  bool first = true;
+  testing::internal::CaptureStderr();
+  play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    for (const msg::TaskItem& item : tasks.items) {
+      msg::Result result;
+      result.jobVersion = tasks.jobVersion, result.frame = tasks.frame.frame;
+      result.tile = item.tile, result.phase = item.phase, result.busyNs = 1000;
+      result.replaced = 2;
+      result.replacedIn =
+          std::exchange(first, false) ? 1 << 1 | 1 << 8 : 1 << 1;  // bits: tile_names.h
+      c.send(std::move(result));
+    }
+  });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(server->tally().replaced, 2u * 3 * 9) << "96 x 72 pixels are one tile of nine phases";
+  EXPECT_NE(text.find("frame 0, tile 0, phase 0 of client 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("2 values are not finite or negative, in E (diffuse), U (reflection)"),
+            std::string::npos)
+      << text;
+  const std::string word = "are not finite";
+  int lines = 0;
+  for (size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++lines;
+  EXPECT_EQ(lines, 2) << "the first and the tenth of 27 tiles";
 }
 
 TEST_F(ServerTest, SaysGoodbyeWhenItCloses) {

@@ -26,9 +26,9 @@ Clients mixed(int count) {
   return clients;
 }
 
-SimulatedCluster play(const SimulatedJob& job, const Clients& clients) {
+SimulatedCluster play(const SimulatedJob& job, const Clients& clients, double deadline = 1000) {
   SimulatedCluster cluster(job, clients);
-  cluster.run();
+  cluster.run(deadline);
   EXPECT_TRUE(cluster.finished()) << cluster.completed() << " of " << job.frames << " frames";
   EXPECT_TRUE(cluster.everyTaskOnce());
   return cluster;
@@ -142,6 +142,29 @@ TEST(SimulatedCluster, TheFirstFrameAroundAFrozenClientWaitsOnlyForCopies) {
   EXPECT_LE(cluster.elapsed(), 1.2 * (315 * 4e-3 / 3));
 }
 
+TEST(SimulatedCluster, StuckClientsAreToldOfAndTheOthersDoTheirWork) {
+  Clients clients = alike(6);
+  clients[1].sticks = 0.3;
+  clients[4].sticks = 0.5, clients[4].comesBack = 20;
+  const SimulatedCluster cluster = play({.frames = 150}, clients);
+  std::map<ClientId, int> stuck, back;
+  for (const StuckNote& note : cluster.notes()) ++(note.isBack ? back : stuck)[note.client];
+  EXPECT_EQ(stuck, (std::map<ClientId, int>{{2, 1}, {5, 1}}));
+  EXPECT_EQ(back, (std::map<ClientId, int>{{5, 1}}));
+  EXPECT_EQ(cluster.scheduler().counts().clientsStuck, 2u);
+  EXPECT_GT(cluster.reports()[4].tasks, 2 * cluster.reports()[1].tasks) << "it works again";
+}
+
+TEST(SimulatedCluster, LongTasksStickNobody) {
+  // Tasks of the reference may take seconds, and some machines are four times slower.
+  Clients clients = alike(4);
+  clients[3].speed = 0.25;
+  const SimulatedCluster cluster =
+      play({.grid = TileGrid(640, 480, {1, 1}), .frames = 2, .taskSeconds = 2.5, .rays = 6e3},
+           clients, 1e5);
+  EXPECT_TRUE(cluster.notes().empty());
+}
+
 TEST(SimulatedCluster, LateJoinersAreUsed) {
   Clients clients = alike(2);
   for (int i = 0; i < 6; ++i) clients.push_back({.joins = 1.0 + 0.1 * i});
@@ -168,13 +191,15 @@ TEST(SimulatedCluster, SurvivesRandomFailures) {
     Clients clients = mixed(10);
     for (SimulatedClient& c : clients) {
       c.joins = uniform(0, 0.5);
-      const double kind = uniform(0, 4), when = c.joins + uniform(0, 1);
+      const double kind = uniform(0, 5), when = c.joins + uniform(0, 1);
       if (kind < 1)
         c.dies = when;
       else if (kind < 2)
         c.cut = when;
       else if (kind < 3)
         c.freezes = when, c.thaws = when + uniform(0, 3);
+      else if (kind < 4)
+        c.sticks = when, c.comesBack = when + uniform(0, 30);
     }
     clients.push_back({});  // one that lives
     play({.frames = 30, .checkEvery = 10}, clients);

@@ -49,6 +49,9 @@ TEST(Stats, HasExactlyTheKeysOfTheInterface) {
                                             "master",
                                             "tiles_dropped",
                                             "tasks_reissued",
+                                            "clients_stuck",
+                                            "stalls",
+                                            "values_not_finite",
                                             "relative_error",
                                             "needs",
                                             "method",
@@ -63,7 +66,7 @@ TEST(Stats, HasExactlyTheKeysOfTheInterface) {
   };
   EXPECT_EQ(keysOf(json["frame_ms"]), "p50 p95 max ");
   EXPECT_EQ(keysOf(json["rays"]), "eye shadow photon compensation ");
-  EXPECT_EQ(keysOf(json["clients"][0]), "name isa tasks busy_fraction sets_per_frame ");
+  EXPECT_EQ(keysOf(json["clients"][0]), "name isa tasks busy_fraction sets_per_frame stuck ");
   EXPECT_EQ(keysOf(json["master"]), "decode_ms filter_ms idle_fraction cpu_ms tail_ms memory_mb ");
   EXPECT_EQ(keysOf(json["master"]["tail_ms"]), "p50 p95 max ");
   EXPECT_EQ(keysOf(json["tiles_dropped"]), "stale duplicate malformed ");
@@ -104,10 +107,10 @@ TEST(Stats, AFileIsWholeOrNotThere) {
   const auto folder = std::filesystem::path(::testing::TempDir()) / "ninefold_stats_test";
   std::filesystem::remove_all(folder);
   const std::string path = folder / "s.json";
-  EXPECT_THROW(writeStats(path, example()), Error);  // no such folder
+  EXPECT_THROW(writeStats(path, toJson(example())), Error);  // no such folder
   std::filesystem::create_directories(folder);
-  writeStats(path, example());
-  writeStats(path, example());  // replaces
+  writeStats(path, toJson(example()));
+  writeStats(path, toJson(example()));  // replaces
   EXPECT_EQ(Json::parse(std::ifstream(path))["frames"], 4);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
   std::filesystem::remove_all(folder);

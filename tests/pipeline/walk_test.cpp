@@ -35,7 +35,7 @@ Camera after(const Camera& start, int steps) {
 
 class Session {
  public:
-  explicit Session(bool reuses) : picture_(SurfaceTest::surface, 1, 10, reuses) {}
+  explicit Session(bool reuses) : picture_({SurfaceTest::surface, 1, 10, reuses, false}) {}
 
   RgbImage shown(const GatheredFrame& frame) {
     LiveFrame plan;

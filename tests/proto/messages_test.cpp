@@ -56,9 +56,9 @@ std::vector<Message> oneOfEach() {
       msg::Configure{3, 4, oddSettings(), {9, Delivery::Form::display, SurfaceTest::none, -1.5f}},
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
-      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f, true},
+      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f, true, milliseconds(1500)},
       msg::Cancel{4, 10},
-      msg::Result{4, 10, 1, 2, 12345, 3, 6, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
+      msg::Result{4, 10, 1, 2, 12345, 3, 6, 7, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::Ping{1},
       msg::Pong{1, 2},
       msg::Goodbye{"done"},
@@ -226,7 +226,10 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
       {"extra mask", msg::Tasks{1, {}, {{0, 0, 64}}}},
       {"phase", msg::Tasks{1, {}, {{0, 256, 0}}}},
       {"photon radius", msg::Tasks{1, {0, 0, 0, NAN}, {{0, 0, 0}}}},
-      {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, {}, {}}},
+      {"allowed time", msg::Tasks{1, {}, {{0, 0, 0}}, 1, false, Duration(0)}},
+      {"allowed time", msg::Tasks{1, {}, {{0, 0, 0}}, 1, false, std::chrono::hours(1001)}},
+      {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, 0, {}, {}}},
+      {"replaced in", msg::Result{1, 1, 1, 1, 1, 0, 1, 1u << 24, {}, {}}},
   };
   for (const auto& [field, message] : cases) {
     const std::string text = refusal(Message(message));

@@ -143,7 +143,7 @@ TEST(TileCodec, UnusableValuesBecomeZeroAndAreCounted) {
   tile.extras.depth[5] = NAN;
   planes.irradiance.r[6] = -0.0f, planes.irradiance.g[6] = -0.0f, planes.irradiance.b[6] = -0.0f;
   const auto encoded = TileEncoder().encode(tile, 1, 1);
-  EXPECT_EQ(encoded.replaced, 6u);
+  EXPECT_EQ(encoded.replaced.count, 6u);
   const TileResult got = decodeAll(encoded.bytes, shapeOf(tile));
   EXPECT_EQ(got.layers[0].irradiance.g[0], 0);
   EXPECT_EQ(got.layers[0].unfiltered.b[1], 0);
@@ -237,7 +237,7 @@ TEST(TileCodec, CodesComeBackAsTheToneMapMadeThem) {
   const size_t stride = 100;
   for (const int level : {0, 1, 5}) {
     const TileEncoder::Encoded encoded = TileEncoder().encode(sent, toneMap, level);
-    EXPECT_EQ(encoded.replaced, 0u);
+    EXPECT_EQ(encoded.replaced.count, 0u);
     EXPECT_LE(encoded.bytes.size(), 96u * 64 * 3 + 64);
     const UnpackedTile tile = TileDecoder().unpack(Bytes(encoded.bytes), {96, 64, kDisplayMask, 0});
     std::vector<uint8_t> got(3 * stride * 64, 77);
@@ -281,7 +281,7 @@ TEST(TileCodec, CodesOfWhatIsNoLightAreBlackAndCounted) {
   sent.reset(3, 1);
   sent.pixels.r = {NAN, 1, -1}, sent.pixels.g = {1, INFINITY, 1};
   const TileEncoder::Encoded encoded = TileEncoder().encode(sent, ToneMap(), 0);
-  EXPECT_EQ(encoded.replaced, 3u);
+  EXPECT_EQ(encoded.replaced.count, 3u);
   std::vector<uint8_t> got(9);
   TileDecoder().unpack(Bytes(encoded.bytes), {3, 1, kDisplayMask, 0}).copyDisplay(3, got.data());
   const uint8_t one = ToneMap().code(1);

@@ -45,6 +45,40 @@ TEST_P(GltfWriterTest, EditsAreSaved) {
   expectSameScene(after, readScene(path));
 }
 
+TEST(GltfWriterFiles, NamesThatAreNoUtf8DoNotKeepASceneFromBeingSaved) {
+  const TempFolder folder;
+  Scene scene = readScene(NINEFOLD_SCENES "/cornell.glb");
+  scene.materials.front().name = "gr\xfcn";
+  writeGltf(folder.path() / "a.glb", scene);
+  EXPECT_EQ(readScene(folder.path() / "a.glb").materials.size(), scene.materials.size());
+}
+
+TEST_F(GltfWriterTest, TheExposureIsKept) {
+  Scene scene = readScene(NINEFOLD_SCENES "/cornell.glb");
+  EXPECT_EQ(scene.exposure, std::nullopt);
+  for (const std::optional<float> exposure : {std::optional<float>(), {-1.5f}, {0.0f}}) {
+    scene.exposure = exposure;
+    const std::string path = folder.write("exposed.glb", "");
+    writeGltf(path, scene);
+    EXPECT_EQ(readScene(path).exposure, exposure);
+  }
+}
+
+// Extras are anybody's: what is no exposure is left out with a warning, and is no error.
+TEST_F(GltfWriterTest, WhatIsNoExposureIsNone) {
+  for (const char* extras : {"51", "\"bright\"", "[1]", "null", "-1e30"}) {
+    const std::string path = folder.write(
+        "extras.gltf", std::string(R"({"asset":{"version":"2.0"},"scene":0,"nodes":[{"mesh":0}],
+          "scenes":[{"nodes":[0],"extras":{"exposure":)") +
+                           extras + R"(}}],
+          "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+          "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"}],
+          "bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,"uri":
+          "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})");
+    EXPECT_EQ(readScene(path).exposure, std::nullopt) << extras;
+  }
+}
+
 TEST(GltfWriter, SaysWhereItCannotWrite) {
   EXPECT_THROW(writeGltf("/nonexistent/a.glb", Scene()), Error);
   EXPECT_THROW(writeGltf("a.obj", Scene()), Error);

@@ -1,33 +1,11 @@
 #include <gtest/gtest.h>
 
-#include "common/scene/emitters.h"
-#include "common/scene/needs.h"
-#include "common/scene/reader.h"
-#include "tests/scene/one_line_error.h"
-#include "tests/scene/png_bytes.h"
-#include "tests/scene/temp_folder.h"
+#include "tests/scene/obj_folder.h"
 
 namespace ninefold {
 namespace {
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n";
-
-class ObjReader : public testing::Test {
- protected:
-  // The square with one material whose lines these are.
-  Material material(const std::string& lines) {
-    folder.write("a.mtl", "newmtl m\n" + lines);
-    return read("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1/1 2/2 3/3 4/4\n").materials.at(0);
-  }
-  Scene read(const std::string& text) { return readScene(folder.write("scene.obj", text)); }
-  std::string error(const std::string& text) {
-    const std::string what = errorOf([&] { read(text); });
-    const std::string file = (folder.path() / "scene.obj").string() + ": ";
-    EXPECT_EQ(what.find(file), 0u) << what;
-    return what.substr(std::min(what.size(), file.size()));
-  }
-  TempFolder folder;
-};
+using ObjReader = ObjFolder;
 
 TEST_F(ObjReader, PolygonsBecomeTrianglesWithTheirWinding) {
   const Scene scene = read(kSquare + "f 1 2 3 4\n");
@@ -75,85 +53,6 @@ TEST_F(ObjReader, WindowsLinesAndCommentsAreUnderstood) {
             1u);
 }
 
-TEST_F(ObjReader, PlainMaterials) {
-  const Material matte = material("Kd 0.1 0.2 0.3\nKs 0 0 0\nNs 10\nillum 2\nKe 1 2 3\n");
-  EXPECT_EQ(matte.baseColor, Vec3(0.1f, 0.2f, 0.3f));
-  EXPECT_EQ(matte.emission, Vec3(1, 2, 3));
-  EXPECT_EQ(matte.metallic, 0);
-  EXPECT_EQ(matte.specular, 0);
-  EXPECT_TRUE(foldsIntoDiffuse(Scene{}, matte));
-  const Material glossy = material("Kd 0.1 0.2 0.3\nKs 0.5 0.5 0.5\nNs 1998\n");
-  EXPECT_EQ(glossy.specular, 1);
-  EXPECT_EQ(glossy.specularColor, Vec3(1));
-  EXPECT_NEAR(glossy.roughness * glossy.roughness, std::sqrt(2 / 2000.0f), 1e-6f);
-}
-
-TEST_F(ObjReader, MirrorsAndGlass) {
-  const Material mirror = material("Kd 0.01 0.01 0.01\nKs 0.95 0.9 0.85\nNs 1000\nillum 5\n");
-  EXPECT_EQ(mirror.metallic, 1);
-  EXPECT_EQ(mirror.roughness, 0);
-  EXPECT_EQ(mirror.baseColor, Vec3(0.95f, 0.9f, 0.85f));
-  const Material glass = material("Kd 0 0 0\nKs 0.3 0.3 0.3\nTf 0.1 0.1 0.1\nNi 1.33\nillum 7\n");
-  EXPECT_EQ(glass.transmission, 1);
-  EXPECT_TRUE(glass.solid);
-  EXPECT_EQ(glass.ior, 1.33f);
-  EXPECT_EQ(glass.baseColor, Vec3(1)) << "a grey filter says nothing";
-  EXPECT_EQ(material("Tf 0 0.2 0.1\nillum 6\n").baseColor, Vec3(0, 1, 0.5f));
-}
-
-TEST_F(ObjReader, DissolveBlends) {
-  const Material m = material("Kd 1 1 1\nd 0.25\n");
-  EXPECT_EQ(m.alphaMode, AlphaMode::blend);
-  EXPECT_EQ(m.opacity, 0.25f);
-  EXPECT_EQ(m.transmission, 0);
-}
-
-TEST_F(ObjReader, NumbersOutsideTheirRangeAreClamped) {
-  const Material m = material("Kd 3 -1 nan\nKe -2 0 0\nNs -5\nd 7\n");
-  EXPECT_EQ(m.baseColor, Vec3(1, 0, 0));
-  EXPECT_EQ(m.emission, Vec3(0));
-  EXPECT_EQ(m.roughness, 1);
-  EXPECT_EQ(m.alphaMode, AlphaMode::opaque);
-}
-
-TEST_F(ObjReader, MapsAreFoundBesideTheFile) {
-  folder.write("maps/wood grain.png", png(1, 1, 3, {9, 8, 7}));
-  folder.write("bump.png", png(1, 1, 3, {128, 128, 255}));
-  folder.write(
-      "a.mtl",
-      "newmtl m\nKd 0 0 0\nmap_Kd -s 2 3 1 -o 0.5 0.25 0 maps\\wood grain.png\n"
-      "map_Ke -clamp on maps/wood grain.png\nnorm bump.png\nmap_bump missing_is_ignored.png\n");
-  const Scene scene = read("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1/1 2/2 3/3\n");
-  const Material& m = scene.materials[0];
-  EXPECT_EQ(m.baseColor, Vec3(1));
-  EXPECT_EQ(m.baseColorMap.scale, Vec2(2, 3));
-  EXPECT_EQ(m.baseColorMap.offset, Vec2(0.5f, 1 - 3 - 0.25f));
-  EXPECT_EQ(m.emission, Vec3(1));
-  EXPECT_EQ(m.emissionMap.wrapS, Wrap::clamp);
-  EXPECT_EQ(m.emissionMap.image, m.baseColorMap.image);
-  EXPECT_FALSE(scene.images[static_cast<size_t>(m.normalMap.image)].srgb);
-}
-
-TEST_F(ObjReader, OpacityMapsCutHolesIntoTheColour) {
-  folder.write("leaf.png", png(2, 1, 3, {1, 2, 3, 4, 5, 6}));
-  folder.write("cut.png", png(4, 1, 1, {255, 255, 0, 0}));
-  folder.write("a.mtl", "newmtl m\nKd 1 1 1\nmap_Kd leaf.png\nmap_d cut.png\n");
-  const Scene scene = read("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1/1 2/2 3/3\n");
-  EXPECT_EQ(scene.materials[0].alphaMode, AlphaMode::mask);
-  ASSERT_EQ(scene.images.size(), 1u);
-  EXPECT_EQ(scene.images[0].texels, (std::vector<uint8_t>{1, 2, 3, 255, 4, 5, 6, 0}));
-}
-
-TEST_F(ObjReader, MissingLibrariesGiveGreyAndOneWarningEach) {
-  testing::internal::CaptureStderr();
-  const Scene scene =
-      read("mtllib gone.mtl\n" + kSquare + "usemtl red\nf 1 2 3\nusemtl red\nf 1 3 4\n");
-  const std::string lines = testing::internal::GetCapturedStderr();
-  EXPECT_CONTAINS(lines, "material library 'gone.mtl' is missing");
-  EXPECT_CONTAINS(lines, "material 'red' is in no library: it is grey");
-  EXPECT_EQ(scene.materials.size(), 1u);
-}
-
 TEST_F(ObjReader, BadNumbersAreErrorsWithTheirLine) {
   EXPECT_EQ(error("v 0 0 0\nv nan 0 0\n"),
             "line 2: 'nan' of a position is not a finite number: export the scene again");
@@ -190,26 +89,72 @@ TEST_F(ObjReader, NoGeometry) {
 }
 
 TEST_F(ObjReader, BinaryFilesAreRefused) {
-  EXPECT_EQ(error(std::string("v 0 0 0\0v", 9)), "not an OBJ file: it has zero bytes");
+  EXPECT_EQ(error(std::string("v 0 0 0\0v", 9)),
+            "not a text file: it has zero bytes; if it is UTF-16, save it as UTF-8");
 }
 
-TEST_F(ObjReader, MissingAndOutsideTexturesAreErrors) {
-  const std::string where = std::filesystem::canonical(folder.path()).string();
-  const auto errorWith = [&](const std::string& map) {
-    folder.write("a.mtl", "newmtl m\nmap_Kd " + map + "\n");
-    return error("mtllib a.mtl\n" + kSquare + "usemtl m\nf 1 2 3\n");
-  };
-  EXPECT_EQ(
-      errorWith("gone.png"),
-      "material 'm': texture 'gone.png': 'gone.png' is missing: put it into the scene's folder " +
-          where);
-  EXPECT_EQ(errorWith("..\\up.png"),
-            "material 'm': texture '../up.png': '../up.png' leads outside the scene's folder: copy "
-            "the file there");
-  EXPECT_CONTAINS(errorWith("/etc/passwd"), "is not a path beneath the scene's folder");
-  EXPECT_CONTAINS(errorWith("C:\\textures\\wood.png"), "is not a path beneath the scene's folder");
-  EXPECT_CONTAINS(error("mtllib ../a.mtl\n" + kSquare + "f 1 2 3\n"),
-                  "leads outside the scene's folder");
+TEST_F(ObjReader, Utf16IsRefusedInOneLine) {
+  EXPECT_EQ(error(std::string("\xFF\xFEv\0 \0", 6)), "the file is UTF-16 text: save it as UTF-8");
+  EXPECT_EQ(error(std::string("\xFE\xFF\0v\0 ", 6)), "the file is UTF-16 text: save it as UTF-8");
+}
+
+// The square's plane is z = 0; were the mark part of the first word, its first corner, its library
+// or its comment would be lost.
+TEST_F(ObjReader, AByteOrderMarkIsSkippedBeforeAnyFirstWord) {
+  const std::string mark = "\xEF\xBB\xBF";
+  folder.write("a.mtl", mark + "newmtl red\nKd 1 0 0\n");
+  const std::string face = "usemtl red\nf 1/1 2/2 3/3 4/4\n";
+  for (const std::string& text :
+       {mark + kSquare + "mtllib a.mtl\n" + face, mark + "mtllib a.mtl\n" + kSquare + face,
+        mark + "# made by hand\nmtllib a.mtl\n" + kSquare + face,
+        mark + "\r\nmtllib a.mtl\r\n" + kSquare + face,
+        mark + "\\\nmtllib a.mtl\n" + kSquare + face,
+        "mtllib a.mtl\n" + mark + kSquare + mark + face}) {
+    const Scene scene = read(text);
+    EXPECT_EQ(scene.materials.at(0).baseColor, Vec3(1, 0, 0)) << text;
+    EXPECT_EQ(scene.meshes[0].positions.size(), 4u) << text;
+  }
+}
+
+TEST_F(ObjReader, ABackslashContinuesALine) {
+  const Scene scene = read("v 0 0 \\\n0\nv 1 0 0\nv 1\\\r\n 1 0\nf 1 \\\n2 \\\n3\n");
+  EXPECT_EQ(scene.meshes[0].triangles.size(), 1u);
+  EXPECT_EQ(error("v 0 \\\n0 0\nv 1 x 0\n").substr(0, 7), "line 3:");
+  EXPECT_EQ(error("# C:\\models\\\nv 1 x 0\n").substr(0, 7), "line 2:") << "no comment continues";
+  EXPECT_EQ(error("v 0 0 0 \\"), "no geometry: the scene has no triangle to show");
+}
+
+TEST_F(ObjReader, LibrariesMayStandBehindTheFaces) {
+  folder.write("a.mtl", "newmtl red\nKd 1 0 0\n");
+  EXPECT_EQ(read(kSquare + "usemtl red\nf 1 2 3\nmtllib a.mtl\n").materials[0].baseColor,
+            Vec3(1, 0, 0));
+}
+
+TEST_F(ObjReader, NamesMayHaveBlanksTabsAndQuotes) {
+  folder.write("a.mtl", "newmtl  Hard  Shiny\tWhite \r\nKd 1 0 0\nnewmtl \"b c\"\nKd 0 1 0\n");
+  const Scene scene =
+      read("mtllib a.mtl\n" + kSquare + "o  a  thing \nusemtl Hard Shiny White\nf 1 2 3\n" +
+           "g \"my group\"\nusemtl b c\nf 1 3 4\n");
+  EXPECT_EQ(scene.materials[0].baseColor, Vec3(1, 0, 0));
+  EXPECT_EQ(scene.materials[1].baseColor, Vec3(0, 1, 0));
+  EXPECT_EQ(scene.instances[0].name, "a thing");
+  EXPECT_EQ(scene.instances[1].name, "my group");
+}
+
+TEST_F(ObjReader, CommentsBehindNamesAreNoPartOfThem) {
+  folder.write("a.mtl", "newmtl red # the wall\nKd 1 0 0\nnewmtl Material #25\nKd 0 1 0\n");
+  const Scene scene = read("mtllib a.mtl # mine\n" + kSquare +
+                           "usemtl red\nf 1 2 3\nusemtl Material #25 # 3ds\nf 1 3 4\n");
+  EXPECT_EQ(scene.materials[0].baseColor, Vec3(0, 1, 0));  // parts are in the order of their names
+  EXPECT_EQ(scene.materials[1].baseColor, Vec3(1, 0, 0));
+}
+
+TEST_F(ObjReader, WhatNobodyReadsIsNamedInOneWarning) {
+  EXPECT_CONTAINS(logOfFile(kSquare + "s 1\nf 1 2 3\nl 1 2\nl 2 3\nv 0 0 0 0.5\nvp 1\n"),
+                  "the OBJ file: not modelled and left out: l (line 11), s without normals (line "
+                  "10), vp (line 14), weight of v (line 13)");
+  const std::string nothing = logOfFile("# x\n" + kSquare + "s off\ng\nf 1 2 3 # y\n");
+  EXPECT_EQ(nothing.find("left out"), std::string::npos) << nothing;
 }
 
 }  // namespace

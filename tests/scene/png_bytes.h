@@ -56,6 +56,7 @@ inline std::vector<unsigned char> png(int width, int height, int channels,
       pngHeader(static_cast<uint32_t>(width), static_cast<uint32_t>(height), channels, bits);
   const size_t row = static_cast<size_t>(width * channels * bits / 8);
   std::vector<unsigned char> raw;
+  raw.reserve((row + 1) * static_cast<size_t>(height));
   for (int y = 0; y < height; ++y) {
     raw.push_back(0);  // no prediction
     const auto begin = samples.begin() + static_cast<ptrdiff_t>(row * static_cast<size_t>(y));

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "common/base/release.h"
 #include "common/image/image_file.h"
 
 namespace ninefold {
@@ -21,7 +22,8 @@ struct Outcome {
 
 Outcome compare(const std::string& arguments) {
   const std::string command =
-      std::string(NINEFOLD_BIN) + "/ninefold-compare " + arguments + " 2>&1";
+      std::string(NINEFOLD_BIN) + "/ninefold-compare " +
+      (arguments.find('>') == std::string::npos ? arguments + " 2>&1" : arguments);
   FILE* pipe = popen(command.c_str(), "r");
   Outcome run;
   char text[4096];
@@ -94,10 +96,20 @@ TEST_F(Compare, AnswersBadImagesWithOneAndOneLine) {
   }
 }
 
+TEST_F(Compare, FiguresThatDoNotArriveAreAFailure) {
+  for (const char* lost : {" 2>&1 >/dev/full", " 2>&1 >&-"}) {
+    const Outcome run = compare(path("image.exr") + " " + path("reference.exr") + lost);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(std::count(run.output.begin(), run.output.end(), '\n'), 1) << run.output;
+  }
+}
+
 TEST_F(Compare, ExplainsItself) {
   const Outcome run = compare("--help");
   EXPECT_EQ(run.status, 0);
-  for (const char* word : {"usage:", "--json", "relmse_trimmed", "worst_pixel"})
+  EXPECT_EQ(compare("-h").output, run.output);
+  EXPECT_EQ(compare("--version").output, "ninefold-compare " + releaseName() + "\n");
+  for (const char* word : {"usage:", "--json", "Exit status: 0", "relmse_trimmed", "worst_pixel"})
     EXPECT_NE(run.output.find(word), std::string::npos) << word;
 }
 

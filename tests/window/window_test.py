@@ -19,9 +19,10 @@ from moving_square import moving_square  # noqa: E402
 from programs import BIN, SCENES, Program, eventually  # noqa: E402
 from screen import Screen  # noqa: E402
 
-WIDTH, HEIGHT = 720, 480  # of the window; the picture of 320x240 fills its height
+WIDTH, HEIGHT = 720, 480  # of the window; the picture of 320x240 fills its height when the panel is off
 CALM = 2.5  # codes: noise of a picture at rest stays below
 FRAMES = 6   # of a picture at rest
+ISAS = ["avx2"] + (["avx512"] if " avx512f " in pathlib.Path("/proc/cpuinfo").read_text() else [])
 LIT = 60     # mean code of table_room with its lamp on is above, with the panel too
 
 
@@ -65,12 +66,17 @@ class WindowTest(unittest.TestCase):
             picture.save(pathlib.Path(self.shots) / f"{name}.png")
         return picture
 
+    def title(self):
+        return self.screen.do("getwindowname", self.search())
+
+    def frames(self):
+        """That the picture is the mean of, as the title says; 0 in motion."""
+        said = re.match(r"ninefold: (\d+) frame", self.title())
+        return int(said.group(1)) if said else 0
+
     def rest(self, name=None):
-        """A picture that has come to rest, as the window's title says, and lost most of its noise."""
-        def frames():
-            said = re.match(r"ninefold: (\d+) frame", self.screen.do("getwindowname", self.search()))
-            return said and int(said.group(1)) >= FRAMES
-        eventually(frames, f"rest: {name}")
+        """A picture that has come to rest and lost most of its noise."""
+        eventually(lambda: self.frames() >= FRAMES, f"rest: {name}")
         time.sleep(0.5)  # from the title to the screen
         return self.look(name)
 
@@ -107,9 +113,6 @@ class WindowTest(unittest.TestCase):
             self.screen.key("1")
             self.until(lambda p: p.difference(first) < CALM, "beauty again")
 
-        with self.subTest("select and move the glass sphere"):
-            self.move_sphere(first)
-
         with self.subTest("switch the lamp"):
             self.screen.click(*self.lamp_at)
             self.program.waits_for("selected lamp")
@@ -128,6 +131,16 @@ class WindowTest(unittest.TestCase):
 
         self.screen.key("ctrl+q")
         self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+
+    def test_a_thing_is_dragged_on_every_instruction_set(self):
+        for isa in ISAS:
+            with self.subTest(isa):
+                self.start("--isa", isa)
+                self.rest()
+                self.screen.key("Tab")
+                self.move_sphere(self.rest(f"before_{isa}"))
+                self.screen.key("ctrl+q")
+                self.assertEqual(self.program.process.wait(60), 0, self.program.text)
 
     def move_sphere(self, first):
         sphere = self.sphere_at
@@ -156,6 +169,96 @@ class WindowTest(unittest.TestCase):
         self.until(lambda p: change(p) > 0.8 * far, "moved again")
         self.screen.key("ctrl+z")
         self.until(lambda p: change(p) < CALM, "and back")
+
+    def test_what_changes_no_light_leaves_the_mean_alone(self):
+        """The number of frames in the title never falls, but for a painted view, which counts its own."""
+        self.start()
+        self.rest()
+        self.screen.key("Tab")
+        eventually(lambda: self.frames() >= 2 * FRAMES, "a good picture")
+        seen = [self.frames()]
+
+        def stays(what, name=None):
+            for _ in range(20):
+                now = self.frames()
+                self.assertGreaterEqual(now, seen[0], f"after {what}: begun anew")
+                seen[0] = now
+                time.sleep(0.05)
+            self.look(name)
+        before = len(self.look().places(is_outline))
+        self.screen.click(*self.sphere_at)
+        self.program.waits_for("selected glass sphere")
+        self.until(lambda p: len(p.places(is_outline)) > before + 60, "an outline")
+        stays("a click", "click_at_rest")
+        self.screen.key("Escape")
+        self.until(lambda p: len(p.places(is_outline)) < before + 30, "no outline")
+        stays("selecting nothing")
+        self.screen.key("bracketright", "bracketleft")
+        stays("another exposure")
+        self.screen.key("v")
+        stays("keeping the view")
+        self.screen.key("Home")
+        stays("going where it is")
+        self.screen.do("windowsize", self.search(), 500, 400)
+        stays("another size of the window")
+        self.screen.do("windowsize", self.search(), WIDTH, HEIGHT)
+        stays("the first size")
+        plain = self.look()
+        for key in ("Tab", "Tab", "F1", "question"):
+            self.screen.key(key)
+            stays(f"panel and keys: {key}", f"after_{key}")
+            if key in ("F1", "question"):
+                shows = self.look().cut(200, 100, 320, 280).difference(plain.cut(200, 100, 320, 280)) > 8
+                self.assertEqual(shows, key == "F1", "F1 shows the keys, ? takes them away")
+        for key in ("3", "9"):  # a painted view, and the error, which is the film's
+            self.screen.key(key)
+            eventually(lambda: self.frames() > 0 and (key == "9" or self.frames() < seen[0]), f"view {key}")
+            time.sleep(0.5)
+        self.screen.key("1")
+        eventually(lambda: self.frames() >= seen[0], "the mean of all frames again, at once")
+        self.screen.hold("w", 0.3)
+        eventually(lambda: self.frames() < seen[0], "another view is another mean")
+
+    def test_the_panel_folds_and_is_remembered(self):
+        os.environ["XDG_CONFIG_HOME"] = str(pathlib.Path(self.folder.name) / "settings")
+        self.addCleanup(os.environ.pop, "XDG_CONFIG_HOME")
+        self.start()
+        first = self.rest("unfolded")
+        column = (10, 440, 280, 30)  # below the panel's parts, left of the picture
+        self.assertLess(first.cut(*column).mean(), 60)
+        self.screen.click(18, 18)  # the arrow in its title
+        folded = self.until(lambda p: p.cut(100, 300, 200, 100).mean() > 40, "the picture where the panel was", "folded")
+        self.assertGreater(folded.difference(first), 8)
+        self.screen.key("ctrl+q")
+        self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+        memory = pathlib.Path(os.environ["XDG_CONFIG_HOME"]) / "ninefold" / "window"
+        self.assertEqual(memory.read_text(), f"width {WIDTH}\nheight {HEIGHT}\nfolded 1\n")
+        memory.write_text("width 600\nheight 400\nfolded 1\n")
+        self.start()
+        again = self.rest("remembered")
+        self.assertEqual(self.screen.do("getwindowgeometry", "--shell", self.search()).count("WIDTH=600\nHEIGHT=400"), 1)
+        self.assertGreater(again.cut(100, 200, 200, 100).mean(), 40)
+        self.screen.key("ctrl+q")
+        self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+
+    def test_a_click_with_its_way_in_one_batch(self):
+        """The pointer jumps and clicks at once: onto the panel, and from the panel onto the picture."""
+        self.start()
+        self.rest()
+        sphere, panel = (537, 307), (200, 44)  # no button of it
+        for _ in range(3):
+            self.screen.do("mousemove", *sphere)
+            time.sleep(0.3)
+            self.screen.do("mousemove", *panel, "mousedown", 1, "mouseup", 1)
+            time.sleep(0.5)
+            self.assertNotIn("selected", self.program.text, "a press on the panel")
+        self.look("pressed_on_panel")
+        self.screen.do("mousemove", *panel)
+        time.sleep(0.3)
+        self.screen.do("mousemove", *sphere, "mousedown", 1, "mouseup", 1, "mousemove", 330, 100)
+        self.program.waits_for("selected ")
+        self.look("pressed_on_picture")
+        self.assertIn("selected glass sphere", self.program.text)
 
     def test_a_script_plays_in_the_window(self):
         script, times = (pathlib.Path(self.folder.name) / name for name in ("s.json", "times.json"))
@@ -204,7 +307,15 @@ class WindowTest(unittest.TestCase):
         self.assertGreater(walked.difference(first), 8)
         self.screen.key("v")
         spec = self.program.waits_for(r"view 1: --camera (\S+)").group(1)
+        self.assertIn("table_room.glb*", self.title(), "a view that no file has")
         self.screen.key("ctrl+s")
+        time.sleep(0.5)
+        self.look("save_dialog")
+        self.screen.do("key", "ctrl+a")
+        self.screen.do("type", str(pathlib.Path(self.folder.name) / "kept.glb"))
+        time.sleep(0.5)
+        self.look("save_dialog_named")
+        self.screen.key("Return")
         saved = self.program.waits_for(r"the edited scene is in (\S+)").group(1)
         self.screen.key("ctrl+q")
         self.assertEqual(self.program.process.wait(60), 0, self.program.text)

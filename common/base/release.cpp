@@ -1,0 +1,11 @@
+#include "common/base/release.h"
+
+namespace ninefold {
+
+std::string releaseName() { return NINEFOLD_RELEASE; }
+
+std::string versionText(std::string_view program) {
+  return std::string(program) + " " + releaseName() + "\n";
+}
+
+}  // namespace ninefold

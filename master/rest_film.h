@@ -1,0 +1,29 @@
+// rest_film.h: the film of a live picture at rest. A frame may be given up half done and begun anew (live_plan.h):
+// as both are the same estimate, tiles that it has already keep theirs, and none counts twice.
+//
+// Threads: addTile for different tiles at once, else one at a time. Errors: none.
+// Proved: tests/master/live_picture_test.cpp.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "common/image/film.h"
+
+namespace ninefold {
+
+class RestFilm {
+ public:
+  // A frame begins; isFirst: of a new picture.
+  void begin(const TileGrid& grid, bool keepsError, bool isFirst);
+  void addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
+  void frameDone();
+  const Film& film() const { return *film_; }
+
+ private:
+  std::optional<Film> film_;
+  bool keepsError_ = false;
+  std::vector<char> has_;  // by tile: of the frame that is not done yet
+};
+
+}  // namespace ninefold
