@@ -71,8 +71,8 @@ class SceneBuilder {
     int mover = -1;             // the nearest node above in animations_
   };
   struct Skinned {
-    int skin, carrier;  // carrier: the node, if it carries some of the mesh's primitives; else -1
-    std::string name;
+    int skin, node;
+    bool isCarried;  // in part: some of its primitives have no joints
   };
   std::vector<int> roots() const;
   std::optional<float> exposure() const;
@@ -80,6 +80,7 @@ class SceneBuilder {
   void visit(const Visit& visit, std::vector<Visit>& open);
   bool addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld, bool nothing);
   void findDeformed();
+  void noteDeformed(int node);
   void addCamera(const tinygltf::Node& node, const DMat4& toWorld);
   void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
 
@@ -186,16 +187,12 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
 bool SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld,
                            bool nothing) {
   const std::vector<GltfShape>& shapes = meshes_.use(node);
-  if (shapes.empty()) return false;
-  const std::string& name =
-      node.name.empty() ? model_->meshes[static_cast<size_t>(node.mesh)].name : node.name;
-  const auto isSkinned = [](const GltfShape& shape) { return shape.place.has_value(); };
-  const bool isCarried = std::ranges::none_of(shapes, isSkinned);
+  const tinygltf::Mesh& mesh = model_->meshes[static_cast<size_t>(node.mesh)];
+  const bool isCarried = node.skin < 0 || std::ranges::none_of(mesh.primitives, isSkinned);
   if (!isCarried)
-    skinned_.push_back({node.skin, std::ranges::all_of(shapes, isSkinned) ? -1 : index, name});
-  if (animations_.morphs(index) && hasTargets(model_->meshes[static_cast<size_t>(node.mesh)]) &&
-      draft_.scene.deformed.empty())
-    draft_.scene.deformed = name;
+    skinned_.push_back({node.skin, index, !std::ranges::all_of(mesh.primitives, isSkinned)});
+  if (animations_.morphs(index) && hasTargets(mesh)) noteDeformed(index);
+  const std::string& name = node.name.empty() ? mesh.name : node.name;
   const auto add = [&](const DMat4& copy) {
     if (nothing && isCarried) ++draft_.flatInstances;
     for (const GltfShape& shape : shapes)
@@ -221,11 +218,18 @@ void SceneBuilder::findDeformed() {
   const auto moves = [&](int node) { return moving.contains(node); };
   for (const Skinned& object : skinned_) {
     const auto [entry, isNew] = bends.try_emplace(object.skin);
-    const tinygltf::Skin& skin = model_->skins[static_cast<size_t>(object.skin)];
-    if (isNew) entry->second = std::ranges::any_of(skin.joints, moves);
-    if ((entry->second || moves(object.carrier)) && draft_.scene.deformed.empty())
-      draft_.scene.deformed = object.name;
+    const auto skin = static_cast<size_t>(object.skin);
+    if (isNew && skin < model_->skins.size())
+      entry->second = std::ranges::any_of(model_->skins[skin].joints, moves);
+    if (entry->second || (object.isCarried && moves(object.node))) noteDeformed(object.node);
   }
+}
+
+// The first one tells for all.
+void SceneBuilder::noteDeformed(int node) {
+  std::string& name = draft_.scene.deformed;
+  if (name.empty()) name = model_->nodes[static_cast<size_t>(node)].name;
+  if (name.empty()) name = "node " + std::to_string(node);
 }
 
 void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {

@@ -68,6 +68,10 @@ class DeformedFile {
     json = with(json, R"("buffers": [{"byteLength": 48}])",
                 R"("buffers": [{"byteLength": )" + std::to_string(bytes_.size()) +
                     R"(}], "skins": [)" + skins + R"(], "animations": [)" + animations + "]");
+    json = with(json, R"(]}],
+  "materials")",
+                "]}" + moreMeshes_ + R"(],
+  "materials")");
     if (targets.empty()) json = with(json, R"(, "targets": [])", "");
     if (skins.empty()) json = with(json, R"(, "skins": [])", "");
     if (animations.empty()) json = with(json, R"(, "animations": [])", "");
@@ -75,9 +79,10 @@ class DeformedFile {
     return readScene(folder.write("scene.glb", glb(json, bytes_)));
   }
   void addPrimitive(const std::string& json) { more_ += ", " + json; }
+  void addMesh(const std::string& json) { moreMeshes_ += ", " + json; }
 
  private:
-  std::string accessors_, views_, more_;
+  std::string accessors_, views_, more_, moreMeshes_;
   Bytes bytes_ = triangleBytes();
   int used_ = 2;
 };
@@ -329,6 +334,8 @@ TEST(DeformedAnimation, IsSaidToBeImpossible) {
   file = twoTargets();
   file.move(0, "weights", file.add<float>({0, 0, 1, 1}, kFloat, "SCALAR", 1));
   EXPECT_EQ(file.read().deformed, "thing");
+  file.nodes = R"({"mesh": 0})";
+  EXPECT_EQ(file.read().deformed, "node 0");
 }
 
 TEST(DeformedAnimation, ByAJointAboveAndByTheNodeOfAPartlySkinnedMesh) {
@@ -339,6 +346,18 @@ TEST(DeformedAnimation, ByAJointAboveAndByTheNodeOfAPartlySkinnedMesh) {
   EXPECT_EQ(DeformedFile(file).move(0, "translation", moves).read().deformed, "");
   file.addPrimitive(R"({"attributes": {"POSITION": 0}, "indices": 1})");
   EXPECT_EQ(DeformedFile(file).move(0, "translation", moves).read().deformed, "thing");
+}
+
+// Its joint has no size at rest, so that nothing is there; other things are.
+TEST(DeformedAnimation, OfWhatIsFlatAtRestIsSaidToBeImpossible) {
+  DeformedFile file = twoJoints().bindAllToJoint0();
+  file.nodes = R"({"name": "thing", "mesh": 0, "skin": 0}, {"scale": [0, 0, 0]}, {},
+      {"name": "other", "mesh": 1})";
+  file.roots = "[0, 1, 3]";
+  file.addMesh(R"({"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]})");
+  const Scene scene = file.move(1, "scale", file.vectors({0, 0, 0, 1, 1, 1})).read();
+  EXPECT_EQ(scene.instances.size(), 1u);
+  EXPECT_EQ(scene.deformed, "thing");
 }
 
 TEST(DeformedAnimation, OfOtherNodesPlays) {
