@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/scene/animation.h"
 #include "common/scene/camera_choice.h"
 #include "common/scene/world.h"
 #include "master/script.h"
