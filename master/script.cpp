@@ -99,7 +99,7 @@ ScriptState Script::at(double time, const Scene& scene, const Camera& start) con
 }
 
 Script playedAnimation(const AnimationRange& range, int frames, const Scene& scene) {
-  if (scene.animated.empty()) fail("--animate: nothing is animated in this scene");
+  if (const std::string why = whyNotPlayed(scene); !why.empty()) fail("--animate: {}", why);
   Script script;
   script.seconds = range.to - range.from;
   script.rate = range.rate;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/base/error.h"
+#include "common/scene/animation.h"
 #include "common/scene/camera_choice.h"
 #include "common/scene/world.h"
 #include "master/script.h"
@@ -181,7 +182,8 @@ class Reader {
     if (times.size() != 2 || !std::ranges::all_of(times, isTime))
       fail("{}: \"animation\" must be [from, to], two times from 0 to {}", fields.where(),
            kLongestScript);
-    if (scene_.animated.empty()) fail("{}: nothing is animated in the scene", fields.where());
+    if (const std::string why = whyNotPlayed(scene_); !why.empty())
+      fail("{}: {}", fields.where(), why);
     e.playedFrom = times[0].get<double>(), e.playedTo = times[1].get<double>();
   }
 

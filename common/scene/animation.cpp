@@ -1,5 +1,7 @@
 #include "common/scene/animation.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "common/scene/gltf_transform.h"
@@ -85,6 +87,15 @@ DMat4 motionOf(const AnimatedNode& node, const DMat4& world, DVec3 origin) {
 }
 
 }  // namespace
+
+std::string whyNotPlayed(const Scene& scene) {
+  if (!scene.deformed.empty())
+    return fmt::format(
+        "the animation changes the shape of '{}' (skin or morph weights), which cannot be played: "
+        "leave it out to see the rest pose",
+        scene.deformed);
+  return scene.animated.empty() ? "nothing is animated in the scene" : "";
+}
 
 SceneEdit animationAt(const Scene& scene, double time) {
   const std::vector<DMat4> worlds = worldsAt(scene, time);

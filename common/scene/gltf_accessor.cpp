@@ -9,6 +9,7 @@
 namespace ninefold {
 namespace {
 
+constexpr int kMatrix = 16;  // components
 constexpr size_t kMaxStride = 1 << 16;
 constexpr size_t kMaxZeros = 1 << 20;  // elements of an accessor without a buffer view
 
@@ -38,6 +39,8 @@ int componentsOf(int type) {
       return 3;
     case TINYGLTF_TYPE_VEC4:
       return 4;
+    case TINYGLTF_TYPE_MAT4:
+      return kMatrix;
     default:
       return 0;
   }
@@ -111,7 +114,7 @@ GltfAccessor::GltfAccessor(const tinygltf::Model& model, int accessor, int compo
   const tinygltf::Accessor& a = model.accessors[static_cast<size_t>(accessor)];
   what_ += " (accessor " + std::to_string(accessor) + ")";
   count_ = a.count, components_ = componentsOf(a.type), normalized_ = a.normalized;
-  if (components_ < components)
+  if (components_ < components || (components_ == kMatrix && components != kMatrix))
     fail("{}: has {} components, {} are needed", what_, components_, components);
   if (sizeOfComponent(a.componentType) == 0)
     fail("{}: component type {} is not part of glTF 2.0", what_, a.componentType);
@@ -179,6 +182,17 @@ Vec4 GltfAccessor::element(size_t i) const {
   const size_t step = sizeOfComponent(base_.type);
   for (int c = 0; c < components_; ++c)
     value[c] = loadComponent(bytes + static_cast<size_t>(c) * step, base_.type, normalized_);
+  return value;
+}
+
+DMat4 GltfAccessor::matrix(size_t i) const {
+  DMat4 value(0);
+  const unsigned char* bytes = bytesOf(i);
+  if (bytes == nullptr) return value;
+  const size_t step = sizeOfComponent(base_.type);
+  for (int c = 0; c < kMatrix; ++c)
+    value[c / 4][c % 4] =
+        double(loadComponent(bytes + static_cast<size_t>(c) * step, base_.type, normalized_));
   return value;
 }
 

@@ -25,13 +25,14 @@ BytesOfView bytesOfView(const tinygltf::Model& model, int view, const std::strin
 
 class GltfAccessor {
  public:
-  // `components`: how many an element must have, at least.
+  // `components`: how many an element must have, at least; 16 asks for matrices.
   GltfAccessor(const tinygltf::Model& model, int accessor, int components, std::string what);
 
   size_t count() const { return count_; }
   int components() const { return components_; }
   // Missing components are 0. Integers as they are, or in [-1, 1] and [0, 1] if normalized.
   Vec4 element(size_t i) const;
+  DMat4 matrix(size_t i) const;
   // First component of an unsigned integer accessor.
   uint32_t index(size_t i) const;
   bool isUnsignedInteger() const;

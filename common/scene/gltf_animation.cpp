@@ -112,12 +112,11 @@ GltfAnimations::GltfAnimations(const tinygltf::Model& model, const std::optional
     } catch (const Error& error) {
       fail("animation {} '{}', channel {}: {}", *chosen, animation.name, c, error.what());
     }
-  if (morphs_) warn("animated morph weights are not supported: left out");
 }
 
 void GltfAnimations::read(const tinygltf::Animation& animation,
                           const tinygltf::AnimationChannel& channel) {
-  if (channel.target_path == "weights") morphs_ = true;
+  if (channel.target_path == "weights") morphed_.insert(channel.target_node);
   const bool rotates = channel.target_path == "rotation", scales = channel.target_path == "scale";
   const bool known = rotates || scales || channel.target_path == "translation";
   const int node = channel.target_node;

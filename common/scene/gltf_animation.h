@@ -1,12 +1,13 @@
 // gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The others do
 // nothing. Where two of its channels move the same property of a node, the first one does.
 //
-// Morph weights are left out with a warning. Refers to the model.
+// Of morph weights it only knows that they change. Refers to the model.
 // Errors: throws Error that names animation and channel. Threads: one owner.
 #pragma once
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,8 @@ class GltfAnimations {
   // A node that the scene reaches, parents first. Its place in the list of those that move, or -1;
   // `parent`: that of the node above.
   int enter(int node, int parent, const DMat4& above, const DMat4& toWorld);
+  // Whether the weights of a node's morph targets change.
+  bool morphs(int node) const { return morphed_.contains(node); }
   AnimatedNode& operator[](int place) { return nodes_[static_cast<size_t>(place)]; }
   std::vector<AnimatedNode> take() { return std::move(nodes_); }
 
@@ -45,7 +48,7 @@ class GltfAnimations {
   const tinygltf::Model* model_;
   std::map<int, Tracks> tracks_;  // by node; empty ones are not animated
   size_t keys_ = 0;               // of all tracks
-  bool morphs_ = false;
+  std::set<int> morphed_;         // nodes
   std::vector<AnimatedNode> nodes_;
 };
 

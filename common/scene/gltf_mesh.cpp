@@ -2,6 +2,8 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
+
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/scene/gltf_accessor.h"
@@ -30,33 +32,26 @@ uint64_t triangleCount(int mode, uint64_t corners, const std::string& what) {
 
 // The elements that an attribute has for the kept vertices; empty if the primitive lacks it.
 template <typename V>
-std::vector<V> attribute(const tinygltf::Model& model, const tinygltf::Primitive& from,
-                         const char* name, size_t vertices, const std::vector<uint32_t>& kept,
-                         const std::string& what) {
+std::vector<V> attribute(const GltfVertices& vertices, const tinygltf::Primitive& from,
+                         const char* name) {
   const auto found = from.attributes.find(name);
   if (found == from.attributes.end()) return {};
-  const GltfAccessor accessor(model, found->second, V::length(), what + " " + name);
-  if (accessor.count() != vertices)
-    fail("{}: {} has {} elements for {} vertices", what, name, accessor.count(), vertices);
+  const GltfAccessor accessor = vertices.open(found->second, V::length(), name);
   std::vector<V> values;
-  values.reserve(kept.size());
-  for (const uint32_t i : kept) values.emplace_back(accessor.element(i));
+  values.reserve(vertices.kept.size());
+  for (const uint32_t i : vertices.kept) values.emplace_back(accessor.element(i));
   return values;
 }
 
 // COLOR_0, linear; without alpha it is opaque.
-std::vector<Vec4> colorsOf(const tinygltf::Model& model, const tinygltf::Primitive& from,
-                           size_t vertices, const std::vector<uint32_t>& kept,
-                           const std::string& what) {
+std::vector<Vec4> colorsOf(const GltfVertices& vertices, const tinygltf::Primitive& from) {
   const auto found = from.attributes.find("COLOR_0");
   if (found == from.attributes.end()) return {};
-  GltfAccessor accessor(model, found->second, 3, what + " COLOR_0");
-  if (accessor.count() != vertices)
-    fail("{}: COLOR_0 has {} elements for {} vertices", what, accessor.count(), vertices);
+  GltfAccessor accessor = vertices.open(found->second, 3, "COLOR_0");
   accessor.takeAsNormalized();
   std::vector<Vec4> colors;
-  colors.reserve(kept.size());
-  for (const uint32_t i : kept) {
+  colors.reserve(vertices.kept.size());
+  for (const uint32_t i : vertices.kept) {
     const Vec4 color = accessor.element(i);
     colors.emplace_back(Vec3(color), accessor.components() > 3 ? color.w : 1.0f);
   }
@@ -76,12 +71,21 @@ void checkNotDraco(const tinygltf::Model& model, const tinygltf::Primitive& from
 
 }  // namespace
 
-const std::vector<int>& GltfMeshes::use(int mesh) {
-  const auto [entry, isNew] = known_.try_emplace(mesh);
+// Without what does not matter, so that nodes share what is the same.
+GltfMeshes::Use GltfMeshes::useOf(const tinygltf::Node& node) const {
+  if (node.mesh < 0 || static_cast<size_t>(node.mesh) >= model_->meshes.size())
+    fail("mesh {} does not exist", node.mesh);
+  const tinygltf::Mesh& mesh = model_->meshes[static_cast<size_t>(node.mesh)];
+  Use use{node.mesh, node.skin, node.weights.empty() ? mesh.weights : node.weights};
+  if (std::ranges::none_of(mesh.primitives, isSkinned)) use.skin = -1;
+  while (!use.weights.empty() && use.weights.back() == 0) use.weights.pop_back();
+  return use;
+}
+
+const std::vector<GltfShape>& GltfMeshes::use(const tinygltf::Node& node) {
+  const auto [entry, isNew] = known_.try_emplace(useOf(node));
   if (!isNew) return entry->second;
-  if (mesh < 0 || static_cast<size_t>(mesh) >= model_->meshes.size())
-    fail("mesh {} does not exist", mesh);
-  const tinygltf::Mesh& from = model_->meshes[static_cast<size_t>(mesh)];
+  const tinygltf::Mesh& from = model_->meshes[static_cast<size_t>(node.mesh)];
   for (size_t i = 0; i < from.primitives.size(); ++i) {
     const tinygltf::Primitive& primitive = from.primitives[i];
     if (!hasTriangles(primitive)) {
@@ -89,36 +93,48 @@ const std::vector<int>& GltfMeshes::use(int mesh) {
       continue;
     }
     const std::string what =
-        "mesh " + std::to_string(mesh) + " '" + from.name + "' primitive " + std::to_string(i);
+        "mesh " + std::to_string(node.mesh) + " '" + from.name + "' primitive " + std::to_string(i);
     Mesh read;
     read.name = from.name;
-    readPrimitive(primitive, what, read);
+    GltfShape shape;
+    readPrimitive(primitive, entry->first, what, shape, read);
     if (read.triangles.empty()) continue;
-    entry->second.push_back(static_cast<int>(scene_->meshes.size()));
+    shape.mesh = static_cast<int>(scene_->meshes.size());
+    entry->second.push_back(shape);
     scene_->meshes.push_back(std::move(read));
   }
   return entry->second;
 }
 
-void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const std::string& what,
-                               Mesh& mesh) {
+void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const Use& use,
+                               const std::string& what, GltfShape& shape, Mesh& mesh) {
   const auto position = from.attributes.find("POSITION");
   if (position == from.attributes.end()) fail("{}: has no POSITION", what);
   checkNotDraco(*model_, from, position->second, what);
-  const size_t vertices = GltfAccessor(*model_, position->second, 3, what + " POSITION").count();
-  mesh.triangles = trianglesOf(from, vertices, what);
-  const std::vector<uint32_t> kept = compactVertices(mesh.triangles);
-  mesh.positions = attribute<Vec3>(*model_, from, "POSITION", vertices, kept, what);
-  mesh.normals = attribute<Vec3>(*model_, from, "NORMAL", vertices, kept, what);
-  mesh.uv0 = attribute<Vec2>(*model_, from, "TEXCOORD_0", vertices, kept, what);
-  mesh.uv1 = attribute<Vec2>(*model_, from, "TEXCOORD_1", vertices, kept, what);
-  mesh.tangents = attribute<Vec4>(*model_, from, "TANGENT", vertices, kept, what);
-  mesh.colors = colorsOf(*model_, from, vertices, kept, what);
+  GltfVertices vertices{model_, 0, {}, what};
+  vertices.count = GltfAccessor(*model_, position->second, 3, what + " POSITION").count();
+  mesh.triangles = trianglesOf(from, vertices.count, what);
+  vertices.kept = compactVertices(mesh.triangles);
+  mesh.positions = attribute<Vec3>(vertices, from, "POSITION");
+  mesh.normals = attribute<Vec3>(vertices, from, "NORMAL");
+  mesh.uv0 = attribute<Vec2>(vertices, from, "TEXCOORD_0");
+  mesh.uv1 = attribute<Vec2>(vertices, from, "TEXCOORD_1");
+  mesh.tangents = attribute<Vec4>(vertices, from, "TANGENT");
+  mesh.colors = colorsOf(vertices, from);
+  deform(from, use, vertices, shape, mesh);
   flatTriangles_ += cleanMesh(mesh, what);
-  if (!from.targets.empty() || from.attributes.count("JOINTS_0") != 0) ++deformed_;
   if (mesh.triangles.empty()) return;
   mesh.material = materials_.use(from.material);
   if (lacksCoordinates(mesh)) ++withoutCoordinates_;
+}
+
+void GltfMeshes::deform(const tinygltf::Primitive& from, const Use& use,
+                        const GltfVertices& vertices, GltfShape& shape, Mesh& mesh) {
+  addMorphs(vertices, from, use.weights, mesh);
+  if (use.skin < 0 || !isSkinned(from)) return;
+  const SkinPose& pose = skins_.pose(use.skin);
+  applySkin(vertices, from, pose, mesh);
+  shape.place = pose.place;
 }
 
 std::vector<Triangle> GltfMeshes::trianglesOf(const tinygltf::Primitive& from, size_t vertices,
@@ -158,7 +174,6 @@ void GltfMeshes::warnOfLosses() const {
   if (skippedPrimitives_ > 0)
     warn("{} primitives of points or lines are left out", skippedPrimitives_);
   if (flatTriangles_ > 0) warn("{} triangles without area are left out", flatTriangles_);
-  if (deformed_ > 0) warn("{} skinned or morphed meshes are shown undeformed", deformed_);
   if (withoutCoordinates_ > 0)
     warn("{} meshes have textures but no texture coordinates: they show one texel",
          withoutCoordinates_);

@@ -1,6 +1,9 @@
 #include "common/scene/gltf_scene.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "common/base/log.h"
 #include "common/image/tone_map.h"
@@ -40,6 +43,17 @@ bool isNothing(const DMat4& m) {
   return glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) <= 1e-24 * lengths * lengths;
 }
 
+bool hasTargets(const tinygltf::Mesh& mesh) {
+  return std::ranges::any_of(mesh.primitives,
+                             [](const auto& primitive) { return !primitive.targets.empty(); });
+}
+
+DMat4 translation(DVec3 by) {
+  DMat4 m(1);
+  m[3] = DVec4(by, 1);
+  return m;
+}
+
 class SceneBuilder {
  public:
   SceneBuilder(const GltfFile& file, const std::optional<std::string>& clip)
@@ -56,11 +70,17 @@ class SceneBuilder {
     DMat4 parent, exactParent;  // world matrices; the first can be inverted, see gltf_transform.h
     int mover = -1;             // the nearest node above in animations_
   };
+  struct Skinned {
+    int skin, node;
+    bool isCarried;  // in part: some of its primitives have no joints
+  };
   std::vector<int> roots() const;
   std::optional<float> exposure() const;
   void enter(int node);
   void visit(const Visit& visit, std::vector<Visit>& open);
-  void addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld, bool nothing);
+  bool addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld, bool nothing);
+  void findDeformed();
+  void noteDeformed(int node);
   void addCamera(const tinygltf::Node& node, const DMat4& toWorld);
   void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
 
@@ -69,6 +89,7 @@ class SceneBuilder {
   GltfMeshes meshes_;
   GltfAnimations animations_;
   std::vector<char> seen_;
+  std::vector<Skinned> skinned_;
 };
 
 std::vector<int> SceneBuilder::roots() const {
@@ -130,7 +151,11 @@ SceneDraft SceneBuilder::build() {
   meshes_.warnOfLosses();
   draft_.scene.exposure = exposure();
   draft_.scene.animated = animations_.take();
-  if (!draft_.scene.animated.empty())
+  findDeformed();
+  if (!draft_.scene.deformed.empty())
+    log("'{}' is shown in its rest pose: --animate cannot play skins or morph weights",
+        draft_.scene.deformed);
+  else if (!draft_.scene.animated.empty())
     log("{} node(s) move for {:.4g} s: --animate plays it", draft_.scene.animated.size(),
         animationEnd(draft_.scene));
   return std::move(draft_);
@@ -143,13 +168,14 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
   const size_t instances = draft_.scene.instances.size(), lights = draft_.scene.lights.size(),
                cameras = draft_.scene.cameras.size();
   const int mover = animations_.enter(visit.node, visit.mover, visit.parent, toWorld);
-  if (node.mesh >= 0) addMesh(node, visit.node, toWorld, mover < 0 && isNothing(exact));
+  bool isCarried = false;  // its mesh, by the node
+  if (node.mesh >= 0) isCarried = addMesh(node, visit.node, toWorld, mover < 0 && isNothing(exact));
   if (node.camera >= 0) addCamera(node, toWorld);
   if (const auto* e = extensionOf(node, "KHR_lights_punctual"))
     addLight(node, integerOr(*e, "light", -1), toWorld);
   if (mover >= 0) {
     AnimatedNode& moved = animations_[mover];
-    moved.hasInstances = draft_.scene.instances.size() > instances;
+    moved.hasInstances = isCarried && draft_.scene.instances.size() > instances;
     if (draft_.scene.lights.size() > lights) moved.light = static_cast<int>(lights);
     if (draft_.scene.cameras.size() > cameras) moved.camera = static_cast<int>(cameras);
   }
@@ -157,23 +183,53 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
     open.push_back({*child, toWorld, exact, mover});
 }
 
-void SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld,
+// Whether the mesh stands where the node says; a skin puts it elsewhere.
+bool SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld,
                            bool nothing) {
-  const std::vector<int>& meshes = meshes_.use(node.mesh);
-  if (meshes.empty()) return;
-  const std::string& name =
-      node.name.empty() ? model_->meshes[static_cast<size_t>(node.mesh)].name : node.name;
-  const auto add = [&](const DMat4& matrix) {
-    if (nothing) ++draft_.flatInstances;
-    for (const int mesh : meshes)
-      if (!nothing) draft_.addInstance(mesh, index, name, matrix);
+  const std::vector<GltfShape>& shapes = meshes_.use(node);
+  const tinygltf::Mesh& mesh = model_->meshes[static_cast<size_t>(node.mesh)];
+  const bool isCarried = node.skin < 0 || std::ranges::none_of(mesh.primitives, isSkinned);
+  if (!isCarried)
+    skinned_.push_back({node.skin, index, !std::ranges::all_of(mesh.primitives, isSkinned)});
+  if (animations_.morphs(index) && hasTargets(mesh)) noteDeformed(index);
+  const std::string& name = node.name.empty() ? mesh.name : node.name;
+  const auto add = [&](const DMat4& copy) {
+    if (nothing && isCarried) ++draft_.flatInstances;
+    for (const GltfShape& shape : shapes)
+      if (shape.place)
+        draft_.addInstance(shape.mesh, index, name, copy * translation(*shape.place));
+      else if (!nothing)
+        draft_.addInstance(shape.mesh, index, name, toWorld * copy);
   };
   const auto* e = extensionOf(node, "EXT_mesh_gpu_instancing");
-  if (e == nullptr) return add(toWorld);
+  if (e == nullptr) return add(DMat4(1)), isCarried;
   const CopyMatrices copies(*model_, *e);
   if (copies.count() > kMaxInstances) fail("more than {} instances: merge objects", kMaxInstances);
   for (size_t i = 0; i < copies.count(); ++i)
-    copies.vanishes(i) ? void(++draft_.flatInstances) : add(toWorld * copies.matrix(i));
+    copies.vanishes(i) ? void(++draft_.flatInstances) : add(copies.matrix(i));
+  return isCarried;
+}
+
+// By joints that move; a mesh of which only a part is skinned also by its own node.
+void SceneBuilder::findDeformed() {
+  std::set<int> moving;
+  for (const AnimatedNode& node : draft_.scene.animated) moving.insert(node.node);
+  std::map<int, bool> bends;  // by skin
+  const auto moves = [&](int node) { return moving.contains(node); };
+  for (const Skinned& object : skinned_) {
+    const auto [entry, isNew] = bends.try_emplace(object.skin);
+    const auto skin = static_cast<size_t>(object.skin);
+    if (isNew && skin < model_->skins.size())
+      entry->second = std::ranges::any_of(model_->skins[skin].joints, moves);
+    if (entry->second || (object.isCarried && moves(object.node))) noteDeformed(object.node);
+  }
+}
+
+// The first one tells for all.
+void SceneBuilder::noteDeformed(int node) {
+  std::string& name = draft_.scene.deformed;
+  if (name.empty()) name = model_->nodes[static_cast<size_t>(node)].name;
+  if (name.empty()) name = "node " + std::to_string(node);
 }
 
 void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {

@@ -124,6 +124,7 @@ struct Scene {
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;        // at least one after reading
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
+  std::string deformed;               // the first object whose shape the animation changes
   Radiance environment{0};            // constant radiance from outside
   std::optional<float> exposure;      // [EV] that it is meant to be shown with; not on the wire
   DVec3 origin{0};                    // file coordinates = scene coordinates + origin

@@ -59,6 +59,22 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(text.find(from), from.size(), to);
 }
 
+// The first mesh also with colours, morph targets, and two skins.
+std::string deformed(const std::string& json) {
+  std::string text = replaced(json, R"({"mesh":0,)", R"({"mesh":0,"skin":0,"weights":[0.5],)");
+  text = replaced(text, R"({"mesh":0}])", R"({"mesh":0,"skin":1}])");
+  text = replaced(text, R"("TEXCOORD_0":2},)",
+                  R"("TEXCOORD_0":2,"COLOR_0":4,"JOINTS_0":3,"WEIGHTS_0":4,"_OTHER":0},
+                  "targets":[{"POSITION":0,"NORMAL":5},{"COLOR_0":4}],)");
+  text = replaced(
+      text, R"("bufferViews")",
+      R"("skins":[{"joints":[2,3]},{"joints":[3],"inverseBindMatrices":6}],"bufferViews")");
+  return replaced(text, R"("type":"VEC2"})", R"("type":"VEC2"},
+{"bufferView":0,"componentType":5121,"count":3,"type":"VEC4"},
+{"bufferView":0,"byteOffset":12,"componentType":5121,"normalized":true,"count":3,"type":"VEC4"},
+{"componentType":5126,"count":3,"type":"VEC3"},{"componentType":5126,"count":1,"type":"MAT4"})");
+}
+
 }  // namespace
 
 std::vector<Input> ninefoldFuzzSeeds() {
@@ -67,13 +83,13 @@ std::vector<Input> ninefoldFuzzSeeds() {
   const std::string text = replaced(
       good, R"({"byteLength":60})",
       R"({"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAAAAECAAAAAwAAAAAAAAAAAAEAAQAIIMgA"})");
-  return {binary(good), binary(kRich), Input(text.begin(), text.end())};
+  return {binary(good), binary(kRich), binary(deformed(good)), Input(text.begin(), text.end())};
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     const ninefold::Scene scene =
-        ninefold::finishScene(ninefold::readGltf({data, size}, ninefold::SceneFolder({})));
+        ninefold::finishScene(ninefold::readGltf({data, size}, ninefold::SceneFolder({}), {}));
     const ninefold::Emitters emitters(scene, scene.environment);
     ninefold::needsOf(scene, scene.environment);
     ninefold::animationAt(scene, ninefold::animationEnd(scene) / 3);
