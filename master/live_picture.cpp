@@ -30,9 +30,10 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   rested_ = !plan.moving && frame.view.shape.layerMask != kDisplayMask;
   const bool wantsError = look.view == PictureView::error;  // views change at a rest's beginning
   const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height() &&
-                    keepsError_ == wantsError;
+                    keepsError_ == wantsError && film_->twoRadii() == look.twoRadii;
   if (rested_ && !fits)
-    film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError);
+    film_ = std::make_unique<Film>(grid.width(), grid.height(), keepsError_ = wantsError,
+                                   look.twoRadii);
   else if (rested_ && plan.rested == 0)
     film_->clear();
   traced_ = reuses_ && !isFiltered(frame.view.shape);
