@@ -43,20 +43,16 @@ RadiusBias RadiusBias::of(const Replications<double>& blocks, std::span<const do
                           int64_t frames) {
   RadiusBias bias;
   if (frames < kReplications) return bias;
-  Squares sum{}, relative{};
+  Squares sum{};
   double weight = 0;
   for (size_t b = 0; b < pixels.size(); ++b) {
     const Squares squares = differences(blocks, b);
-    const double all = std::accumulate(squares.begin(), squares.end(), 0.0);
-    for (size_t s = 0; s < kHalves; ++s) {
-      sum[s] += pixels[b] * squares[s];
-      relative[s] += all > 0 ? squares[s] / all : 0;
-    }
+    for (size_t s = 0; s < kHalves; ++s) sum[s] += pixels[b] * squares[s];
     weight += pixels[b];
     bias.squares.push_back(std::max(squaredBias(squares), 0.0));
   }
-  if (!(relative[0] > *std::max_element(relative.begin() + 1, relative.end()))) return {};
-  bias.squared = std::max(squaredBias(sum), 0.0) / weight;
+  if (!(sum[0] > *std::max_element(sum.begin() + 1, sum.end()))) return {};
+  bias.squared = squaredBias(sum) / weight;
   return bias;
 }
 

@@ -7,7 +7,7 @@
 // Blur goes with r^2, and the radii's squares are as 2 to 1: the mean is 3/2 of the difference off. The
 // other halves show what chance makes of D, and 2/17 of the true difference.
 //
-// Only what cannot be chance counts: B is 0 unless sum_b D_s^2 / sum_s D_s^2 is larger for the true halves
+// Only what cannot be chance counts: B is 0 unless the image's sum of n_b D^2 is larger for the true halves
 // than for all others (which happens by chance once in 35). That holds however blocks depend on each
 // other, as those of pictures do; and what is not seen is of the order of the noise or less.
 //
