@@ -4,6 +4,8 @@
 // light set, frames have light of their own, and
 //
 //     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 1/2       photon radius [m]
+//     frames i take 2^(1/4) r(i) and 2^(-1/4) r(i) by turns, so that the film sees its bias
+//                                                                        (image/radius_bias.h)
 //     w(i) = min(1, K / i)                                               weight of neighbours
 //
 // so that the bias of both falls faster than the noise, and the film's mean tends to the true

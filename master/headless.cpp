@@ -70,6 +70,7 @@ FrameOrder orderOf(const Job& job) {
 PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int workers) {
   PictureMaker::Setup setup;
   setup.shape = job.shape;
+  setup.twoRadii = options.converging && usesPhotons(job.needs, job.settings);
   setup.aovMask = options.aovs ? job.shape.extraMask : 0;
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;

@@ -9,7 +9,7 @@ namespace {
 
 uint8_t extraPlanes(const Options& options, const Needs& needs) {
   if (!options.aovs) return planesOf(options.view);
-  const bool photons = needs.specular() && options.settings.caustics != Caustics::off;
+  const bool photons = needs.caustics && options.settings.caustics != Caustics::off;
   return static_cast<uint8_t>(
       kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | (photons ? kCausticPlane : 0) |
       (isUnfiltered(options.settings.method) ? kIrradiancePlane : 0) | planesOf(options.view));

@@ -39,9 +39,10 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
 }
 
 void LivePicture::beginRest(const TileGrid& grid, bool isFirst) {
-  light_.begin(grid, setup_.keepsError || look_.view == PictureView::error, isFirst);
+  light_.begin(grid, setup_.keepsError || look_.view == PictureView::error, look_.twoRadii,
+               isFirst);
   const bool isNew = isFirst || look_.view != std::exchange(paintedView_, look_.view);
-  if (isPainted(look_.view)) painted_.begin(grid, false, isNew);
+  if (isPainted(look_.view)) painted_.begin(grid, false, false, isNew);
 }
 
 void LivePicture::takeImage(const FrameShape& shape, bool isFirst) {

@@ -28,6 +28,7 @@ namespace ninefold {
 struct LiveLook {
   PictureView view = PictureView::beauty;
   std::optional<float> exposure;  // [EV] of the tone map; none: nobody looks at codes
+  bool twoRadii = false;          // of photons, see film.h; changes at a rest's beginning
 };
 
 class LivePicture {

@@ -161,7 +161,8 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
 }
 
 LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
-  LiveLook look{view_, pace_.exposure};
+  const bool twoRadii = options_.converging && usesPhotons(needs_, frame.order.settings);
+  LiveLook look{view_, pace_.exposure, twoRadii};
   if (look.exposure && isFalseColor(view_)) look.exposure = 0;
   const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
   if (!isSeen) look.exposure.reset();

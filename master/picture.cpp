@@ -32,7 +32,7 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
 PictureMaker::PictureMaker(const Setup& setup)
     : setup_(setup),
       film_(setup.shape.grid.width(), setup.shape.grid.height(),
-            setup.aovMask != 0 || setup.view == PictureView::error) {
+            setup.aovMask != 0 || setup.view == PictureView::error, setup.twoRadii) {
   if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<Desk>(setup.surfaceTest));

@@ -23,7 +23,8 @@ class PictureMaker {
  public:
   struct Setup {
     FrameShape shape;
-    uint8_t aovMask = 0;  // planes that become layers of the file
+    bool twoRadii = false;  // of photons, see film.h
+    uint8_t aovMask = 0;    // planes that become layers of the file
     PictureView view = PictureView::beauty;
     float depthScale = 1;  // [m], see view.h
     SurfaceTest surfaceTest = SurfaceTest::surface;

@@ -4,11 +4,11 @@
 
 namespace ninefold {
 
-void RestFilm::begin(const TileGrid& grid, bool keepsError, bool isFirst) {
+void RestFilm::begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst) {
   const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height() &&
-                    keepsError_ == keepsError;
+                    keepsError_ == keepsError && film_->twoRadii() == twoRadii;
   if (!fits)
-    film_.emplace(grid.width(), grid.height(), keepsError_ = keepsError);
+    film_.emplace(grid.width(), grid.height(), keepsError_ = keepsError, twoRadii);
   else if (isFirst)
     film_->clear();
   if (!fits || isFirst) has_.assign(static_cast<size_t>(grid.tiles()), 0);

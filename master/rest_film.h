@@ -15,7 +15,7 @@ namespace ninefold {
 class RestFilm {
  public:
   // A frame begins; isFirst: of a new picture.
-  void begin(const TileGrid& grid, bool keepsError, bool isFirst);
+  void begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst);
   void addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
   void frameDone();
   const Film& film() const { return *film_; }

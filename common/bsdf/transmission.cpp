@@ -93,6 +93,11 @@ TransmissionSplit splitTransmission(const Bsdf& bsdf, float cosThetaO) {
   return {bsdf.passThrough, maxComponent(refracted)};
 }
 
+Reflectance straightPass(const Bsdf& bsdf, float cosThetaO) {
+  const bool wall = bsdf.dielectric && bsdf.thin && smoothTransmission(bsdf);
+  return Vec3(bsdf.passThrough) + (wall ? interfaceTransmittance(bsdf, cosThetaO) : Vec3(0));
+}
+
 std::optional<LobeSample> sampleTransmission(const Bsdf& bsdf, Vec3 wo, Vec2 u, float uLobe) {
   const TransmissionSplit split = splitTransmission(bsdf, wo.z);
   const float all = split.straight + split.refracted;

@@ -9,12 +9,12 @@ namespace {
 
 using BoundsOfNodes = std::map<int, Bounds>;
 
-// World bounds of each node that holds an instance with an S lobe.
-BoundsOfNodes specularBounds(const Scene& scene, const Shader& shader) {
+// World bounds of each node that holds an instance that focuses light.
+BoundsOfNodes focusingBounds(const Scene& scene, const Shader& shader) {
   BoundsOfNodes byNode;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    if (!shader.isSpecular(mesh.material)) continue;
+    if (!shader.focuses(mesh.material)) continue;
     for (const Vec3& p : mesh.positions) byNode[instance.node].add(worldPoint(instance.toWorld, p));
   }
   return byNode;
@@ -75,7 +75,7 @@ bool areAround(const std::vector<AimTarget>& targets, const BoundsOfNodes& byNod
 
 std::vector<AimTarget> aimTargets(const Scene& scene, const Shader& shader,
                                   const std::vector<AimTarget>* begun) {
-  const BoundsOfNodes byNode = specularBounds(scene, shader);
+  const BoundsOfNodes byNode = focusingBounds(scene, shader);
   if (begun != nullptr && areAround(*begun, byNode)) {
     std::vector<AimTarget> targets = *begun;
     for (AimTarget& target : targets) {

@@ -1,8 +1,8 @@
-// aim_targets.h: what caustic photons aim at: spheres around the objects that have S lobes.
+// aim_targets.h: what caustic photons aim at: spheres around the objects that focus light.
 //
 // In a gesture each target goes with its objects, and the photons' directions with it; but the share
 // of photons that each gets is the one it would have where the gesture found it (emission.h), so that
-// those of the others stay as they are. When another set of objects has S lobes than then, targets
+// those of the others stay as they are. When another set of objects focuses light than then, targets
 // are made anew.
 //
 // Threads: pure function.   Errors: none.   Proved: tests/gi/gesture_test.cpp.
@@ -28,7 +28,7 @@ struct AimTarget {
 
 inline constexpr size_t kMaxTargets = 16;
 
-// Empty if nothing is specular. `begun`: the targets that a gesture began with; null at rest.
+// Empty if nothing focuses light. `begun`: the targets that a gesture began with; null at rest.
 std::vector<AimTarget> aimTargets(const Scene& scene, const Shader& shader,
                                   const std::vector<AimTarget>* begun);
 

@@ -20,14 +20,14 @@ struct Deposit {
   SortedPhotons& photons;
 };
 
-// Follows a photon through S vertices and stores it at the first D vertex behind one.
+// Follows a photon through S vertices and stores it at the first D vertex if it was focused on it.
 void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media,
                  int diffuseBefore, const LightSampler& sampler, uint32_t i, RayCounts& rays,
                  Deposit& out) {
   walkLightPath(
       t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays, [&](const Arrival& a) {
         const ShadingPoint& p = *a.point;
-        if (!a.fromSpecular || isBlack(p.bsdf.diffuse)) return false;
+        if (!a.focused || isBlack(p.bsdf.diffuse)) return false;
         const Flux flux =
             out.share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
         if (isBlack(flux)) return false;
@@ -123,7 +123,7 @@ void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, siz
 
 void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSet& set) {
   const Settings& s = t.settings;
-  if (s.caustics == Caustics::off || s.photons == 0 || !t.needs.specular() || t.emitters.empty())
+  if (s.caustics == Caustics::off || s.photons == 0 || !t.needs.caustics || t.emitters.empty())
     return;
   // The split does not depend on what this set's walks happened to find: that would bias both
   // halves. A single photon has no half: it becomes one of each.
@@ -137,7 +137,7 @@ void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSe
   if (fromVpls > 0) {
     std::vector<const Vpl*> sources;
     for (const Vpl& vpl : set.vpls)
-      if (vpl.diffuseCount > 0) sources.push_back(&vpl);
+      if (vpl.diffuseCount > 0 && !isBlack(vpl.power)) sources.push_back(&vpl);
     photonsFromVpls(t, frame, k, fromVpls, sources, radii, set.rays, photons);
   }
   for (size_t kind = 0; kind < kPhotonKinds; ++kind)

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "common/gi/direct_light.h"
+#include "common/gi/eye_path.h"
 #include "common/gi/irradiance.h"
 
 namespace ninefold {
@@ -51,7 +52,6 @@ Radiance excessEmission(const Transport& t, const Hit& hit, const ShadingPoint& 
   return excess(g, t.lightBound(static_cast<uint32_t>(emitter))) * emittedRadiance(t, y);
 }
 
-// y is in the same medium as the receiver whose ray met it.
 Receiver receiverAt(const ShadingPoint& y, uint32_t pixel, int absorber) {
   Receiver r;
   r.position = y.surface.position, r.ng = y.ng, r.ns = y.ns;
@@ -68,37 +68,79 @@ struct Level {
   bool mayFollow;
   Receivers& receivers;
   Bounces& next;
+  RayCounts& rays;
+
+  // E(y), for `factor` times it at receiver i. `absorber` of y.
+  void follow(size_t i, const ShadingPoint& y, int absorber, Vec3 factor) {
+    next.points.add(receiverAt(y, receivers.pixel[i], absorber));
+    next.parents.push_back({i, factor});
+  }
+
+  // What the glossy lobe of y sends to receiver i, times `factor`.
+  void followGlossy(size_t i, const ShadingPoint& y, Vec3 factor) {
+    MediumStack media;
+    if (const int absorber = receivers.absorber[i]; absorber >= 0) t.shader.enter(media, absorber);
+    const EyePathEnd end =
+        followLobe(t, y, Lobe::reflection, 0, Vec3(1), media,
+                   samples.glossyPath(receivers.pixel[i], pathVertices), 0, rays);
+    receivers.addIrradiance(i, kPi * factor * end.unfiltered);
+    if (end.arrived && mayFollow)
+      follow(i, end.x, end.absorber, end.gain * factor * end.throughput * end.x.bsdf.diffuse);
+  }
+
+  // The ray of receiver i met `hit`, and goes straight on where that lets it pass.
+  void meetAll(size_t i, float cosX, Vec3 w, float xi, float far, Hit hit) {
+    Vec3 passed(1);
+    for (int met = 0; hit && hit.t > 0 && met <= t.settings.specularDepth; ++met) {
+      const SurfacePoint s = t.tracer.surface(hit);
+      meet(i, cosX, w, xi, hit, s, passed);
+      if (!t.shader.passesStraight(s)) return;
+      passed *= straightPass(t.shader.shade(s, -w, {}));
+      if (isBlack(passed) || !(far > hit.t)) return;
+      ++rays.compensation;
+      const float before = hit.t;
+      hit = t.tracer.closest(offsetOrigin(s, w), w, far - before);
+      hit.t += before;
+    }
+  }
 
   // Receiver i met `hit` in direction w at xi.
-  void meet(size_t i, float cosX, Vec3 w, float xi, const Hit& hit) {
-    const SurfacePoint s = t.tracer.surface(hit);
+  void meet(size_t i, float cosX, Vec3 w, float xi, const Hit& hit, const SurfacePoint& s,
+            Vec3 passed) {
     const float g = cosX * std::abs(glm::dot(w, s.geometricNormal)) / (hit.t * hit.t);
     const float above = excess(g, t.bound);
     if (above <= 0) return;
-    const Vec3 left = t.shader.transmittance(receivers.absorber[i], hit.t);
+    const Vec3 left = passed * t.shader.transmittance(receivers.absorber[i], hit.t);
     const ShadingPoint y = t.shader.shade(s, -w, {});
     // Probability of a ray that is long enough, at least `above`.
     const float reached = std::max(1 - t.bound * hit.t * hit.t / cosX, above);
     receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
     const Vec3 factor = above * left * y.bsdf.diffuse;
-    const float q = std::min(maxComponent(factor), kMaxSurvival);
-    const uint32_t pixel = receivers.pixel[i];
-    if (!mayFollow || xi >= q) return;
-    next.points.add(receiverAt(y, pixel, receivers.absorber[i]));
-    next.parents.push_back({i, factor / q});
+    float q = std::min(maxComponent(factor), kMaxSurvival), qGlossy = 0;
+    if (isGlossy(y.bsdf)) {
+      qGlossy = maxComponent(left * lobeAlbedo(y.bsdf, Lobe::reflection, y.localWo().z)) * above;
+      const float scale = std::min(std::min(above, kMaxSurvival) / (q + qGlossy), 1.0f);
+      q *= scale, qGlossy *= scale;
+    }
+    // y is in the same medium as the receiver whose ray met it.
+    if (xi < q && mayFollow) follow(i, y, receivers.absorber[i], factor / q);
+    if (xi >= q && xi < q + qGlossy) followGlossy(i, y, above / qGlossy * left);
   }
 
   // The receivers first ... first + 15.
-  void trace(size_t first, RayCounts& rays) {
+  void trace(size_t first) {
     ShortRays shorts;
     const size_t lanes = std::min<size_t>(kPacket, receivers.size() - first);
     aim(t, samples, pathVertices, receivers, first, lanes, shorts);
     rays.compensation += static_cast<uint64_t>(std::popcount(shorts.active));
     Hit hits[kPacket];
+    float far[kPacket];
+    std::copy_n(shorts.packet.farT, kPacket, far);
     t.tracer.closest16(shorts.packet, shorts.active, hits, false);
     for (size_t lane = 0; lane < lanes; ++lane)
-      if ((shorts.active >> lane & 1u) != 0 && hits[lane] && hits[lane].t > 0)
-        meet(first + lane, shorts.cosX[lane], shorts.direction(lane), shorts.xi[lane], hits[lane]);
+      if ((shorts.active >> lane & 1u) != 0)
+        meetAll(first + lane, shorts.cosX[lane], shorts.direction(lane), shorts.xi[lane], far[lane],
+                hits[lane]);
   }
 };
 
@@ -110,8 +152,8 @@ void compensate(const Transport& t, const LightSet& lights, const ReceiverSample
   if (depth == scratch.bounced.size()) scratch.bounced.emplace_back();
   Bounces& next = scratch.bounced[depth];
   next.clear();
-  Level level{t, samples, pathVertices, t.allows(pathVertices + 1), receivers, next};
-  for (size_t first = 0; first < receivers.size(); first += kPacket) level.trace(first, rays);
+  Level level{t, samples, pathVertices, t.allows(pathVertices + 1), receivers, next, rays};
+  for (size_t first = 0; first < receivers.size(); first += kPacket) level.trace(first);
   if (next.parents.empty()) return;
   gatherIrradiance(t, lights, samples, pathVertices + 1, scratch, next.points, nullptr, rays);
   for (size_t j = 0; j < next.parents.size(); ++j)

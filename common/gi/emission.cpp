@@ -226,27 +226,39 @@ bool takeBackSide(const Emitter& e, float& u) {
   return back;
 }
 
+Particle emitLocal(const Transport& t, const Source& s, Vec2 u) {
+  const bool back = takeBackSide(*s.emitter, u.x);
+  const LocalSource source = localSource(t, s, back);
+  const Vec3 w = source.ordinarySample(u);
+  const float pdf = source.ordinaryPdf(w);
+  if (source.kind == LocalSource::Kind::lambert) return {source.origin(w), w, source.flux};
+  return {source.origin(w), w, pdf > 0 ? source.intensity(w) / pdf : Vec3(0)};
+}
+
+// The particle, told what it came from.
+Particle emittedBy(const Source& s, Particle particle) {
+  particle.punctual =
+      s.emitter->kind != EmitterKind::triangle && s.emitter->kind != EmitterKind::environment;
+  return particle;
+}
+
 }  // namespace
 
 Particle emitParticle(const Transport& t, size_t stream, Vec2 u01, Vec2 u23) {
   const auto s = chooseSource(t, stream, u01);
   if (!s) return {};
-  if (!isLocal(*s->emitter)) return beamParticle(t, chooseBeam(t, *s, u23), s->u);
-  const bool back = takeBackSide(*s->emitter, u23.x);
-  const LocalSource source = localSource(t, *s, back);
-  const Vec3 w = source.ordinarySample(u23);
-  const float pdf = source.ordinaryPdf(w);
-  if (source.kind == LocalSource::Kind::lambert) return {source.origin(w), w, source.flux};
-  return {source.origin(w), w, pdf > 0 ? source.intensity(w) / pdf : Vec3(0)};
+  return emittedBy(*s, isLocal(*s->emitter) ? emitLocal(t, *s, u23)
+                                            : beamParticle(t, chooseBeam(t, *s, u23), s->u));
 }
 
 Particle emitAimed(const Transport& t, size_t stream, Vec2 u01, Vec2 u23, float uTarget) {
   if (t.targets.empty()) return emitParticle(t, stream, u01, u23);
   const auto s = chooseSource(t, stream, u01);
   if (!s) return {};
-  if (!isLocal(*s->emitter)) return aimBeam(t, chooseBeam(t, *s, u23), s->u, uTarget);
+  if (!isLocal(*s->emitter))
+    return emittedBy(*s, aimBeam(t, chooseBeam(t, *s, u23), s->u, uTarget));
   const bool back = takeBackSide(*s->emitter, u23.x);
-  return aimFrom(t, localSource(t, *s, back), u23, uTarget);
+  return emittedBy(*s, aimFrom(t, localSource(t, *s, back), u23, uTarget));
 }
 
 Particle emitAimed(const Transport& t, const LambertSource& source, Vec2 u, float uTarget) {

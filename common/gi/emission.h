@@ -33,6 +33,7 @@ struct Particle {
   Vec3 origin{0};     // already moved off the surface
   Vec3 direction{0};  // unit
   Flux flux{0};
+  bool punctual = false;  // from a light that no ray meets
 };
 
 inline constexpr float kOrdinaryShare = 0.2f;

@@ -9,7 +9,7 @@ void gatherIrradiance(const Transport& t, const LightSet& lights, const Receiver
                       int pathVertices, Scratch& scratch, Receivers& receivers,
                       std::vector<Irradiance>* caustic, RayCounts& rays) {
   receivers.pad();
-  gatherVpls(t, lights.vpls, samples, pathVertices, scratch.vplGather, receivers, rays.shadow);
+  gatherVpls(t, lights, samples, pathVertices, scratch.vplGather, receivers, rays.shadow);
   for (const PhotonGrid& grid : lights.photons)
     gatherPhotons(t, grid, pathVertices, receivers, caustic);
   if (t.settings.compensate && pathVertices < kMaxVertices)

@@ -31,7 +31,8 @@ struct Arrival {
   const ShadingPoint* point;
   Flux flux;
   MediumStack media;  // on the side it came from
-  bool fromSpecular;  // the last scattering was S
+  bool focused;       // the last lobe that turned it was S and not glossy: photons bring this light
+  bool hidden;        // the light is punctual and met a smooth lobe first: no eye path finds it
   int diffuseBefore;  // D vertices before this one
 };
 
@@ -51,12 +52,12 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
 }
 
 // visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes
-// on after S. onlySpecular: the walk ends at its first D vertex.
+// on after S.
 template <typename Visit>
 void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
                    const LightSampler& sampler, uint32_t index, uint32_t firstDimension,
                    RayCounts& rays, Visit&& visit) {
-  bool fromSpecular = false;
+  bool focused = false, hidden = false;
   int specularRun = 0;
   for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
     if (isBlack(particle.flux)) return;
@@ -71,7 +72,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
       particle.flux *= t.shader.squaredIndex(media);
     }
     particle.flux *= t.shader.attenuation(p, media, hit.t);
-    const bool goOn = visit(Arrival{&p, particle.flux, media, fromSpecular, diffuseBefore});
+    const bool goOn = visit(Arrival{&p, particle.flux, media, focused, hidden, diffuseBefore});
 
     // Choose D or an S lobe, or the end.
     const uint32_t d = firstDimension + 4 * static_cast<uint32_t>(vertex);
@@ -87,7 +88,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
       const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
       particle.flux *= shadingFactor(p, p.ns, p.wo) / choice.diffuse * p.bsdf.diffuse;
       particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
-      fromSpecular = false, specularRun = 0, ++diffuseBefore;
+      focused = hidden = false, specularRun = 0, ++diffuseBefore;
       continue;
     }
     u -= choice.diffuse;
@@ -101,7 +102,11 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     particle.flux *= scattered->weight / probability;
     particle.origin = offsetOrigin(p.surface, scattered->wi), particle.direction = scattered->wi;
     if (lobe == Lobe::transmission) media = t.shader.pass(p, media);
-    fromSpecular = true;
+    if (lobe == Lobe::reflection)
+      focused = !isGlossy(p.bsdf);
+    else if (!scattered->smooth || !t.shader.passesStraight(p.surface))
+      focused = true;  // else it goes on as it came
+    if (vertex == 0) hidden = particle.punctual && scattered->smooth;
   }
 }
 

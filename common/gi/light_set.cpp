@@ -79,7 +79,8 @@ void addDirectVpls(const Transport& t, size_t stream, const FrameKey& frame, int
   }
 }
 
-// Walks 2^pathsLog2 particles of block k of a stream and hands each D vertex to deposit(arrival).
+// Walks 2^pathsLog2 particles of block k of a stream and hands each D or glossy vertex to
+// deposit(arrival).
 template <typename Deposit>
 void walkIndirect(const Transport& t, size_t stream, SampleUse use, uint32_t randomization, int k,
                   int pathsLog2, RayCounts& rays, Deposit&& deposit) {
@@ -88,8 +89,11 @@ void walkIndirect(const Transport& t, size_t stream, SampleUse use, uint32_t ran
   for (uint32_t i = 0; i < 1u << pathsLog2; ++i) {
     const Particle start = emitParticle(t, stream, sampler.get2D(i, 0), sampler.get2D(i, 2));
     walkLightPath(t, start, {}, 0, sampler, i, 4, rays, [&](const Arrival& a) {
-      if (!isBlack(a.point->bsdf.diffuse) && t.allows(a.diffuseBefore + 2)) deposit(a);
-      return t.allows(a.diffuseBefore + 3);
+      const Bsdf& bsdf = a.point->bsdf;
+      if ((!isBlack(bsdf.diffuse) && t.allows(a.diffuseBefore + 2)) ||
+          (isGlossy(bsdf) && t.allows(a.diffuseBefore + 1)))
+        deposit(a);
+      return t.allows(a.diffuseBefore + (t.needs.glossy ? 2 : 3));
     });
   }
 }
@@ -106,19 +110,38 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
   return vpl;
 }
 
+// One VPL for both lobes, D and glossy. What its bound cuts off comes back by eye paths
+// (compensation.h): where they cannot find the light, the glossy lobe has a VPL of its own, without.
+void depositVpls(const Transport& t, const Arrival& a, float share, LightSet& set) {
+  Vpl vpl = indirectVpl(t, a, share);
+  const ShadingPoint& p = *a.point;
+  const bool glossy = isGlossy(p.bsdf);
+  if (glossy && a.hidden) {
+    set.vpls.push_back(vpl);
+    vpl.power = Vec3(0), vpl.bound = std::numeric_limits<float>::infinity();
+  }
+  if (glossy) {
+    vpl.glossy = static_cast<int>(set.glossy.size());
+    set.glossy.push_back(
+        {p.bsdf, p.ns, p.ng, p.wo, share / t.shader.squaredIndex(a.media) * a.flux});
+  }
+  set.vpls.push_back(vpl);
+}
+
 void addIndirectVpls(const Transport& t, size_t stream, const FrameKey& frame, int k,
                      int pathsLog2OfFirst, LightSet& set) {
   const auto wanted = static_cast<unsigned>(t.streams.samples(stream, 1 << pathsLog2OfFirst));
   const int pathsLog2 = std::bit_width(wanted) - 1;
   const float share = 1 / static_cast<float>(1u << pathsLog2);
   walkIndirect(t, stream, SampleUse::lightPath, frame.randomization, k, pathsLog2, set.rays,
-               [&](const Arrival& a) { set.vpls.push_back(indirectVpl(t, a, share)); });
+               [&](const Arrival& a) { depositVpls(t, a, share, set); });
 }
 
 }  // namespace
 
 int lightPathsLog2(const Transport& t) {
-  if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(2)) return -1;
+  if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(t.needs.glossy ? 1 : 2))
+    return -1;
   RayCounts rays;
   uint64_t vertices = 0;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
@@ -138,7 +161,7 @@ LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int path
   if (pathsLog2 >= 0) {
     for (size_t stream = 0; stream < t.streams.count(); ++stream)
       addIndirectVpls(t, stream, frame, k, pathsLog2, set);
-    std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power); });
+    std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power) && vpl.glossy < 0; });
   }
   addCausticPhotons(t, frame, k, set);
   return set;

@@ -8,7 +8,8 @@
 //
 // Direct VPLs: N samples of the emitters in proportion to power; equal punctual ones are merged
 // into one. Indirect VPLs: all D vertices of 2^m light paths; Phi = rho * arriving flux / (n^2 2^m),
-// n = index of the medium around (radiance is basic, the particles' flux is not). m is
+// n = index of the medium around (radiance is basic, the particles' flux is not). They also stand
+// where a glossy S lobe is, and send on what it does: glossy_vpl.h. m is
 // such that the mean number of VPLs is nearest (in ratio) to the wanted one; walks are never cut to
 // a count. Caustic photons: see caustic_photons.h. In a gesture N and m are what they were when it
 // began, and there may be a second stream: light_streams.h.
@@ -20,6 +21,7 @@
 
 #include <vector>
 
+#include "common/gi/glossy_vpl.h"
 #include "common/gi/light_path.h"
 #include "common/gi/photon_radii.h"
 
@@ -35,12 +37,18 @@ struct Vpl {
   Vec3 power{0};    // surface: Phi/pi [W/sr]; point, spot: I [W/sr]; directional: E0 [W/m^2]
   float error = 0;  // of position, see SurfacePoint
   float coneScale = 0, coneOffset = 0;  // spot: falloff = clamp(cos * scale + offset)^2
-  int diffuseCount = 0;  // surface: D vertices of the light path up to here; 0 on an emitter
-  MediumStack media;     // surface: around the VPL
+  int diffuseCount =
+      0;              // surface: D vertices of the light path, this one included; 0 on an emitter
+  int glossy = -1;    // surface: what its S lobe sends on, in LightSet::glossy; -1: nothing
+  MediumStack media;  // surface: around the VPL
+
+  // The D vertices that a path by way of the VPL has at least: none here if it is glossy.
+  int leastCount() const { return glossy >= 0 ? diffuseCount - 1 : diffuseCount; }
 };
 
 struct LightSet {
   std::vector<Vpl> vpls;
+  std::vector<GlossyVpl> glossy;  // of some of them
   CausticPhotons photons;
   RayCounts rays;  // what making it cost
 };

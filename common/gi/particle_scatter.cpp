@@ -25,7 +25,8 @@ std::optional<ScatteredParticle> scatterParticle(const ShadingPoint& p, Lobe lob
   if (g <= 0 || s <= 0) return std::nullopt;
   if (p.ns != p.ng && geometric == facesNormal(side * p.ns, wi)) return std::nullopt;
   const float factor = shadingFactor(p, frame.normal, p.wo) * g / s;
-  return ScatteredParticle{wi, factor / (geometric ? chance : 1 - chance) * sample->weight};
+  return ScatteredParticle{wi, factor / (geometric ? chance : 1 - chance) * sample->weight,
+                           sample->smooth};
 }
 
 }  // namespace ninefold

@@ -26,6 +26,7 @@ namespace ninefold {
 struct ScatteredParticle {
   Vec3 wi;      // unit, world
   Vec3 weight;  // of the flux; above 1 where the normals disagree
+  bool smooth;  // no other direction was possible
 };
 
 // At `p`, met from p.wo. uLobe as for sampleLobe; uNormal chooses between the two sets of directions.

@@ -10,6 +10,9 @@ constexpr int kSureVertices = 4;
 
 enum class Way { diffuse, reflection, transmission };
 
+// What first turned the path after its last D vertex: by it --caustics tells light (needs.h).
+enum class Turn { none, glossy, focused };
+
 // The state of a path between vertices.
 struct Path {
   Vec3 origin{0}, direction{0};
@@ -18,10 +21,12 @@ struct Path {
   float lobePdf = 0;  // density of `direction`, 0 if it was the eye's or a smooth lobe's
   int diffuseCount = 0;
   int specularRun = 0;
-  bool caustic = false;  // the first vertex was D, the next S
+  Turn turn = Turn::none;
+  bool startsDiffuse = false;  // the first vertex was D
+  bool caustic = false;        // and what turned the path after it was focused
 
   // Light found now comes straight to the first D vertex.
-  bool isDirect() const { return diffuseCount == 1 && specularRun == 0; }
+  bool isDirect() const { return diffuseCount == 1 && turn == Turn::none; }
 };
 
 // Where light goes that a path has found.
@@ -73,11 +78,23 @@ Radiance escaped(const Transport& t, const Path& path) {
   return path.lobePdf == 0 ? l : balance(path.lobePdf, environmentPdf(t)) * l;
 }
 
-// Whether --caustics lets the path go on so.
-bool isWanted(const Transport& t, const Path& path, Way way) {
-  if (path.diffuseCount == 0 || t.settings.caustics == Caustics::all) return true;
-  if (way != Way::diffuse) return t.settings.caustics != Caustics::off;
-  return path.specularRun == 0;  // D S+ D
+Turn turnOf(const Bsdf& bsdf, Way way) {
+  if (way == Way::diffuse) return Turn::none;
+  if (way == Way::reflection) return isGlossy(bsdf) ? Turn::glossy : Turn::focused;
+  const bool isStraight = !bsdf.dielectric || (bsdf.thin && bsdf.alpha == 0);
+  return isStraight ? Turn::none : Turn::focused;
+}
+
+// Notes the way; false: --caustics leaves the path out.
+bool noteTurn(const Transport& t, const Bsdf& bsdf, Way way, int vertex, Path& path) {
+  if (vertex == 1) path.startsDiffuse = way == Way::diffuse;
+  const Turn before = path.turn;
+  if (way == Way::diffuse || before == Turn::none) path.turn = turnOf(bsdf, way);
+  if (path.diffuseCount == 0) return true;
+  path.caustic |= path.startsDiffuse && path.diffuseCount == 1 && path.turn == Turn::focused;
+  if (t.settings.caustics == Caustics::all) return true;
+  if (way == Way::diffuse) return before != Turn::focused;  // D S+ D
+  return path.turn != Turn::focused || t.settings.caustics != Caustics::off;
 }
 
 // Chooses a way at p; its probability goes into the throughput. False: absorbed, or over a limit.
@@ -95,9 +112,8 @@ bool chooseWay(const Transport& t, const ShadingPoint& p, float u, int vertex, P
   const float share = way == Way::diffuse      ? albedo.diffuse
                       : way == Way::reflection ? albedo.reflection
                                                : albedo.transmission;
-  if (share <= 0 || !isWanted(t, path, way)) return false;
+  if (share <= 0 || !noteTurn(t, p.bsdf, way, vertex, path)) return false;
   path.throughput *= sum / (share * survival);
-  path.caustic |= vertex == 2 && path.diffuseCount == 1 && way != Way::diffuse;
   path.specularRun = way == Way::diffuse ? 0 : path.specularRun + 1;
   path.diffuseCount += way == Way::diffuse ? 1 : 0;
   return way == Way::diffuse ? t.allows(path.diffuseCount)

@@ -7,7 +7,7 @@
 //
 // At each vertex one lobe, D or S, is chosen first, and both techniques work for that lobe alone:
 // so D vertices are counted exactly as by the virtual point lights, and path-length cuts both
-// methods alike. So do --caustics (no S after D; no D after that) and --direct-vpls 0 (no light
+// methods alike. So do --caustics (no lobe that focuses after D; no D after that) and --direct-vpls 0 (no light
 // straight to the first D). The first kSureVertices vertices survive for sure; later ones with the
 // probability of the lobes' albedo. It cannot find a caustic of a punctual light (L is a point, S is
 // smooth): those paths are missing, and the log says so (leftOut in scene/needs.h).

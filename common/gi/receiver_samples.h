@@ -14,7 +14,9 @@ class ReceiverSamples {
  public:
   ReceiverSamples(uint64_t seed, uint32_t randomization, uint32_t layer)
       : key_(hashWords(seed, static_cast<uint64_t>(SampleUse::gather),
-                       uint64_t{randomization} << 32 | layer)) {}
+                       uint64_t{randomization} << 32 | layer)),
+        layer_(layer),
+        glossyPaths_(seed, SampleUse::glossyPath, randomization, 1, Randomization::owen) {}
 
   // pixel: any number that names the pixel in the whole image.
   Vec2 compensationDirection(uint32_t pixel, int level) const {
@@ -27,6 +29,10 @@ class ReceiverSamples {
   float vplChoice(uint32_t pixel, int level) const {
     return unitFloat(static_cast<uint32_t>(word(pixel, level, 2)));
   }
+  // Of the path that goes on from a glossy surface.
+  PixelSampler glossyPath(uint32_t pixel, int level) const {
+    return PixelSampler(glossyPaths_, pixel, layer_ << 16 | static_cast<uint32_t>(level), 0);
+  }
 
  private:
   static constexpr uint64_t kUses = 3;
@@ -37,6 +43,8 @@ class ReceiverSamples {
   }
 
   uint64_t key_;
+  uint32_t layer_;
+  PixelStream glossyPaths_;
 };
 
 }  // namespace ninefold

@@ -1,7 +1,6 @@
 #include "common/gi/shading.h"
 
 #include "common/gi/solid_ranks.h"
-#include "common/scene/needs.h"
 #include "common/scene/texture.h"
 
 namespace ninefold {
@@ -56,7 +55,8 @@ Shader::Shader(const Scene& scene) : scene_(&scene) {
     if (p.fixedMean) p.mean = coatReflection(p.ends, m.roughness * m.roughness);
     p.transmits = transmits(m);
     p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
-    p.specular = p.transmits || !p.folds || m.alphaMode == AlphaMode::blend;
+    p.focuses = focusesLight(scene, m);
+    p.passes = letsPassStraight(scene, m);
     p.diffuse = mayBeDiffuseOf(m, p.folds);
     p.sigma = attenuationCoefficient(m);
     p.meanFresnel = p.transmits ? meanFresnelDielectric(m.ior) : 0;

@@ -21,6 +21,7 @@
 #include "common/bsdf/bsdf.h"
 #include "common/gi/media.h"
 #include "common/math/basis.h"
+#include "common/scene/needs.h"
 #include "common/scene/scene.h"
 #include "common/tracing/surface.h"
 
@@ -28,6 +29,11 @@ namespace ninefold {
 
 // Whether w is in front of n: not so far at its horizon that a lobe about n could not be told from none.
 inline bool facesNormal(Vec3 n, Vec3 w) { return glm::dot(n, w) > 1e-4f; }
+
+// Whether VPLs stand on the surface's reflection lobe.
+inline bool isGlossy(const Bsdf& bsdf) {
+  return bsdf.reflects && !bsdf.dielectric && bsdf.alpha >= kGlossyRoughness * kGlossyRoughness;
+}
 
 // A surface point seen from direction wo; normals are turned to wo's side.
 struct ShadingPoint {
@@ -103,8 +109,16 @@ class Shader {
   // they bring to a D vertex, or an emitter gives them, is n^2 times what basic radiance says.
   float squaredIndex(const MediumStack& media) const;
 
-  // True if the material of an instance keeps an S lobe (photons aim at it).
-  bool isSpecular(int material) const { return materials_[static_cast<size_t>(material)].specular; }
+  // True if the material has an S lobe that is not glossy: photons aim at it.
+  bool focuses(int material) const { return materials_[static_cast<size_t>(material)].focuses; }
+
+  // True if light may pass straight through the surface, between equal media.
+  bool passesStraight(const SurfacePoint& surface) const {
+    return mayPassStraight(surface.material) && surface.contactCount == 0;
+  }
+  bool mayPassStraight(int material) const {
+    return materials_[static_cast<size_t>(material)].passes;
+  }
 
   // False if the material has no D lobe anywhere: clear glass, metal that keeps its S lobe.
   bool mayBeDiffuse(int material) const {
@@ -119,7 +133,8 @@ class Shader {
   struct Prepared {
     bool folds = false;      // opaque reflection lobe goes into D
     bool transmits = false;  // dielectric interface
-    bool specular = false;   // keeps any S lobe
+    bool focuses = false;    // has an S lobe that is the photons' work
+    bool passes = false;     // may let light pass straight on
     bool diffuse = false;    // may have a D lobe
     int rank = 0;            // among overlapping solids: solid_ranks.h
     Vec3 sigma{0};           // attenuation inside [1/m]
@@ -144,6 +159,11 @@ class Shader {
   std::vector<Prepared> materials_;
   MeanReflection meanReflection_;
 };
+
+// Share of light that passes straight on towards p.wo, where passesStraight(p.surface).
+inline Reflectance straightPass(const ShadingPoint& p) {
+  return straightPass(p.bsdf, p.localWo().z);
+}
 
 // The factor that a particle's flux takes for interpolated normals on arrival from unit direction w
 // (away from the surface): |w.n| / |w.ng|, 0 where the two normals see w on different sides. n is

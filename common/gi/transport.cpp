@@ -1,6 +1,7 @@
 #include "common/gi/transport.h"
 
 #include "common/math/rounding.h"
+#include "common/scene/world.h"
 
 namespace ninefold {
 namespace {
@@ -20,6 +21,28 @@ std::vector<PunctualLight> offSurfaces(const Tracer& tracer) {
   return lights;
 }
 
+Bounds boundsOf(const Scene& scene, const Instance& instance) {
+  Bounds bounds;
+  for (const Vec3& p : scene.meshes[static_cast<size_t>(instance.mesh)].positions)
+    bounds.add(worldPoint(instance.toWorld, p));
+  // A flat box is thick enough for rays in its plane.
+  const float margin = 1e-4f * bounds.radius();
+  bounds.low -= margin, bounds.high += margin;
+  return bounds;
+}
+
+std::vector<Bounds> boundsOfPassing(const Scene& scene, const Shader& shader) {
+  constexpr size_t kMost = 16;  // more are one
+  std::vector<Bounds> each;
+  for (const Instance& instance : scene.instances)
+    if (shader.mayPassStraight(scene.meshes[static_cast<size_t>(instance.mesh)].material))
+      each.push_back(boundsOf(scene, instance));
+  if (each.size() <= kMost) return each;
+  Bounds all;
+  for (const Bounds& b : each) all.add(b.low), all.add(b.high);
+  return {all};
+}
+
 bool isLit(const Transport* begun) { return begun != nullptr && !begun->emitters.empty(); }
 
 }  // namespace
@@ -37,7 +60,8 @@ Transport::Transport(const Tracer& t, const Settings& s, const Transport* begun)
       lampFlux(isLit(begun) ? begun->lampFlux : fluxOf(emitters)),
       bound(s.bound / std::max(radius * radius, 1e-30f)),
       farRounding(kRayRounding * 2 * t.scene().bounds.radius()),
-      targets(aimTargets(t.scene(), shader, isLit(begun) ? &begun->targets : nullptr)) {}
+      targets(aimTargets(t.scene(), shader, isLit(begun) ? &begun->targets : nullptr)),
+      straightBounds(boundsOfPassing(t.scene(), shader)) {}
 
 float Transport::lightBound(uint32_t emitter) const {
   if (!settings.compensate) return bound;  // the paper's: what is cut off stays away

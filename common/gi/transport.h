@@ -37,6 +37,7 @@ struct Transport {
   float bound;     // b = c/R^2 [1/m^2]
   Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
   std::vector<AimTarget> targets;
+  std::vector<Bounds> straightBounds;  // of what lets light pass straight on; few
 
   // Bound of the geometry term at an area emitter, from all of which one point was taken with probability P:
   // where G < P/A, such a point adds at most L to E, less than the emitter seen near by does; and a

@@ -2,6 +2,7 @@
 
 #include <bit>
 
+#include "common/gi/straight_light.h"
 #include "common/math/rounding.h"
 
 namespace ninefold {
@@ -60,9 +61,50 @@ void addThroughMedia(const Transport& t, const Vpl& vpl, const RayPacket& rays, 
   }
 }
 
+// What the VPL sends to x [W/sr].
+Vec3 powerTo(const Transport& t, const LightSet& lights, const Vpl& vpl, int pathVertices, Vec3 x) {
+  if (vpl.glossy < 0) return vpl.power;
+  const Vec3 glossy = lights.glossy[static_cast<size_t>(vpl.glossy)].intensityOverCosine(
+      glm::normalize(x - vpl.position));
+  return t.allows(vpl.diffuseCount + pathVertices) ? glossy + vpl.power : glossy;
+}
+
+// The same for a VPL with a glossy lobe: each receiver sees it from a direction of its own.
+void addGlossy(const Transport& t, const LightSet& lights, const Vpl& vpl, const RayPacket& rays,
+               const float* weight, uint32_t visible, int pathVertices, Receivers& r,
+               size_t first) {
+  for (size_t lane = 0; lane < kPacket; ++lane) {
+    if ((visible >> lane & 1u) == 0) continue;
+    const Vec3 along(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
+    const Vec3 power = powerTo(t, lights, vpl, pathVertices, r.position(first + lane));
+    const Vec3 left = t.shader.transmittance(r.absorber[first + lane], glm::length(along));
+    r.addIrradiance(first + lane, weight[lane] * left * power);
+  }
+}
+
+// What passes straight through that which blocks these lanes.
+void addStraight(const Transport& t, const LightSet& lights, const Vpl& vpl, RayPacket& rays,
+                 Vec3 target, const float* weight, uint32_t blocked, int pathVertices, Receivers& r,
+                 size_t first, uint64_t& shadowRays) {
+  aimRays(vpl, target, r, first, rays);
+  for (size_t lane = 0; lane < kPacket; ++lane) {
+    if ((blocked >> lane & 1u) == 0) continue;
+    const Vec3 along(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
+    const Vec3 left =
+        straightVisibility(t, r.origin(first + lane), along, rays.farT[lane], shadowRays);
+    if (isBlack(left)) continue;
+    const float distance = rays.farT[lane] * glm::length(along);
+    r.addIrradiance(first + lane,
+                    weight[lane] * left *
+                        t.shader.transmittance(r.absorber[first + lane], distance) *
+                        powerTo(t, lights, vpl, pathVertices, r.position(first + lane)));
+  }
+}
+
 // Asks for light along the rays of one VPL to a chunk of receivers, and adds it.
-void traceVpl(const Transport& t, const Vpl& vpl, size_t v, VplGatherScratch& scratch, size_t begin,
-              Receivers& receivers, uint64_t& shadowRays) {
+void traceVpl(const Transport& t, const LightSet& lights, size_t v, int pathVertices,
+              VplGatherScratch& scratch, size_t begin, Receivers& receivers, uint64_t& shadowRays) {
+  const Vpl& vpl = lights.vpls[v];
   RayPacket& rays = scratch.rays;
   const Vec3 target = rayTarget(t, vpl);
   for (size_t first = 0; first < scratch.weights.size(); first += kPacket) {
@@ -72,7 +114,12 @@ void traceVpl(const Transport& t, const Vpl& vpl, size_t v, VplGatherScratch& sc
     aimRays(vpl, target, receivers, begin + first, rays);
     shadowRays += static_cast<uint64_t>(std::popcount(active));
     const uint32_t visible = active & ~t.tracer.occluded16(rays, active);
-    if (receivers.absorbs())
+    if (visible != active && !t.straightBounds.empty())
+      addStraight(t, lights, vpl, rays, target, weight, active & ~visible, pathVertices, receivers,
+                  begin + first, shadowRays);
+    if (vpl.glossy >= 0)
+      addGlossy(t, lights, vpl, rays, weight, visible, pathVertices, receivers, begin + first);
+    else if (receivers.absorbs())
       addThroughMedia(t, vpl, rays, weight, visible, receivers, begin + first);
     else
       addVisible(vpl, weight, visible, receivers, begin + first);
@@ -81,17 +128,18 @@ void traceVpl(const Transport& t, const Vpl& vpl, size_t v, VplGatherScratch& sc
 
 }  // namespace
 
-void gatherVpls(const Transport& t, const std::vector<Vpl>& vpls, const ReceiverSamples& samples,
+void gatherVpls(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
                 int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
                 uint64_t& shadowRays) {
+  const std::vector<Vpl>& vpls = lights.vpls;
   const size_t padded = (receivers.size() + kPacket - 1) / kPacket * kPacket;
   const size_t chunk = VplWeights::chunk(vpls.size());
   for (size_t begin = 0; begin < padded; begin += chunk) {
     scratch.weights.fill(t, vpls, pathVertices, receivers, begin, std::min(chunk, padded - begin));
-    scratch.roulette.play(t.settings.vplRoulette, vpls, samples, pathVertices, receivers, begin,
+    scratch.roulette.play(t.settings.vplRoulette, lights, samples, pathVertices, receivers, begin,
                           scratch.weights);
     for (size_t v = 0; v < vpls.size(); ++v)
-      traceVpl(t, vpls[v], v, scratch, begin, receivers, shadowRays);
+      traceVpl(t, lights, v, pathVertices, scratch, begin, receivers, shadowRays);
   }
 }
 

@@ -3,6 +3,7 @@
 //   E(x) = sum_i V(x, y_i) (Phi_i/pi) min(G, b) cos_s/cos_x        surface VPLs [W/m^2]
 //          + sum_i V I_i(w) cos_s / d^2                            point and spot lights
 //          + sum_i V E0_i cos_s                                    directional lights
+//          + sum_i V Phi_i A_i min(G, b) cos_s/cos_x               glossy lobes (glossy_vpl.h)
 //
 //   G       cos_x cos_y / d^2 with geometric normals               [1/m^2]
 //   b       bound of G: the energy above it is missing here (compensation gives it back) [1/m^2];
@@ -38,8 +39,8 @@ struct VplGatherScratch {
 // Adds to receivers.er/eg/eb; receivers must be padded to kPacket. VPLs whose path would exceed the
 // limit on D vertices are left out; pathVertices as in irradiance.h. `shadowRays` counts active
 // lanes.
-void gatherVpls(const Transport& transport, const std::vector<Vpl>& vpls,
-                const ReceiverSamples& samples, int pathVertices, VplGatherScratch& scratch,
-                Receivers& receivers, uint64_t& shadowRays);
+void gatherVpls(const Transport& transport, const LightSet& lights, const ReceiverSamples& samples,
+                int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
+                uint64_t& shadowRays);
 
 }  // namespace ninefold

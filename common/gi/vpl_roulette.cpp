@@ -23,24 +23,36 @@ void scale(float* weight, float by) {
   for (int lane = 0; lane < kPacket; ++lane) weight[lane] *= by;
 }
 
+// Largest component of what goes to x [W/sr].
+float brightness(const LightSet& lights, const Vpl& vpl, Vec3 x) {
+  const float diffuse = maxComponent(vpl.power);
+  if (vpl.glossy < 0 || x == vpl.position) return diffuse;
+  const GlossyVpl& glossy = lights.glossy[static_cast<size_t>(vpl.glossy)];
+  // Not less than diffuse scattering of a twentieth: the rest of the packet is seen from elsewhere.
+  return diffuse +
+         std::max(maxComponent(glossy.intensityOverCosine(glm::normalize(x - vpl.position))),
+                  0.05f * kInvPi * maxComponent(glossy.flux));
+}
+
 }  // namespace
 
-void VplRoulette::play(float f, const std::vector<Vpl>& vpls, const ReceiverSamples& samples,
+void VplRoulette::play(float f, const LightSet& lights, const ReceiverSamples& samples,
                        int pathVertices, const Receivers& receivers, size_t begin,
                        VplWeights& weights) {
   if (f <= 0) return;
   for (size_t first = 0; first < weights.size(); first += kPacket)
-    playPacket(f, vpls, samples.vplChoice(receivers.pixel[begin + first], pathVertices), first,
-               weights);
+    playPacket(f, lights, samples.vplChoice(receivers.pixel[begin + first], pathVertices),
+               receivers.position(begin + first), first, weights);
 }
 
-void VplRoulette::playPacket(float f, const std::vector<Vpl>& vpls, float u, size_t first,
+void VplRoulette::playPacket(float f, const LightSet& lights, float u, Vec3 x, size_t first,
                              VplWeights& weights) {
+  const std::vector<Vpl>& vpls = lights.vpls;
   contributions_.resize(vpls.size());
   float sum = 0;
   int count = 0;
   for (size_t v = 0; v < vpls.size(); ++v) {
-    const float c = maxComponent(vpls[v].power) * largest(weights.at(v, first));
+    const float c = brightness(lights, vpls[v], x) * largest(weights.at(v, first));
     contributions_[v] = c, sum += c, count += c > 0 ? 1 : 0;
   }
   if (count <= kLeast) return;

@@ -1,7 +1,8 @@
 // vpl_roulette.h: fewer shadow rays for the same picture. A packet of receivers asks only some of the
 // VPLs that would add little, and weights those by the inverse of their probability:
 //
-//   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between
+//   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between; of glossy
+//         lobes what goes to the first receiver counts
 //   tau   sum c_v / max(n/f, 5),   n = number of VPLs with c_v > 0; all are asked if n <= 5
 //   p_v   c_v / tau, from 1/16 to 1 (what adds little may be all that is not hidden);   weight times 1/p_v with probability p_v, else 0
 //
@@ -28,11 +29,11 @@ class VplRoulette {
  public:
   // Changes the weights of all packets of a chunk that begins at receiver `begin`; u for a packet is
   // its first receiver's sample.
-  void play(float f, const std::vector<Vpl>& vpls, const ReceiverSamples& samples, int pathVertices,
+  void play(float f, const LightSet& lights, const ReceiverSamples& samples, int pathVertices,
             const Receivers& receivers, size_t begin, VplWeights& weights);
 
  private:
-  void playPacket(float f, const std::vector<Vpl>& vpls, float u, size_t first,
+  void playPacket(float f, const LightSet& lights, float u, Vec3 x, size_t first,
                   VplWeights& weights);
 
   std::vector<float> contributions_;  // c_v of one packet

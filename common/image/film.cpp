@@ -27,12 +27,13 @@ void prefetch(const double* mean, size_t n) {
 
 }  // namespace
 
-Film::Film(int width, int height, bool keepsError)
+Film::Film(int width, int height, bool keepsError, bool twoRadii)
     : width_(width),
       height_(height),
       blockColumns_(ceilDivide(width, kErrorBlock)),
       blockRows_(ceilDivide(height, kErrorBlock)),
-      keepsError_(keepsError) {
+      keepsError_(keepsError),
+      twoRadii_(twoRadii) {
   const size_t blocks = pixelCount(blockColumns_, blockRows_);
   blockMeans_.resize(blocks + 1);
   for (int by = 0; by < blockRows_; ++by)
@@ -49,6 +50,7 @@ void Film::clear() {
   for (auto* mean : {&r_, &g_, &b_}) mean->assign(pixels, 0);
   if (keepsError_) pixels_.resize(pixels);
   blocks_.resize(blockMeans_.size());
+  bias_ = {};
 }
 
 void Film::add(const RgbImage& frame) {
@@ -100,6 +102,9 @@ void Film::frameDone() {
   }
   blockMeans_.back() = whole / blockPixels_.back();
   blocks_.add(blockMeans_, 0, frames_ - 1);
+  if (twoRadii_ && frames_ % kReplications == 0)
+    bias_ =
+        RadiusBias::of(blocks_, std::span(blockPixels_).first(blockPixels_.size() - 1), frames_);
 }
 
 void Film::mean(RgbImage& out) const {
@@ -126,7 +131,13 @@ std::vector<float> Film::standardError() const {
 float Film::standardError(size_t pixel, int64_t frames) const {
   NINEFOLD_CHECK(keepsError_);
   if (frames < 2) return 0;
-  return static_cast<float>(std::sqrt(pixels_.estimate(pixel, frames).squaredError));
+  double squared = pixels_.estimate(pixel, frames).squaredError;
+  if (!bias_.squares.empty()) {
+    const size_t x = pixel % static_cast<size_t>(width_), y = pixel / static_cast<size_t>(width_);
+    squared +=
+        bias_.squares[y / kErrorBlock * static_cast<size_t>(blockColumns_) + x / kErrorBlock];
+  }
+  return static_cast<float>(std::sqrt(squared));
 }
 
 double Film::relativeError() const {
@@ -134,7 +145,7 @@ double Film::relativeError() const {
   double sum = 0;
   for (size_t b = 0; b + 1 < blockPixels_.size(); ++b)
     sum += blockPixels_[b] * blocks_.estimate(b, frames_).squaredError;
-  return relative(sum / blockPixels_.back());
+  return relative(sum / blockPixels_.back() + bias_.squared);
 }
 
 double Film::imageRelativeError() const {

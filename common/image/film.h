@@ -10,10 +10,11 @@
 // replications, as replications.h says; e: standard error of a mean:
 //
 //   standardError()        e of each pixel
-//   relativeError()        sqrt(sum_b n_b e_b^2 / sum_b n_b) / Y         b: blocks of n_b pixels
+//   relativeError()        sqrt(sum_b n_b (e_b^2 + B_b^2) / sum_b n_b) / Y         b: blocks of n_b pixels
 //   imageRelativeError()   e_Y / Y                                       Y: mean image luminance
 //
-// relativeError() is what stop rules use. Both are infinite for N < 2, and 0 for a black image.
+// B_b: bias by the photons' radius, where frames take two by turns (radius_bias.h), as it was after the last
+// full turn of replications; standardError() has it, too. relativeError() is what stop rules use. Both are infinite for N < 2, and 0 for a black image.
 //
 // A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels.
 //
@@ -25,6 +26,7 @@
 #include <cstdint>
 
 #include "common/image/image.h"
+#include "common/image/radius_bias.h"
 #include "common/image/replications.h"
 #include "common/sampling/interleave.h"
 
@@ -34,8 +36,9 @@ inline constexpr int kErrorBlock = 16;
 
 class Film {
  public:
-  // keepsError: standardError() will be asked for, which takes eight means of every pixel.
-  Film(int width, int height, bool keepsError = true);
+  // keepsError: standardError() will be asked for, which takes eight means of every pixel. twoRadii: even
+  // frames have photons of a wider radius than odd ones.
+  Film(int width, int height, bool keepsError = true, bool twoRadii = false);
 
   void clear();  // the picture has changed: start again
   // Part of the next frame, whose top left pixel is (x0, y0).
@@ -45,6 +48,7 @@ class Film {
 
   int width() const { return width_; }
   int height() const { return height_; }
+  bool twoRadii() const { return twoRadii_; }
   int64_t frames() const { return frames_; }
   void mean(RgbImage& out) const;  // black without frames
   // Of the pixels of a tile, the frame included that it was last added of; into the same place of a
@@ -61,13 +65,14 @@ class Film {
   double relative(double squaredError) const;  // its root over Y
 
   int width_, height_, blockColumns_, blockRows_;
-  bool keepsError_;
+  bool keepsError_, twoRadii_;
   int64_t frames_ = 0;
   std::vector<double> r_, g_, b_;  // means
   Replications<float> pixels_;     // empty without keepsError
   Replications<double> blocks_;    // blocks row-major, then the whole image
   std::vector<double> blockMeans_;
   std::vector<double> blockPixels_;  // n_b, last the whole image
+  RadiusBias bias_;
 };
 
 }  // namespace ninefold

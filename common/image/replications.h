@@ -43,6 +43,9 @@ class Replications {
     for (size_t i = 0; i < n; ++i) m[i] += (x[i] - m[i]) * share;
   }
 
+  // Mean of quantity i in replication r.
+  double at(size_t r, size_t i) const { return static_cast<double>(mean_[r * quantities_ + i]); }
+
   struct Estimate {
     double mean = 0, squaredError = 0;
   };
@@ -69,7 +72,6 @@ class Replications {
     const int64_t whole = (frames - static_cast<int64_t>(r) + kReplications - 1) / kReplications;
     return static_cast<double>(whole);
   }
-  double at(size_t r, size_t i) const { return static_cast<double>(mean_[r * quantities_ + i]); }
 
   size_t quantities_ = 0;
   std::vector<T> mean_;  // replication by replication

@@ -41,7 +41,8 @@ enum class SampleUse : uint32_t {
   eyePath,
   gather,
   rounding,
-  probe
+  probe,
+  glossyPath
 };
 
 // The 24 highest bits as a number in [0, 1); more would round up to 1.

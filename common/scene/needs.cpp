@@ -28,6 +28,12 @@ float largestMetallic(const Scene& scene, const Material& m) {
   return m.metallic == 0 ? 0 : m.metallic * channelRange(scene, m.metallicRoughnessMap, 2).high;
 }
 
+// Perceptual roughness.
+Range roughness(const Scene& scene, const Material& m) {
+  const Range texels = channelRange(scene, m.metallicRoughnessMap, 1);
+  return {m.roughness * texels.low, m.roughness * texels.high};
+}
+
 bool blends(const Scene& scene, const Material& m) {
   return m.alphaMode == AlphaMode::blend &&
          m.opacity * channelRange(scene, m.baseColorMap, 3).low < 1;
@@ -48,12 +54,13 @@ void addMaterial(const Scene& scene, const Material& m, Needs& needs) {
   constexpr float kSmallestAlpha = 1e-3f;
   const bool glass = transmits(m);
   const bool lobe = glass || !foldsIntoDiffuse(scene, m);
-  const float roughest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).high;
+  const auto [smoothest, roughest] = roughness(scene, m);
   needs.reflection |= lobe;
   needs.transmission |= glass || blends(scene, m);
   needs.roughSpecular |= lobe && roughest * roughest >= kSmallestAlpha;
-  const float smoothest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).low;
   needs.smoothSpecular |= (lobe && smoothest * smoothest < kSmallestAlpha) || blends(scene, m);
+  needs.glossy |= lobe && !glass && roughest >= kGlossyRoughness;
+  needs.caustics |= focusesLight(scene, m);
   needs.textures |= isTextured(m);
   needs.alphaMask |= m.alphaMode == AlphaMode::mask;
   needs.areaLights |= !isBlack(m.emission);
@@ -69,8 +76,17 @@ uint8_t Needs::layerMask() const {
 bool foldsIntoDiffuse(const Scene& scene, const Material& m) {
   const float metallic = largestMetallic(scene, m);
   if (metallic == 0 && m.specular == 0) return true;
-  const float smoothest = m.roughness * channelRange(scene, m.metallicRoughnessMap, 1).low;
-  return smoothest >= (metallic < 0.5f ? 0.6f : 0.85f);
+  return roughness(scene, m).low >= (metallic < 0.5f ? 0.6f : 0.85f);
+}
+
+bool letsPassStraight(const Scene& scene, const Material& m) {
+  if (transmits(m)) return !m.solid;
+  return blends(scene, m);
+}
+
+bool focusesLight(const Scene& scene, const Material& m) {
+  if (transmits(m)) return true;
+  return !foldsIntoDiffuse(scene, m) && roughness(scene, m).low < kGlossyRoughness;
 }
 
 Needs needsOf(const Scene& scene, Radiance environment) {
@@ -99,7 +115,7 @@ std::vector<std::string> describe(const Needs& needs) {
            "no surface reflects other than diffusely"),
       line("transmission layer", needs.transmission, "light passes through some surfaces",
            "no surface lets light through"),
-      line("caustic photons", needs.specular(), "some surfaces can focus light",
+      line("caustic photons", needs.caustics, "some surfaces can focus light",
            "no surface can focus light"),
       line("lights sampled at glossy surfaces", needs.roughSpecular, "some are not smooth",
            "none is there"),
@@ -118,7 +134,7 @@ std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
     lines.emplace_back(
         "path-trace cannot find light that comes from point, spot or directional lights by way of "
         "smooth mirrors, glass or transparent surfaces: it is missing");
-  if (!needs.specular()) return lines;
+  if (!needs.caustics) return lines;
   if (settings.caustics == Caustics::off || (settings.photons == 0 && !traced))
     lines.emplace_back("caustics are off: light by way of mirrors and glass is missing");
   else if (settings.caustics == Caustics::direct)

@@ -1,8 +1,10 @@
 // needs.h: what a scene asks of the renderer. What is not needed is not set up, not sent and not
 // timed.
 //
-// The folding rule, written down once: a reflection lobe so rough that it cannot be told from
-// diffuse is folded into D for the whole material, see foldsIntoDiffuse.
+// Two lines are drawn by roughness, here and for all methods. A reflection lobe so rough that it cannot
+// be told from diffuse is folded into D for the whole material, see foldsIntoDiffuse. One that is less
+// rough, but rough enough for VPLs to stand on it, is glossy, see kGlossyRoughness. What is left is the
+// caustic photons' work.
 // Threads: pure functions.
 #pragma once
 
@@ -14,11 +16,17 @@
 
 namespace ninefold {
 
+// Perceptual roughness from which on the reflection lobe of an opaque surface is glossy: the light that
+// it sends on is found by VPLs. Measured, see glossy_vpl.h.
+inline constexpr float kGlossyRoughness = 0.4f;
+
 struct Needs {
   bool reflection = false;      // some material keeps a reflection lobe
   bool transmission = false;    // some material transmits or blends
   bool roughSpecular = false;   // some S lobe is not smooth: lights are sampled at S vertices
   bool smoothSpecular = false;  // some S lobe is: only chance meets a light by it
+  bool glossy = false;          // VPLs stand on some S lobes
+  bool caustics = false;        // others focus light: photons
   bool textures = false;
   bool alphaMask = false;
   bool areaLights = false, punctualLights = false, environment = false;
@@ -36,6 +44,19 @@ bool transmits(const Material& material);
 // metals; or its specular factor is 0 and it is no metal at all. Looks at all texels: ask once per
 // material.
 bool foldsIntoDiffuse(const Scene& scene, const Material& material);
+
+// True if light passes straight through the material between equal media: blended, or a thin wall.
+bool letsPassStraight(const Scene& scene, const Material& material);
+
+// True if the material has an S lobe that is neither folded nor glossy everywhere; what passes straight
+// on is not focused.
+bool focusesLight(const Scene& scene, const Material& material);
+
+// Whether pictures have light that photons bring.
+inline bool usesPhotons(const Needs& needs, const Settings& settings) {
+  return needs.caustics && settings.method == Method::instantRadiosity &&
+         settings.caustics != Caustics::off && settings.photons > 0;
+}
 
 // The layers that a task of this method carries; master and clients must agree on it.
 inline uint8_t layerMaskOf(const Needs& needs, Method method) {

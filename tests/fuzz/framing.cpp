@@ -38,7 +38,7 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
     }
     return bytes;
   };
-  const msg::Result result{1, 2, 3, 4, 5, 1, 0, {6, 7, 8, 9}, Bytes(40)};
+  const msg::Result result{1, 2, 3, 4, 5, 1, 0, 0, {6, 7, 8, 9}, Bytes(40)};
   const msg::Tasks tasks{1, {2, 3, 4, 0.5f}, {{1, 2, 3}, {4, 5, 6}}};
   const msg::SceneOffer offer{1, {{{}, 10, BlobKind::image}, {{}, 20, BlobKind::rest}}};
   return {stream(2, {msg::Hello{}, msg::BlobRequest{}, msg::Progress{}, msg::Ready{1, 1}, result}),

@@ -339,7 +339,7 @@ TEST(Options, HelpNamesEveryFlagOfTheInterface) {
 TEST(Options, ShortHelpIsHelpAndANegativeNumberIsAValue) {
   EXPECT_TRUE(parse("-h", {}, false).help);
   EXPECT_TRUE(parse("--version", {}, false).version);
-  EXPECT_FLOAT_EQ(parse("a.glb --exposure -5").exposure, -5);
+  EXPECT_EQ(parse("a.glb --exposure -5").exposure, std::optional<float>(-5.0f));
   for (const char* status : {"0 done", "1 a failure", "2 wrong usage", "143 SIGTERM", "129 SIGHUP"})
     EXPECT_NE(helpText().find(status), std::string::npos) << status;
 }

@@ -71,6 +71,25 @@ TEST(Needs, MirrorsReflectAndGlassDoesBoth) {
   EXPECT_EQ(needsWith(glass).layerMask(), kDiffuseBit | kReflectionBit | kTransmissionBit);
 }
 
+// Photons are for what bends or mirrors light narrowly; glossy surfaces have VPLs, and what passes straight on
+// has shadow rays.
+TEST(Needs, PhotonsAreForWhatFocusesLight) {
+  Material metal;
+  metal.metallic = 1;
+  for (const float roughness : {0.0f, 0.39f, 0.4f, 0.84f, 0.85f}) {
+    metal.roughness = roughness;
+    EXPECT_EQ(needsWith(metal).caustics, roughness < 0.4f) << roughness;
+    EXPECT_EQ(needsWith(metal).glossy, roughness >= 0.4f && roughness < 0.85f) << roughness;
+  }
+  Material veil = matte();
+  veil.alphaMode = AlphaMode::blend, veil.opacity = 0.5f;
+  EXPECT_FALSE(needsWith(veil).caustics);
+  Material frosted = matte();
+  frosted.transmission = 1, frosted.roughness = 0.7f;
+  EXPECT_TRUE(needsWith(frosted).caustics) << "what passes rough glass is bent";
+  EXPECT_FALSE(needsWith(frosted).glossy);
+}
+
 TEST(Needs, BlendingNeedsTransmissionOnlyIfAnythingIsTransparent) {
   Material m = matte();
   m.alphaMode = AlphaMode::blend;
