@@ -40,7 +40,7 @@ struct SurfacePoint {
   Vec3 tangent{1, 0, 0};    // unit, along increasing u of uv0 where the material has a normal map
   float tangentSign = 1;    // bitangent = tangentSign * cross(normal, tangent)
   Vec2 uv0{0}, uv1{0};
-  Vec4 color{1};            // of the vertices: linear, times the material's colour and opacity
+  Vec4 color{1};  // of the vertices: linear, times the material's colour and opacity
   uint32_t instance = 0, triangle = 0;
   int material = 0;
   float error = 0;  // bound of the distance of `position` from the exact surface [m]
