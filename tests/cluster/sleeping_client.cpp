@@ -1,4 +1,4 @@
-// ninefold-sleeping-client: a client like any other, but that one of its tasks sleeps: what a native call
+// sleeping-client: a client like any other, but that one of its tasks sleeps: what a native call
 // that does not return looks like from outside. For tests/cluster/stuck_test.py. Options: those of
 // ninefold-client, and in the environment
 //

@@ -9,7 +9,7 @@ import unittest
 
 from programs import BIN, SCENES, ClusterTest
 
-SLEEPER = BIN / "ninefold-sleeping-client"
+SLEEPER = BIN / "sleeping-client"
 
 
 class Stuck(ClusterTest):
