@@ -219,6 +219,13 @@ class WindowTest(unittest.TestCase):
         self.screen.hold("w", 0.3)
         eventually(lambda: self.frames() < seen[0], "another view is another mean")
 
+    def test_every_method_finds_what_is_clicked_at(self):
+        self.start("--method", "path-trace")
+        self.rest()
+        self.screen.key("Tab")
+        self.screen.click(*self.sphere_at)
+        self.program.waits_for("selected glass sphere")
+
     def test_the_panel_folds_and_is_remembered(self):
         os.environ["XDG_CONFIG_HOME"] = str(pathlib.Path(self.folder.name) / "settings")
         self.addCleanup(os.environ.pop, "XDG_CONFIG_HOME")
