@@ -1,6 +1,7 @@
 // png_bytes.h: PNG files made in code, with uncompressed deflate blocks. 8 or 16 bits a channel.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string_view>
@@ -55,13 +56,10 @@ inline std::vector<unsigned char> png(int width, int height, int channels,
   auto file =
       pngHeader(static_cast<uint32_t>(width), static_cast<uint32_t>(height), channels, bits);
   const size_t row = static_cast<size_t>(width * channels * bits / 8);
-  std::vector<unsigned char> raw;
-  raw.reserve((row + 1) * static_cast<size_t>(height));
-  for (int y = 0; y < height; ++y) {
-    raw.push_back(0);  // no prediction
-    const auto begin = samples.begin() + static_cast<ptrdiff_t>(row * static_cast<size_t>(y));
-    raw.insert(raw.end(), begin, begin + static_cast<ptrdiff_t>(row));
-  }
+  std::vector<unsigned char> raw((row + 1) * static_cast<size_t>(height), 0);  // no prediction
+  for (size_t y = 0; y < static_cast<size_t>(height); ++y)
+    std::copy_n(samples.begin() + static_cast<ptrdiff_t>(row * y), row,
+                raw.begin() + static_cast<ptrdiff_t>((row + 1) * y + 1));
   uint32_t a = 1, b = 0;
   for (const unsigned char c : raw) a = (a + c) % 65521, b = (b + a) % 65521;
   const auto size = static_cast<uint32_t>(raw.size());
