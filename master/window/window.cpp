@@ -8,6 +8,7 @@
 // clang-format on
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace ninefold {
@@ -21,6 +22,12 @@ constexpr float kFontSize = 15;  // [screen units]
   glfwTerminate();
   throw NoDisplay(fmt::format("no window can be opened: {}",
                               description != nullptr ? description : "no display is there"));
+}
+
+// Nothing that names a display: GLFW is not asked, as Wayland's library has lines of its own for that.
+bool mayHaveDisplay() {
+  const auto isSet = [](const char* name) { return std::getenv(name) != nullptr; };
+  return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY") || isSet("XDG_RUNTIME_DIR");
 }
 
 ScreenSpace screen() {
@@ -50,7 +57,7 @@ void setUpStyle(GLFWwindow* window) {
 
 Window::Window(const std::string& title, int pictureWidth, int pictureHeight,
                const WindowMemory& memory) {
-  if (glfwInit() != GLFW_TRUE) failWithoutDisplay();
+  if (!mayHaveDisplay() || glfwInit() != GLFW_TRUE) failWithoutDisplay();
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
