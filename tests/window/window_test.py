@@ -23,7 +23,7 @@ WIDTH, HEIGHT = 720, 480  # of the window; the picture of 320x240 fills its heig
 CALM = 2.5  # codes: noise of a picture at rest stays below
 FRAMES = 6   # of a picture at rest
 ISAS = ["avx2"] + (["avx512"] if " avx512f " in pathlib.Path("/proc/cpuinfo").read_text() else [])
-LIT = 60     # mean code of table_room with its lamp on is above, with the panel too
+LIT = 50     # mean code of table_room with its lamp on is above, with the panel too; half of it with the lamp off
 
 
 def is_outline(r, g, b):
