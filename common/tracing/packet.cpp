@@ -75,7 +75,7 @@ void occludedBy(RTCScene part, bool wide, bool coherent, uint32_t active, RayPac
 
 uint32_t blockedLanes(const RayPacket& rays) {
   uint32_t blocked = 0;
-  for (int i = 0; i < kPacket; ++i) blocked |= uint32_t(rays.farT[i] < 0) << i;
+  for (uint32_t i = 0; i < kPacket; ++i) blocked |= rays.farT[i] < 0 ? 1u << i : 0u;
   return blocked;
 }
 
