@@ -42,8 +42,8 @@ inline constexpr size_t kMaxEdits = 65536;  // things in one edit
 inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
-inline constexpr uint8_t kAllExtraPlanes = 63;           // every bit of ExtraPlane
-inline constexpr size_t kMaxTileBytes = 2 << 20;         // an encoded tile
+inline constexpr uint8_t kAllExtraPlanes = (1 << kExtraPlanes) - 1;  // every bit of ExtraPlane
+inline constexpr size_t kMaxTileBytes = 2 << 20;                     // an encoded tile
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.
 inline constexpr Duration kResultsTogether = milliseconds(4);
 inline constexpr Duration kLongestAllowed = std::chrono::hours(1000);  // for a task

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::array kOfLayer{"reflectance", "E", "U", "distance", "normal", "chain"};
 constexpr std::array kLayerNames{"diffuse", "reflection", "transmission"};
-constexpr std::array kExtra{"albedo", "first normal", "depth", "object", "caustic E"};
+constexpr std::array kExtra{"albedo", "first normal", "depth", "object", "caustic E", "first E"};
+static_assert(kExtra.size() == kExtraPlanes);
 constexpr uint32_t kFirstExtra = kOfLayer.size() * kLayers;
 constexpr uint32_t kFinished = kFirstExtra + kExtra.size();
 static_assert(kAllTileFields == (2u << kFinished) - 1);

@@ -24,7 +24,8 @@ void fillExtras(TaskContext& c, const FirstHit& first) {
 }  // namespace
 
 EyeBlock traceBlock(TaskContext& c, uint32_t path, int bi, int bj) {
-  EyeBlock block{bi, bj, 0, {}, {}};
+  EyeBlock block;
+  block.bi = bi, block.bj = bj;
   for (int lane = 0; lane < kPacket; ++lane) {
     const int i = std::min(bi + lane % kBlockSide, c.rect.width - 1);
     const int j = std::min(bj + lane / kBlockSide, c.rect.height - 1);
@@ -45,15 +46,15 @@ EyeBlock traceBlock(TaskContext& c, uint32_t path, int bi, int bj) {
 FirstHit firstHitOf(TaskContext& c, uint32_t path, const EyeBlock& block, int lane) {
   ++c.out.rays.eye;
   const int i = block.bi + lane % kBlockSide, j = block.bj + lane / kBlockSide;
+  const auto pixel = static_cast<size_t>(j * c.rect.width + i);
+  const int x = c.pixelX(i), y = c.pixelY(j);
   const RayPacket& rays = block.rays;
-  FirstHit first;
-  first.pixel = static_cast<size_t>(j * c.rect.width + i);
-  first.x = c.pixelX(i), first.y = c.pixelY(j);
-  first.direction = Vec3(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
+  const Vec3 direction(rays.directionX[lane], rays.directionY[lane], rays.directionZ[lane]);
   const Hit& hit = block.hits[lane];
-  if (!hit) return first;
-  first.distance = hit.t;
-  first.point = c.t.shader.shade(c.t.tracer.surface(hit), -first.direction, c.view.eyeMedia);
+  if (!hit) return {pixel, x, y, direction, 0, {}};
+  const FirstHit first{
+      pixel,     x,     y,
+      direction, hit.t, c.t.shader.shade(c.t.tracer.surface(hit), -direction, c.view.eyeMedia)};
   if (path == 0 && c.task.extraMask != 0) fillExtras(c, first);
   return first;
 }

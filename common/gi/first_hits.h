@@ -24,7 +24,7 @@ inline constexpr int kBlockSide = 4;  // a packet is a block of 4 x 4 pixels
 
 // The rays of path number `path` of a block's pixels, whose upper left corner is (bi, bj).
 struct EyeBlock {
-  int bi, bj;
+  int bi = 0, bj = 0;
   uint32_t active = 0;
   RayPacket rays;
   Hit hits[kPacket];

@@ -41,6 +41,8 @@ enum ExtraPlane : uint8_t {
 // What tells what is at a place of the picture.
 inline constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
 
+inline constexpr int kExtraPlanes = 6;
+
 struct RgbPlane {
   std::vector<float> r, g, b;
   void resize(size_t n) { r.assign(n, 0), g.assign(n, 0), b.assign(n, 0); }

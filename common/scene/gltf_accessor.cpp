@@ -175,24 +175,24 @@ const unsigned char* GltfAccessor::bytesOf(size_t i) const {
   return base_.data == nullptr ? nullptr : base_.data + i * base_.stride;
 }
 
-Vec4 GltfAccessor::element(size_t i) const {
-  Vec4 value(0);
+template <typename Store>
+void GltfAccessor::forEachComponent(size_t i, const Store& store) const {
   const unsigned char* bytes = bytesOf(i);
-  if (bytes == nullptr) return value;
+  if (bytes == nullptr) return;
   const size_t step = sizeOfComponent(base_.type);
   for (int c = 0; c < components_; ++c)
-    value[c] = loadComponent(bytes + static_cast<size_t>(c) * step, base_.type, normalized_);
+    store(c, loadComponent(bytes + static_cast<size_t>(c) * step, base_.type, normalized_));
+}
+
+Vec4 GltfAccessor::element(size_t i) const {
+  Vec4 value(0);
+  forEachComponent(i, [&](int c, float component) { value[c] = component; });
   return value;
 }
 
 DMat4 GltfAccessor::matrix(size_t i) const {
   DMat4 value(0);
-  const unsigned char* bytes = bytesOf(i);
-  if (bytes == nullptr) return value;
-  const size_t step = sizeOfComponent(base_.type);
-  for (int c = 0; c < kMatrix; ++c)
-    value[c / 4][c % 4] =
-        double(loadComponent(bytes + static_cast<size_t>(c) * step, base_.type, normalized_));
+  forEachComponent(i, [&](int c, float component) { value[c / 4][c % 4] = double(component); });
   return value;
 }
 

@@ -50,6 +50,9 @@ class GltfAccessor {
                      int components) const;
   void readSparse(const tinygltf::Model& model, int accessor);
   const unsigned char* bytesOf(size_t i) const;
+  // store(component, value), for none of a zero element.
+  template <typename Store>
+  void forEachComponent(size_t i, const Store& store) const;
 
   std::string what_;
   size_t count_ = 0;

@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <set>
+#include <string>
 
 #include "proto/messages.h"
 #include "proto/quantize.h"
+#include "proto/tile_fields.h"
+#include "proto/tile_names.h"
 #include "tests/proto/random_tile.h"
 
 namespace ninefold {
@@ -152,6 +156,41 @@ TEST(TileCodec, UnusableValuesBecomeZeroAndAreCounted) {
   EXPECT_EQ(at(got.layers[0].normal, 4), Vec3(0));
   EXPECT_EQ(got.extras.depth[5], 0);
   EXPECT_EQ(at(got.layers[0].irradiance, 6), Vec3(0));
+}
+
+// Puts a value that is not finite into one field of a tile; words can hold none.
+struct Spoiler {
+  int target, field = 0;
+  bool spoilt = false;
+  void spoil(std::vector<float>& values) {
+    if (field++ == target) values[0] = NAN, spoilt = true;
+  }
+  void fraction(RgbPlane& values, float) { spoil(values.r); }
+  void light(RgbPlane& values) { spoil(values.r); }
+  void length(std::vector<float>& values) { spoil(values); }
+  void normal(RgbPlane& values) { spoil(values.r); }
+  template <typename Word>
+  void words(std::vector<Word>&) {
+    ++field;
+  }
+};
+
+TEST(TileCodec, EveryFieldThatMayNotBeFiniteHasANameOfItsOwn) {
+  std::set<std::string> names;
+  size_t spoilt = 0;
+  for (int target = 0; target < kLayers * kFieldsOfLayer + kExtraPlanes; ++target) {
+    TileResult tile = TileMaker(15).make(4, 4, kAllLayers, kAllExtraPlanes);
+    Spoiler spoiler{target};
+    forEachField(spoiler, tile);
+    if (!spoiler.spoilt) continue;
+    ++spoilt;
+    const Replaced replaced = TileEncoder().encode(tile, 1, 1).replaced;
+    EXPECT_EQ(replaced.count, 1u) << target;
+    names.insert(namesOfFields(replaced.fields));
+  }
+  EXPECT_EQ(spoilt, 3u * 5u + 5u);  // all but chains and objects
+  EXPECT_EQ(names.size(), spoilt);
+  EXPECT_FALSE(names.contains(""));
 }
 
 TEST(TileCodec, PlanesOfNothingCostNothing) {
