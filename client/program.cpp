@@ -53,7 +53,8 @@ Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
       builder_(std::move(cache), options.isa, options.threads, answers()),
       workers_(options.threads, kTasksPerThread * static_cast<size_t>(options.threads)) {
   loop_.onSignal(endingSignals(), [this](int signal) {
-    // What happens to the master's terminal reaches its local clients too, but is the master's to handle.
+    // What happens to the master's terminal reaches its local clients too, but is the master's to
+    // handle.
     if (local_ && signal != SIGTERM) return;
     session_.stop("stopped by a signal");
     carryOut();

@@ -1,5 +1,5 @@
-// watchdog.h: notices that a task does not end. Nothing comes back from a native library that does not
-// return, so what is left is to end the process; whoever started it may start it again.
+// watchdog.h: notices that a task does not end. Nothing comes back from a native library that does
+// not return, so what is left is to end the process; whoever started it may start it again.
 //
 // A task has what its master allows it (msg::Tasks::allowed) and kGrace more, in time in which this
 // process runs: a stopped process or a machine that sleeps is not the task's fault.

@@ -44,7 +44,8 @@ class Cluster {
   // A tile was placed, or could not be.
   void decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed);
 
-  // The first of endingSignals(), 0 if none came. A second SIGINT or SIGTERM ends the program at once.
+  // The first of endingSignals(), 0 if none came. A second SIGINT or SIGTERM ends the program at
+  // once.
   int signal() const { return signal_; }
   // Why the run cannot go on, if it cannot.
   std::optional<std::string> failure() const;

@@ -13,8 +13,9 @@ namespace ninefold {
 // Whether the clients that the run waits for can come at all.
 void checkGuests(const Options& options);
 
-// Where others reach a master that listens on all interfaces (0.0.0.0, or :: for both kinds): the addresses of
-// those that are up, without loopback and without IPv6 addresses that count on one link only.
+// Where others reach a master that listens on all interfaces (0.0.0.0, or :: for both kinds): the
+// addresses of those that are up, without loopback and without IPv6 addresses that count on one
+// link only.
 std::vector<std::string> addressesBehind(const std::string& anyAddress);
 
 // `addresses`: as of addressesBehind, if `at` is on all interfaces.

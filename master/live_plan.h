@@ -14,9 +14,9 @@
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
 // motion the open frame is finished, else a hand that never rests would never see one.
 //
-// What only is looked at in another way (LiveState::look, its planes) rests on: open frames are opened anew,
-// with the new look, and the film keeps all that are complete. Whether pick planes are wanted in motion is
-// no change of the picture at all.
+// What only is looked at in another way (LiveState::look, its planes) rests on: open frames are
+// opened anew, with the new look, and the film keeps all that are complete. Whether pick planes are
+// wanted in motion is no change of the picture at all.
 //
 // Threads: plain value, one owner. Errors: none. Proved: tests/master/live_plan_test.cpp.
 #pragma once

@@ -4,10 +4,10 @@
 //   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
 //   picture thread: sums frames up, publishes what is to be seen
 //
-// If clients filter, they do so for views of light (isLight), in tiles that are not too large; other
-// frames, and those with pick planes, come as layers. A frame that is not summed up (in motion, or a still of one
-// frame) comes as codes if nobody wants its radiance. What clients have filtered has no E any more, so
-// that light is not used again in it (irradiance_history.h).
+// If clients filter, they do so for views of light (isLight), in tiles that are not too large;
+// other frames, and those with pick planes, come as layers. A frame that is not summed up (in
+// motion, or a still of one frame) comes as codes if nobody wants its radiance. What clients have
+// filtered has no E any more, so that light is not used again in it (irradiance_history.h).
 //
 // Threads: as said. Owner: the session; ends all its threads when destroyed.
 // Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run later.

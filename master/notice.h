@@ -1,4 +1,5 @@
-// notice.h: what the window tells a person for a few seconds, such as where a file went. The log gets the same.
+// notice.h: what the window tells a person for a few seconds, such as where a file went. The log
+// gets the same.
 // Threads: one owner. Errors: none.
 #pragma once
 

@@ -1,4 +1,5 @@
-// output_files.h: the files that a run shall leave: looked at before it begins, and the names of numbered ones.
+// output_files.h: the files that a run shall leave: looked at before it begins, and the names of
+// numbered ones.
 // Threads: any. Errors: checkFiles throws Error that names the file.
 #pragma once
 

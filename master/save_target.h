@@ -1,5 +1,6 @@
-// save_target.h: into which file an edited scene goes: asked once, then always the same. A file that is there
-// already, the scene that was read above all, is written over only when the same name is given twice.
+// save_target.h: into which file an edited scene goes: asked once, then always the same. A file
+// that is there already, the scene that was read above all, is written over only when the same name
+// is given twice.
 // Threads: plain value; looks at the disk. Errors: none. Proved: tests/master/save_target_test.cpp.
 #pragma once
 
@@ -16,7 +17,8 @@ class SaveTarget {
   const std::optional<std::string>& file() const { return file_; }  // nothing before it was chosen
   // Beside the scene, a name that no file has.
   std::string suggestion() const;
-  // A person gives a name: nothing, and it is the file from now on; else what there is to say to it.
+  // A person gives a name: nothing, and it is the file from now on; else what there is to say to
+  // it.
   std::optional<std::string> choose(const std::string& name);
   // It could not be written: ask again.
   void forget() { file_.reset(); }

@@ -52,7 +52,8 @@ namespace ninefold {
 
 class Scheduler {
  public:
-  // A client is ready to render. Ids are never used twice. `sceneTime`: that it took to build the scene.
+  // A client is ready to render. Ids are never used twice. `sceneTime`: that it took to build the
+  // scene.
   void clientJoined(ClientId client, int threads, Time now, Duration sceneTime = Duration(0));
   // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
   void clientLost(ClientId client, Time now);

@@ -20,10 +20,10 @@
 //     allowance(n) = 10 s + 8 n (s+l)     s  longest time for a ray of late, over its results
 //                                         l  the same over those that made a light set
 //     allowance(n) = 30 s + n 0.1 ms      before its first result, some 300 times what rays take
-// s and l fall by 1/64 with each result of their kind. A result past its deadline counts as twice what
-// was allowed at most: a deadline that was too short doubles. Past a deadline the client is stuck and
-// suspect until a result leaves no task past its deadline. One whose tasks were all withdrawn is tried
-// with one task again, kRetryStuck later.
+// s and l fall by 1/64 with each result of their kind. A result past its deadline counts as twice
+// what was allowed at most: a deadline that was too short doubles. Past a deadline the client is
+// stuck and suspect until a result leaves no task past its deadline. One whose tasks were all
+// withdrawn is tried with one task again, kRetryStuck later.
 // Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
 #pragma once
 

@@ -40,8 +40,8 @@ struct ServerDuty {
   std::function<std::optional<FrameOrder>()> nextFrame;
   // Takes a tile that is wanted, answered by decoded(); false when there is no room.
   std::function<bool(ReceivedTile&)> take;
-  // Nobody is left who can do the open frames, only newcomers who have missed their job. Gives back the
-  // first frame that is wanted instead. Null: all frames are of one job.
+  // Nobody is left who can do the open frames, only newcomers who have missed their job. Gives back
+  // the first frame that is wanted instead. Null: all frames are of one job.
   std::function<uint32_t()> giveUp = nullptr;
 };
 

@@ -6,7 +6,8 @@
 //   left button        a click selects, a drag moves what is selected
 //   wheel              flying speed; with Control: towards the pivot
 //
-// A click is where the button went down; how far the pointer was by the time it came up is a drag, or nothing.
+// A click is where the button went down; how far the pointer was by the time it came up is a drag,
+// or nothing.
 //
 // Threads: plain value. Proved: tests/master/window_input_test.cpp.
 #pragma once

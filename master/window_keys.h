@@ -1,5 +1,5 @@
-// window_keys.h: all keys and buttons of the window in one table: the input looks up here what a key does, and
-// people are shown the same lines (F1, docs/window.md).
+// window_keys.h: all keys and buttons of the window in one table: the input looks up here what a
+// key does, and people are shown the same lines (F1, docs/window.md).
 // Threads: constants. Errors: none. Proved: tests/master/window_keys_test.cpp.
 #pragma once
 

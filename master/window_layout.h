@@ -1,5 +1,5 @@
-// window_layout.h: where picture and panel lie in the window, and how large it opens. Pure. All lengths in
-// screen units, from the upper left corner, y downwards.
+// window_layout.h: where picture and panel lie in the window, and how large it opens. Pure. All
+// lengths in screen units, from the upper left corner, y downwards.
 // Threads: pure functions. Errors: none. Proved: tests/master/window_layout_test.cpp.
 #pragma once
 
@@ -33,14 +33,14 @@ inline constexpr float kPanelWidth = 290, kPanelMargin = 8;  // on an ordinary s
 // The column that an open panel takes.
 inline float panelColumn(float scale) { return scale * (kPanelWidth + 2 * kPanelMargin); }
 
-// The remembered size; else a panel beside a picture of its own size, at least kLeastHeight high. A screen that
-// is too small for both has the picture smaller.
+// The remembered size; else a panel beside a picture of its own size, at least kLeastHeight high. A
+// screen that is too small for both has the picture smaller.
 inline constexpr int kLeastHeight = 480;
 WindowSize firstSize(int pictureWidth, int pictureHeight, const WindowMemory& memory,
                      const ScreenSpace& screen);
 
-// As large as fits right of the column, in the middle; where that would leave less than half of the window, as
-// large as fits into the window. An empty picture takes all.
+// As large as fits right of the column, in the middle; where that would leave less than half of the
+// window, as large as fits into the window. An empty picture takes all.
 WindowArea areaOfPicture(WindowSize window, float column, WindowSize picture);
 
 }  // namespace ninefold

@@ -2,7 +2,8 @@
 //
 //   recording := the frames that a client sends: Hello, then a Result for each task (PROTOCOL.md)
 //
-// The file is whole or as it was before (written_file.h). Errors: throw Error that names the file. Threads: a Recorder from any thread; the rest pure.
+// The file is whole or as it was before (written_file.h). Errors: throw Error that names the file.
+// Threads: a Recorder from any thread; the rest pure.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // ninefold-compare IMAGE REFERENCE [--json]: how far an image is from a reference.
-// Exit status: 0 compared, 1 an image cannot be read, the sizes differ or the figures cannot be written, 2 wrong usage.
+// Exit status: 0 compared, 1 an image cannot be read, the sizes differ or the figures cannot be
+// written, 2 wrong usage.
 
 #include <fmt/core.h>
 

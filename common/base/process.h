@@ -71,8 +71,8 @@ class ChildProcess {
   pid_t pid_ = 0;  // 0 = reaped
 };
 
-// The signals that ask a program to end well: Ctrl-C, SIGTERM, a closed terminal (unless whoever started us
-// had it ignored, as nohup does), a pipe without a reader.
+// The signals that ask a program to end well: Ctrl-C, SIGTERM, a closed terminal (unless whoever
+// started us had it ignored, as nohup does), a pipe without a reader.
 std::vector<int> endingSignals();
 
 inline constexpr int kInheritedDescriptor = 3;

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kPatienceMs = 100;
 
-// Within its life a pipe without a reader is an error of ::write alone. The signal that comes with it goes to
-// the thread that writes, so that one from elsewhere is not lost.
+// Within its life a pipe without a reader is an error of ::write alone. The signal that comes with
+// it goes to the thread that writes, so that one from elsewhere is not lost.
 class NoPipeSignal {
  public:
   NoPipeSignal() {

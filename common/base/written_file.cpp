@@ -145,7 +145,8 @@ void WrittenFile::createBeside(mode_t mode) {
 void WrittenFile::inheritRights() {
   struct stat old {};
   if (::stat(target_.c_str(), &old) != 0) return;
-  // Only the system's administrator may give a file away; the mode comes after, as this clears bits of it.
+  // Only the system's administrator may give a file away; the mode comes after, as this clears bits
+  // of it.
   [[maybe_unused]] const int ignored = ::fchown(fd_.get(), old.st_uid, old.st_gid);
   if (::fchmod(fd_.get(), old.st_mode & 07777) != 0) failWith(errno);
 }

@@ -4,10 +4,11 @@
 //   beside    the bytes go to a new file in the target's folder, .ninefold.PID.N.part
 //   publish   sync, compare the size with what was written, rename over the target
 //
-// A file that is replaced hands its mode and, if the system allows, its owner on. What is no regular file
-// (folder, device, pipe), is write-protected or a mount of its own is refused. Each writer has a file of its own beside the
-// target: of two at the same time the last one wins, whole. A living writer holds a lock on its file, by
-// which checkWritable knows what a killed one left, and takes that away.
+// A file that is replaced hands its mode and, if the system allows, its owner on. What is no
+// regular file (folder, device, pipe), is write-protected or a mount of its own is refused. Each
+// writer has a file of its own beside the target: of two at the same time the last one wins, whole.
+// A living writer holds a lock on its file, by which checkWritable knows what a killed one left,
+// and takes that away.
 // Owner: a local variable; bytes that were not published go with it. Threads: one at a time.
 // Errors: throws Error in one line, "cannot write NAME: ...".
 #pragma once

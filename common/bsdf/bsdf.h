@@ -58,8 +58,8 @@ struct LobeSample {
 // Samples one lobe. uLobe chooses between refraction and the straight pass inside `transmission`.
 std::optional<LobeSample> sampleLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec2 u, float uLobe);
 
-// What passes straight on through a surface that bends nothing: through the holes of alpha blending and
-// smooth thin walls.
+// What passes straight on through a surface that bends nothing: through the holes of alpha blending
+// and smooth thin walls.
 Reflectance straightPass(const Bsdf& bsdf, float cosThetaO);
 
 // f * |cos wi| [1/sr] of the non-smooth part of a lobe, and the density of sampleLobe for it.

@@ -2,8 +2,8 @@
 //
 // In a gesture each target goes with its objects, and the photons' directions with it; but the share
 // of photons that each gets is the one it would have where the gesture found it (emission.h), so that
-// those of the others stay as they are. When another set of objects focuses light than then, targets
-// are made anew.
+// those of the others stay as they are. When another set of objects focuses light than then,
+// targets are made anew.
 //
 // Threads: pure function.   Errors: none.   Proved: tests/gi/gesture_test.cpp.
 #pragma once

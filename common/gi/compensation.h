@@ -14,10 +14,10 @@
 // decides this is known before the ray is: as q <= W <= 1 - b t^2/cos_x, nothing farther than
 // sqrt((1-xi) cos_x / b) can be followed, and the ray ends there. What a hit emits is divided by the
 // probability 1 - b t^2/cos_x that the ray was long enough for it.
-// Where y has a glossy lobe (needs.h), a second part of the numbers below 1 - b t^2/cos_x chooses it:
-// an eye path goes on from there, and brings what it meets, and E at its end, times W.
-// Light that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray
-// that meets nothing, and other S lobes at y, return nothing.
+// Where y has a glossy lobe (needs.h), a second part of the numbers below 1 - b t^2/cos_x chooses
+// it: an eye path goes on from there, and brings what it meets, and E at its end, times W. Light
+// that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray that
+// meets nothing, and other S lobes at y, return nothing.
 //
 // Source:  Kollig and Keller, "Illumination in the Presence of Weak Singularities", 2004.
 // Proved:  tests/gi (furnace in a corner and in a slit: exact with it, too dark without; agreement

@@ -111,7 +111,8 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
 }
 
 // One VPL for both lobes, D and glossy. What its bound cuts off comes back by eye paths
-// (compensation.h): where they cannot find the light, the glossy lobe has a VPL of its own, without.
+// (compensation.h): where they cannot find the light, the glossy lobe has a VPL of its own,
+// without.
 void depositVpls(const Transport& t, const Arrival& a, float share, LightSet& set) {
   Vpl vpl = indirectVpl(t, a, share);
   const ShadingPoint& p = *a.point;

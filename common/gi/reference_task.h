@@ -1,5 +1,5 @@
-// reference_task.h: one task of the reference method: whole radiance as U of the diffuse layer, which
-// no filter touches.
+// reference_task.h: one task of the reference method: whole radiance as U of the diffuse layer,
+// which no filter touches.
 //
 //   irradiance, caustic   E at the first hit, all of it or what came by way of S: pi times the radiance
 //                         that a white matte surface there would send. Paths of their own, and only if

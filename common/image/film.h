@@ -13,8 +13,9 @@
 //   relativeError()        sqrt(sum_b n_b (e_b^2 + B_b^2) / sum_b n_b) / Y         b: blocks of n_b pixels
 //   imageRelativeError()   e_Y / Y                                       Y: mean image luminance
 //
-// B_b: bias by the photons' radius, where frames take two by turns (radius_bias.h), as it was after the last
-// full turn of replications; standardError() has it, too. relativeError() is what stop rules use. Both are infinite for N < 2, and 0 for a black image.
+// B_b: bias by the photons' radius, where frames take two by turns (radius_bias.h), as it was after
+// the last full turn of replications; standardError() has it, too. relativeError() is what stop
+// rules use. Both are infinite for N < 2, and 0 for a black image.
 //
 // A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels.
 //
@@ -36,8 +37,8 @@ inline constexpr int kErrorBlock = 16;
 
 class Film {
  public:
-  // keepsError: standardError() will be asked for, which takes eight means of every pixel. twoRadii: even
-  // frames have photons of a wider radius than odd ones.
+  // keepsError: standardError() will be asked for, which takes eight means of every pixel.
+  // twoRadii: even frames have photons of a wider radius than odd ones.
   Film(int width, int height, bool keepsError = true, bool twoRadii = false);
 
   void clear();  // the picture has changed: start again

@@ -5,7 +5,8 @@
 //   .hdr  R, G, B with a shared 8-bit exponent (1 % steps; no negative values); no extra channels
 //   .png  8-bit sRGB through the tone map; no extra channels
 //
-// A file is whole or as it was before (written_file.h). Errors: Error with one line that names the file. Threads: reentrant.
+// A file is whole or as it was before (written_file.h). Errors: Error with one line that names the
+// file. Threads: reentrant.
 #pragma once
 
 #include <string>
@@ -26,8 +27,8 @@ struct Picture {
   Metadata metadata;
 };
 
-// Throws if `path` has another extension than above, or no file can be written there. Call it before the
-// work that leads to the picture.
+// Throws if `path` has another extension than above, or no file can be written there. Call it
+// before the work that leads to the picture.
 void checkOutputPath(const std::string& path);
 
 void writeImage(const std::string& path, const Picture& picture,

@@ -22,8 +22,8 @@
 
 namespace ninefold {
 
-// Why the scene has nothing that can be played, or not all of it: shapes do not change, by joints of
-// skins or by morph weights. Empty if all is well.
+// Why the scene has nothing that can be played, or not all of it: shapes do not change, by joints
+// of skins or by morph weights. Empty if all is well.
 std::string whyNotPlayed(const Scene& scene);
 
 // Where all nodes are that move: objects and punctual lights. Intensities are as read.

@@ -68,8 +68,8 @@ class Emitters {
   EmitterPoint pointAt(uint32_t emitter, Vec2 barycentrics) const;  // barycentrics of b and c
   // Entry of an emissive triangle, or -1.
   int find(uint32_t instance, uint32_t triangle) const;
-  // Radiance that an emissive triangle sends from a place, one side. The surface's own opacity (alpha
-  // mask, blending) is in it.
+  // Radiance that an emissive triangle sends from a place, one side. The surface's own opacity
+  // (alpha mask, blending) is in it.
   Radiance radianceOf(int material, const TexturePlace& at) const;
   // I(omega) of a punctual light towards unit `direction` (from the light) [W/sr].
   static Intensity intensity(const PunctualLight& light, Vec3 direction);

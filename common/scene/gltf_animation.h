@@ -1,5 +1,5 @@
-// gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The others do
-// nothing. Where two of its channels move the same property of a node, the first one does.
+// gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The others
+// do nothing. Where two of its channels move the same property of a node, the first one does.
 //
 // Of morph weights it only knows that they change. Refers to the model.
 // Errors: throws Error that names animation and channel. Threads: one owner.
@@ -23,8 +23,8 @@ namespace ninefold {
 
 class GltfAnimations {
  public:
-  // `clip`: the name of the animation; the first if it is not given. Errors: Error for a name that the
-  // file does not have.
+  // `clip`: the name of the animation; the first if it is not given. Errors: Error for a name that
+  // the file does not have.
   GltfAnimations(const tinygltf::Model& model, const std::optional<std::string>& clip);
 
   // As read, but invertible where the node has an axis without length (gltf_transform.h).

@@ -17,8 +17,8 @@
 namespace ninefold {
 namespace {
 
-// What the parser's callbacks share: where files may come from, how many bytes are left to read, and
-// what could not be had, by the place of its URI.
+// What the parser's callbacks share: where files may come from, how many bytes are left to read,
+// and what could not be had, by the place of its URI.
 struct Source {
   const SceneFolder* folder;
   const std::vector<std::string>* uris;

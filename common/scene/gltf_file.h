@@ -23,8 +23,8 @@ struct GltfFile {
   std::map<int, std::string> badImages;  // by index: why it cannot be had
 };
 
-// An unknown required extension, or another version than 2, is an error that names it. One warning names
-// what nobody reads (gltf_unread.h).
+// An unknown required extension, or another version than 2, is an error that names it. One warning
+// names what nobody reads (gltf_unread.h).
 GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folder);
 
 }  // namespace ninefold

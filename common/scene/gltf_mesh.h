@@ -1,5 +1,6 @@
 // gltf_mesh.h: the triangles of glTF meshes. A mesh of the file with several primitives becomes
-// several meshes of the scene. Each is read once for each way of deforming it, when the first node asks.
+// several meshes of the scene. Each is read once for each way of deforming it, when the first node
+// asks.
 // Errors: throws Error, naming mesh and primitive. Refers to model, scene, materials.
 // Threads: one.
 #pragma once

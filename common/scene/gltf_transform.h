@@ -17,8 +17,8 @@ namespace ninefold {
 
 DMat4 localMatrix(const tinygltf::Node& node);
 
-// What is scaled to nothing is scaled to almost nothing, since a motion must be invertible: an axis gets at
-// least this share of the largest scale that its node ever has.
+// What is scaled to nothing is scaled to almost nothing, since a motion must be invertible: an axis
+// gets at least this share of the largest scale that its node ever has.
 inline constexpr double kSmallestScale = 1e-5;
 DVec3 liftedScale(DVec3 scale, double largest);
 double maxAxis(DVec3 scale);  // without its sign

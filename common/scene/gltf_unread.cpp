@@ -77,7 +77,8 @@ constexpr const char* kTextureUse[] = {
 constexpr std::string_view kOnlyNamed = "KHR_mesh_quantization";
 constexpr size_t kMostNames = 30, kLongestName = 60;  // of a message
 
-// Members of an object that are read. One without any is a value, or an object that may hold anything.
+// Members of an object that are read. One without any is a value, or an object that may hold
+// anything.
 struct Known {
   std::map<std::string, Known, std::less<>> members;
 };

@@ -1,6 +1,6 @@
 // gltf_unread.h: what a glTF file says that the reader does not read: vertex attributes, material
-// properties and extensions. Found by comparing the file's JSON with the table of all that is read, so
-// that what nobody has thought of is told too.
+// properties and extensions. Found by comparing the file's JSON with the table of all that is read,
+// so that what nobody has thought of is told too.
 // Errors: none; JSON that cannot be parsed is not this file's to tell.
 // Threads: pure.
 #pragma once

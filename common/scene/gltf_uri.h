@@ -1,6 +1,6 @@
-// gltf_uri.h: the files and data that a glTF file names. The parser decodes names in its own way (a plus
-// sign becomes a blank) and knows only some data URIs; so it gets tokens in their place, and asks
-// for what stands behind a token.
+// gltf_uri.h: the files and data that a glTF file names. The parser decodes names in its own way (a
+// plus sign becomes a blank) and knows only some data URIs; so it gets tokens in their place, and
+// asks for what stands behind a token.
 //
 //   name        percent-decoded as RFC 3986 says: %XX is a byte, all else is itself, also a lone %.
 //               If no such file exists but one with the undecoded name does, that one.

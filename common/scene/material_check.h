@@ -9,8 +9,8 @@
 
 namespace ninefold {
 
-// Fractions of a file that lie outside of 0 to 1 become the nearer end, negative emission 0; by more than a
-// rounding with a warning that names `what`.
+// Fractions of a file that lie outside of 0 to 1 become the nearer end, negative emission 0; by
+// more than a rounding with a warning that names `what`.
 void clampFactors(Material& material, const std::string& what);
 
 void checkMaterial(const Scene& scene, const Material& material, const std::string& what);

@@ -14,8 +14,9 @@ namespace ninefold {
 std::vector<uint32_t> compactVertices(std::vector<Triangle>& triangles);
 
 // Drops triangles of zero area and vertices that no triangle uses; makes normals and tangents unit,
-// zero normals geometric, forgets tangents that are not usable, and clamps colours to [0, 1]. Returns
-// how many triangles were dropped. Errors: throws Error (a number that is not finite), naming `what`.
+// zero normals geometric, forgets tangents that are not usable, and clamps colours to [0, 1].
+// Returns how many triangles were dropped. Errors: throws Error (a number that is not finite),
+// naming `what`.
 size_t cleanMesh(Mesh& mesh, const std::string& what);
 
 }  // namespace ninefold

@@ -34,8 +34,8 @@
 //   be seen at all nobody would write. "Black" is 0.02 at most, and no map.
 //   map_d, map_Pr ...: obj_textures.h.
 //
-// Where programs differ: Blender makes a metal of illum 4 and 7 too; it and MeshLab never refract by
-// illum. Colours are clamped to [0, 1], Ke to >= 0.
+// Where programs differ: Blender makes a metal of illum 4 and 7 too; it and MeshLab never refract
+// by illum. Colours are clamped to [0, 1], Ke to >= 0.
 // Source:  Wavefront's Advanced Visualizer manual, appendix B4; Walter et al. 2007 for alpha of Ns.
 // Threads: pure. Errors: none.
 #pragma once

@@ -1,10 +1,10 @@
 // needs.h: what a scene asks of the renderer. What is not needed is not set up, not sent and not
 // timed.
 //
-// Two lines are drawn by roughness, here and for all methods. A reflection lobe so rough that it cannot
-// be told from diffuse is folded into D for the whole material, see foldsIntoDiffuse. One that is less
-// rough, but rough enough for VPLs to stand on it, is glossy, see kGlossyRoughness. What is left is the
-// caustic photons' work.
+// Two lines are drawn by roughness, here and for all methods. A reflection lobe so rough that it
+// cannot be told from diffuse is folded into D for the whole material, see foldsIntoDiffuse. One
+// that is less rough, but rough enough for VPLs to stand on it, is glossy, see kGlossyRoughness.
+// What is left is the caustic photons' work.
 // Threads: pure functions.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace ninefold {
 
-// Perceptual roughness from which on the reflection lobe of an opaque surface is glossy: the light that
-// it sends on is found by VPLs. Measured, see glossy_vpl.h.
+// Perceptual roughness from which on the reflection lobe of an opaque surface is glossy: the light
+// that it sends on is found by VPLs. Measured, see glossy_vpl.h.
 inline constexpr float kGlossyRoughness = 0.4f;
 
 struct Needs {
@@ -48,8 +48,8 @@ bool foldsIntoDiffuse(const Scene& scene, const Material& material);
 // True if light passes straight through the material between equal media: blended, or a thin wall.
 bool letsPassStraight(const Scene& scene, const Material& material);
 
-// True if the material has an S lobe that is neither folded nor glossy everywhere; what passes straight
-// on is not focused.
+// True if the material has an S lobe that is neither folded nor glossy everywhere; what passes
+// straight on is not focused.
 bool focusesLight(const Scene& scene, const Material& material);
 
 // Whether pictures have light that photons bring.

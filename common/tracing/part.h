@@ -1,9 +1,9 @@
 // part.h: some instances with a ray hierarchy of their own, so that what moves can be built anew
 // without the rest. Private to this folder.
 //
-// Triangles are in world space, geometry ids are the instances' indices: hits have the same bits as in
-// one hierarchy. The parts of a scene are traced one after another (packet.h). Embree's own way, a
-// hierarchy of instances, costs a transform a part, and version 3 never returns from coherent
+// Triangles are in world space, geometry ids are the instances' indices: hits have the same bits as
+// in one hierarchy. The parts of a scene are traced one after another (packet.h). Embree's own way,
+// a hierarchy of instances, costs a transform a part, and version 3 never returns from coherent
 // occlusion of sixteen rays through it on AVX-512.
 // Owner: shared by the tracers of successive edits; keeps its geometry and the device alive; refers to
 // the scene that was read, for alpha masks. Threads: const after construction.
@@ -39,8 +39,8 @@ class Part {
   Hierarchy hierarchy_;
 };
 
-// Which instances share a part: first those that never moved, then those that did, by node. A ray visits
-// every part, so nodes share parts when there are many. A function of `moved` alone.
+// Which instances share a part: first those that never moved, then those that did, by node. A ray
+// visits every part, so nodes share parts when there are many. A function of `moved` alone.
 std::vector<std::vector<uint32_t>> partition(const Scene& scene, const std::vector<bool>& moved);
 
 }  // namespace ninefold

@@ -1,8 +1,8 @@
 // editor.h: what a person does to the scene: selects a thing, drags it, switches a lamp, turns the
 // panel's numbers, takes it back. Each change goes to the run as a small edit and into the history.
 //
-// Places are shares of the picture's width and height, from its upper left corner. A pick in motion waits for a
-// picture that knows what is where.
+// Places are shares of the picture's width and height, from its upper left corner. A pick in motion
+// waits for a picture that knows what is where.
 // Threads: the main thread. Refers to all that it is made of. Errors: an edit that the scene cannot
 // take is told in one line and left out.
 #pragma once

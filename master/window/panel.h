@@ -1,5 +1,6 @@
-// panel.h: what lies beside the picture: numbers, sliders, clients, the selected thing. It folds to its title.
-// Drawn anew for each frame of the window from values, and gives values back; it decides nothing.
+// panel.h: what lies beside the picture: numbers, sliders, clients, the selected thing. It folds to
+// its title. Drawn anew for each frame of the window from values, and gives values back; it decides
+// nothing.
 // Threads: the main thread, between Window::beginFrame and endFrame.
 #pragma once
 

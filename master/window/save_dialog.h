@@ -1,5 +1,7 @@
-// save_dialog.h: Control+S: asks for a file's name in the window, the first time, and writes the scene.
-// Threads: the main thread. Errors: what cannot be written is told in a notice, and asked for again.
+// save_dialog.h: Control+S: asks for a file's name in the window, the first time, and writes the
+// scene.
+// Threads: the main thread. Errors: what cannot be written is told in a notice, and asked for
+// again.
 #pragma once
 
 #include <array>

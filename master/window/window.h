@@ -1,10 +1,10 @@
 // window.h: a window with one picture and an immediate-mode panel over it. GLFW for window and
 // events, OpenGL 3.3 and Dear ImGui for what is in it.
 //
-// The picture keeps its proportions and is as large as fits beside the panel, or under it where less than half
-// of the window would be left; the window's pixel density is the screen's. What belongs to the panel makes
-// no event: a press over it as it was last drawn (ImGui itself learns only with its next frame where the
-// pointer is), and keys while it is typed into.
+// The picture keeps its proportions and is as large as fits beside the panel, or under it where
+// less than half of the window would be left; the window's pixel density is the screen's. What
+// belongs to the panel makes no event: a press over it as it was last drawn (ImGui itself learns
+// only with its next frame where the pointer is), and keys while it is typed into.
 //
 // Threads: the main thread, wake() excepted. Owner: at most one at a time.
 // Errors: the constructor throws NoDisplay with one line.
@@ -50,8 +50,8 @@ class Window {
   WindowArea pictureArea() const;
   void size(int& width, int& height) const;  // [screen units]
 
-  // What is drawn with ImGui between the two is in the window afterwards; cover() tells where that takes the
-  // pointer. The picture is drawn right of `column`.
+  // What is drawn with ImGui between the two is in the window afterwards; cover() tells where that
+  // takes the pointer. The picture is drawn right of `column`.
   void beginFrame(float column);
   void cover(const WindowArea& area) { covered_.push_back(area); }
   void endFrame();

@@ -19,7 +19,8 @@
 namespace ninefold {
 namespace {
 
-// In a process of its own, with the signals' usual effects: its exit status, or minus the signal that ended it.
+// In a process of its own, with the signals' usual effects: its exit status, or minus the signal
+// that ended it.
 int statusOf(const std::function<int()>& action) {
   const pid_t child = ::fork();
   if (child == 0) {

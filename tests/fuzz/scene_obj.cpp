@@ -1,5 +1,5 @@
-// scene_obj.cpp: any bytes as an OBJ file, and, behind a line "===", as its material library, beside
-// a texture t.png: an Error, or a Scene that passes validate.
+// scene_obj.cpp: any bytes as an OBJ file, and, behind a line "===", as its material library,
+// beside a texture t.png: an Error, or a Scene that passes validate.
 #include <string>
 #include <string_view>
 

@@ -1,5 +1,5 @@
-// Light by way of a glossy floor: rough metal, not so rough that it counts as diffuse. Photons have no part in it, so the
-// blur of their radius must not show.
+// Light by way of a glossy floor: rough metal, not so rough that it counts as diffuse. Photons have
+// no part in it, so the blur of their radius must not show.
 //
 // E at x above a floor that a spot lights, one bounce, is an integral over the floor:
 //
@@ -80,8 +80,8 @@ TEST(Glossy, FloorLightsWhatIsAboveIt) {
   }
 }
 
-// By way of a smooth mirror first, as if from the light's image behind it: no eye path finds that, so
-// the VPLs must carry all of it, however near.
+// By way of a smooth mirror first, as if from the light's image behind it: no eye path finds that,
+// so the VPLs must carry all of it, however near.
 TEST(Glossy, MirroredLightIsWholeNearTheFloor) {
   const PunctualLight spot = spotAt(Vec3(-0.2f, 0.7f, 0), Vec3(0, 1, 0));
   const PunctualLight image = spotAt(Vec3(-0.2f, 1.3f, 0), Vec3(0, -1, 0));
@@ -99,8 +99,8 @@ TEST(Glossy, MirroredLightIsWholeNearTheFloor) {
   }
 }
 
-// The wall of a step that stands on glossy metal, just above the floor, as the path tracer sees it: photons
-// of the default radius spill over the edge.
+// The wall of a step that stands on glossy metal, just above the floor, as the path tracer sees it:
+// photons of the default radius spill over the edge.
 TEST(Glossy, StepsOnMetalAgreeWithThePathTracer) {
   SceneBuilder b;
   b.box(b.material(testing::matte(Vec3(0.6f))), Vec3(-1), Vec3(1), true);

@@ -1,5 +1,5 @@
-// The extra planes are the same whatever the method: what the eye sees does not depend on how light is
-// found, and E at the first hit is one quantity.
+// The extra planes are the same whatever the method: what the eye sees does not depend on how light
+// is found, and E at the first hit is one quantity.
 #include <gtest/gtest.h>
 
 #include "tests/gi/expect.h"
@@ -116,7 +116,8 @@ TEST(Planes, IrradianceAndItsCausticPartAreOneQuantityByEveryMethod) {
   EXPECT_GT(caustic[1].mean, 0.01 * irradiance[1].mean);
 }
 
-// Light straight from the lamp, and all other light, are the picture: also where it comes by way of S.
+// Light straight from the lamp, and all other light, are the picture: also where it comes by way of
+// S.
 TEST(Planes, DirectAndIndirectLightAddUpByThePathTracer) {
   const Scene scene = room();
   const Tracer tracer(scene, Isa::automatic);

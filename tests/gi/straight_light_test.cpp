@@ -1,6 +1,7 @@
 // Light that passes straight through panes and blended surfaces, without any photon.
 //
-// A floor of albedo a under a point light of intensity I at height h, seen where the light is at the angle t
+// A floor of albedo a under a point light of intensity I at height h, seen where the light is at
+// the angle t
 // from the vertical:  L = a/pi I cos^3(t)/h^2 T,   T = product of what the surfaces between let pass:
 //
 //   pane of index n    1 - 2F/(1+F) by Fresnel's F(t), its two faces and all bounces between them
@@ -72,9 +73,9 @@ TEST(StraightLight, DoesNotPassWhereItIsBent) {
   expectPassed({testing::glass(1.5f)}, 0.6, 0);
 }
 
-// Furnace: walls of albedo a that emit 1 show 1/(1-a), and clear panes change nothing: close before a
-// wall, where the geometry term is bounded and comes back by rays through the pane, and one behind the
-// other. No light is counted twice: photons still bring what the panes reflect.
+// Furnace: walls of albedo a that emit 1 show 1/(1-a), and clear panes change nothing: close before
+// a wall, where the geometry term is bounded and comes back by rays through the pane, and one
+// behind the other. No light is counted twice: photons still bring what the panes reflect.
 TEST(StraightLight, PanesBeforeAWallAreInvisibleInAFurnace) {
   SceneBuilder b;
   b.box(b.material(testing::matte(Vec3(kAlbedo), Vec3(1))), Vec3(-1), Vec3(1), true);

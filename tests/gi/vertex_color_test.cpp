@@ -1,6 +1,6 @@
-// Colours of vertices multiply the material's colour and opacity. A matte square under an environment
-// of radiance 1 shows its albedo; a blended one of opacity a in front of a black ground shows a times
-// its albedo, and the environment passes where it is clear.
+// Colours of vertices multiply the material's colour and opacity. A matte square under an
+// environment of radiance 1 shows its albedo; a blended one of opacity a in front of a black ground
+// shows a times its albedo, and the environment passes where it is clear.
 #include <gtest/gtest.h>
 
 #include "common/scene/needs.h"
@@ -49,8 +49,8 @@ TEST(VertexColor, IsTheSameBitsAsAColourOfTheMaterial) {
   EXPECT_EQ(testing::render(a, s, 2).pixels, testing::render(b, s, 2).pixels);
 }
 
-// Red grows from left to right, so the mean over the middle of the square is a half, and the left half of
-// the picture is darker than the right one by the distance of their centres.
+// Red grows from left to right, so the mean over the middle of the square is a half, and the left
+// half of the picture is darker than the right one by the distance of their centres.
 TEST(VertexColor, IsInterpolatedLinearly) {
   const Vec4 left(0, 0.5f, 0.5f, 1), right(1, 0.5f, 0.5f, 1);
   const Scene scene = square(testing::matte(Vec3(1)), {left, right, right, left});

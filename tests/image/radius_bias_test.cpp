@@ -1,8 +1,9 @@
-// The bias of the photons' radius, seen by frames that take two radii by turns. Films of one pixel a block here,
-// so that blocks are what frames say.
+// The bias of the photons' radius, seen by frames that take two radii by turns. Films of one pixel
+// a block here, so that blocks are what frames say.
 //
-// With bias w in even frames and w/2 in odd ones, the mean over both is 3/4 w off: that is what must be
-// stated. Without bias the image is said to have one in one film of 35, whatever its blocks share.
+// With bias w in even frames and w/2 in odd ones, the mean over both is 3/4 w off: that is what
+// must be stated. Without bias the image is said to have one in one film of 35, whatever its blocks
+// share.
 #include "common/image/radius_bias.h"
 
 #include <gtest/gtest.h>

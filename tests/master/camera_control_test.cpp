@@ -200,7 +200,8 @@ TEST(CameraControl, ResetGoesHomeAndNonsenseIsIgnored) {
   EXPECT_LT(control.camera().verticalFov, 3.14f);
 }
 
-// A view that was kept, with any direction: going there from there changes no bit, so that nothing begins anew.
+// A view that was kept, with any direction: going there from there changes no bit, so that nothing
+// begins anew.
 TEST(CameraControl, GoingToWhereItIsChangesNothing) {
   CameraControl control(home(), room());
   for (int i = 0; i < 200; ++i) {

@@ -44,7 +44,8 @@ TEST(Invitation, SaysWhenNobodyElsewhereCanCome) {
   EXPECT_NE(loopback.find("--listen 0.0.0.0:4700"), std::string::npos) << loopback;
 }
 
-// Numbers only: no name that another machine may understand otherwise, and nothing that ends at its reader.
+// Numbers only: no name that another machine may understand otherwise, and nothing that ends at its
+// reader.
 TEST(Invitation, AddressesAreThoseOfInterfacesAndNotLoopback) {
   for (const char* any : {"0.0.0.0", "::"})
     for (const std::string& address : addressesBehind(any)) {

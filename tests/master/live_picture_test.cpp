@@ -220,7 +220,8 @@ TEST_F(LivePictureTest, RadianceOfClientsIsSummedUp) {
   }
 }
 
-// Sets are painted over frames 2 and 3; the light of all frames is there when it is looked at again.
+// Sets are painted over frames 2 and 3; the light of all frames is there when it is looked at
+// again.
 TEST_F(LivePictureTest, LightIsSummedUpWhateverIsShownOfIt) {
   std::vector<GatheredFrame> frames;
   for (uint32_t i = 0; i < 5; ++i) {

@@ -301,7 +301,8 @@ TEST_F(LivePlanTest, WhatNobodyCanRenderAnyMoreIsShownByOtherFrames) {
   EXPECT_EQ(other.order.job, moving.order.job);
 }
 
-// A look at the same light: what is open is opened anew with it, from the first frame that is not complete.
+// A look at the same light: what is open is opened anew with it, from the first frame that is not
+// complete.
 TEST_F(LivePlanTest, AnotherLookRestsOn) {
   FramePlan headless(5 * 0.02f, 9, true);
   for (int i = 0; i < 3; ++i) done(), headless.next();

@@ -1,6 +1,6 @@
-// Clients whose tasks never end, while their heartbeats go on. The deadlines are those at the head of
-// scheduler_client.h: 30 s + 0.1 ms a ray before a client's first result, then 10 s + 8 times the longest
-// time for a ray of late.
+// Clients whose tasks never end, while their heartbeats go on. The deadlines are those at the head
+// of scheduler_client.h: 30 s + 0.1 ms a ray before a client's first result, then 10 s + 8 times
+// the longest time for a ray of late.
 #include "tests/master/scheduler_bench.h"
 
 namespace ninefold {
@@ -57,7 +57,8 @@ TEST(SchedulerStuck, ItsLateResultMakesItAClientLikeAnyOtherAndDoublesItsDeadlin
   EXPECT_NEAR(ninefold::seconds(b.notes[1].time), 50, 0.5);
   EXPECT_FALSE(b.scheduler.report(b.now)[0].stuck);
   EXPECT_EQ(b.scheduler.report(b.now)[0].timesStuck, 1u);
-  // The late result counts as twice the 10.032 s that were allowed: 10 s + 2 x 10.032 s from now on.
+  // The late result counts as twice the 10.032 s that were allowed: 10 s + 2 x 10.032 s from now
+  // on.
   passWithHeartbeats(b, seconds(30), {1});
   EXPECT_EQ(b.notes.size(), 2u);
   passWithHeartbeats(b, milliseconds(300), {1});

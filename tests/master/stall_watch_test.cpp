@@ -1,4 +1,5 @@
-// When nothing moves: said at once and after 30, 60, 120 s, given up after the patience that was stated.
+// When nothing moves: said at once and after 30, 60, 120 s, given up after the patience that was
+// stated.
 #include "master/stall_watch.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// Where picture and panel lie, and what is remembered of it. A panel's column is 290 + 2 * 8 = 306 wide.
+// Where picture and panel lie, and what is remembered of it. A panel's column is 290 + 2 * 8 = 306
+// wide.
 #include "master/window_layout.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,7 @@
-// A value that is no number, from the task that makes it to the finished frame: an environment of NaN, which
-// neither files nor the wire let in, makes the U of each pixel NaN that meets it. Such a pixel becomes black, its
-// neighbours do not, and the result says how many values and in which field.
+// A value that is no number, from the task that makes it to the finished frame: an environment of
+// NaN, which neither files nor the wire let in, makes the U of each pixel NaN that meets it. Such a
+// pixel becomes black, its neighbours do not, and the result says how many values and in which
+// field.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -202,8 +202,8 @@ TEST(Animation, WhatCannotBePlayedIsLeftOut) {
   EXPECT_TRUE(scene.animated.empty());
 }
 
-// Scaled to nothing as it is read, by its own node, by the one above, or along an axis: when the animation
-// says so it is there, in its whole size.
+// Scaled to nothing as it is read, by its own node, by the one above, or along an axis: when the
+// animation says so it is there, in its whole size.
 TEST(Animation, LiftsWhatIsReadWithoutSize) {
   const std::string parent =
       R"({"name": "thing", "mesh": 0}, {"children": [0], "scale": [0, 0, 0]})";

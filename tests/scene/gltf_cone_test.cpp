@@ -1,5 +1,5 @@
-// Numbers of a file that are a little out of order or range make sense all the same: they become the
-// nearest ones that do, with a warning if that is more than a rounding.
+// Numbers of a file that are a little out of order or range make sense all the same: they become
+// the nearest ones that do, with a warning if that is more than a rounding.
 #include <gtest/gtest.h>
 
 #include "common/scene/emitters.h"

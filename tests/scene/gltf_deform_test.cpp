@@ -98,8 +98,8 @@ void expectNear(DVec3 a, DVec3 b, double tolerance = 1e-6) {
   EXPECT_NEAR(glm::length(a - b), 0, tolerance) << a.x << " " << a.y << " " << a.z;
 }
 
-// The mesh's node stands aside, which does not count. Joint 0 at (10, 0, 0); joint 1 on it, 5 higher and
-// turned by a quarter about z; it was bound at (0, 2, 0).
+// The mesh's node stands aside, which does not count. Joint 0 at (10, 0, 0); joint 1 on it, 5
+// higher and turned by a quarter about z; it was bound at (0, 2, 0).
 DeformedFile twoJoints() {
   DeformedFile file;
   file.nodes = R"({"name": "thing", "mesh": 0, "skin": 0, "translation": [100, 0, 0]},
@@ -206,7 +206,8 @@ TEST(GltfSkin, NormalsAndTangentsGoAlong) {
   EXPECT_EQ(mesh.tangents[2].w, -1);
 }
 
-// diag(-1, 1, 1): the front of the triangle, +z, stays in front, and so does the side of bitangents.
+// diag(-1, 1, 1): the front of the triangle, +z, stays in front, and so does the side of
+// bitangents.
 TEST(GltfSkin, MirroredMeshesKeepTheirFront) {
   DeformedFile file = twoJoints().bindAllToJoint0();
   file.nodes = R"({"mesh": 0, "skin": 0}, {"scale": [-1, 1, 1]}, {})";

@@ -1,5 +1,6 @@
-// What a glTF file names beside itself: file names as RFC 3986 writes them, data URIs as RFC 2397 does,
-// images told by their bytes. A buffer that is found gives the triangle; another one would not.
+// What a glTF file names beside itself: file names as RFC 3986 writes them, data URIs as RFC 2397
+// does, images told by their bytes. A buffer that is found gives the triangle; another one would
+// not.
 #include <gtest/gtest.h>
 
 #include "common/scene/gltf_uri.h"

@@ -1,5 +1,5 @@
-// What a glTF file needs that is not there is said by name. Versions: glTF 2.0, 3.2: minVersion decides
-// where it is given, else the major version of `version`.
+// What a glTF file needs that is not there is said by name. Versions: glTF 2.0, 3.2: minVersion
+// decides where it is given, else the major version of `version`.
 #include <gtest/gtest.h>
 
 #include "common/scene/reader.h"

@@ -71,8 +71,8 @@ TEST(Needs, MirrorsReflectAndGlassDoesBoth) {
   EXPECT_EQ(needsWith(glass).layerMask(), kDiffuseBit | kReflectionBit | kTransmissionBit);
 }
 
-// Photons are for what bends or mirrors light narrowly; glossy surfaces have VPLs, and what passes straight on
-// has shadow rays.
+// Photons are for what bends or mirrors light narrowly; glossy surfaces have VPLs, and what passes
+// straight on has shadow rays.
 TEST(Needs, PhotonsAreForWhatFocusesLight) {
   Material metal;
   metal.metallic = 1;
