@@ -229,7 +229,7 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
       {"allowed time", msg::Tasks{1, {}, {{0, 0, 0}}, 1, false, Duration(0)}},
       {"allowed time", msg::Tasks{1, {}, {{0, 0, 0}}, 1, false, std::chrono::hours(1001)}},
       {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, 0, {}, {}}},
-      {"replaced in", msg::Result{1, 1, 1, 1, 1, 0, 1, 1u << 24, {}, {}}},
+      {"replaced in", msg::Result{1, 1, 1, 1, 1, 0, 1, kAllTileFields + 1, {}, {}}},
   };
   for (const auto& [field, message] : cases) {
     const std::string text = refusal(Message(message));
