@@ -2,8 +2,8 @@
 
 #include <bit>
 
+#include "common/gi/light_path.h"
 #include "common/gi/photon_footprint.h"
-#include "common/gi/photon_radii.h"
 
 namespace ninefold {
 namespace {
@@ -121,10 +121,11 @@ void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, siz
 
 }  // namespace
 
-void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSet& set) {
+CausticPhotons causticPhotons(const Transport& t, const FrameKey& frame, int k,
+                              std::span<const Vpl> vpls, RayCounts& rays) {
   const Settings& s = t.settings;
   if (s.caustics == Caustics::off || s.photons == 0 || !t.needs.caustics || t.emitters.empty())
-    return;
+    return {};
   // The split does not depend on what this set's walks happened to find: that would bias both
   // halves. A single photon has no half: it becomes one of each.
   const bool all = s.caustics == Caustics::all && t.allows(2);
@@ -132,16 +133,17 @@ void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSe
   const PhotonRadii radii(t, frame.photonRadius);
   SortedPhotons photons;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), radii, set.rays,
-                        photons);
+    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), radii, rays, photons);
   if (fromVpls > 0) {
     std::vector<const Vpl*> sources;
-    for (const Vpl& vpl : set.vpls)
+    for (const Vpl& vpl : vpls)
       if (vpl.diffuseCount > 0 && !isBlack(vpl.power)) sources.push_back(&vpl);
-    photonsFromVpls(t, frame, k, fromVpls, sources, radii, set.rays, photons);
+    photonsFromVpls(t, frame, k, fromVpls, sources, radii, rays, photons);
   }
+  CausticPhotons grids;
   for (size_t kind = 0; kind < kPhotonKinds; ++kind)
-    set.photons[kind] = PhotonGrid(std::move(photons[kind]), radii.radius(kind));
+    grids[kind] = PhotonGrid(std::move(photons[kind]), radii.radius(kind));
+  return grids;
 }
 
 void gatherPhotons(const Transport& t, const PhotonGrid& grid, int pathVertices,

@@ -14,16 +14,21 @@
 // Fails:   flux is blurred over r, which goes with r.   Threads: pure functions.
 #pragma once
 
-#include "common/gi/light_set.h"
+#include <span>
+
+#include "common/base/counters.h"
+#include "common/gi/photon_radii.h"
 #include "common/gi/receivers.h"
+#include "common/gi/vpl.h"
 
 namespace ninefold {
 
-// Photons of set k, whose VPLs are made already.
-void addCausticPhotons(const Transport& transport, const FrameKey& frame, int k, LightSet& set);
+// Photons of set k with these VPLs. Adds its rays to `rays`.
+CausticPhotons causticPhotons(const Transport& transport, const FrameKey& frame, int k,
+                              std::span<const Vpl> vpls, RayCounts& rays);
 
 // Adds the photons' irradiance to all receivers, and to `caustic`, one a receiver, if not null;
-// pathVertices as in irradiance.h.
+// pathVertices as in layered_method.h.
 void gatherPhotons(const Transport& transport, const PhotonGrid& grid, int pathVertices,
                    Receivers& receivers, std::vector<Irradiance>* caustic);
 

@@ -4,7 +4,7 @@
 
 #include "common/gi/direct_light.h"
 #include "common/gi/eye_path.h"
-#include "common/gi/irradiance.h"
+#include "common/gi/light_path.h"
 
 namespace ninefold {
 namespace {
@@ -146,16 +146,17 @@ struct Level {
 
 }  // namespace
 
-void compensate(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
-                int pathVertices, Scratch& scratch, Receivers& receivers, RayCounts& rays) {
+void compensate(const Transport& t, const ReceiverSamples& samples, int pathVertices,
+                CompensationScratch& scratch, Receivers& receivers, RayCounts& rays,
+                const IrradianceQuery& irradiance) {
   const auto depth = static_cast<size_t>(pathVertices) - 1;
-  if (depth == scratch.bounced.size()) scratch.bounced.emplace_back();
-  Bounces& next = scratch.bounced[depth];
+  if (depth == scratch.size()) scratch.emplace_back();
+  Bounces& next = scratch[depth];
   next.clear();
   Level level{t, samples, pathVertices, t.allows(pathVertices + 1), receivers, next, rays};
   for (size_t first = 0; first < receivers.size(); first += kPacket) level.trace(first);
   if (next.parents.empty()) return;
-  gatherIrradiance(t, lights, samples, pathVertices + 1, scratch, next.points, nullptr, rays);
+  irradiance(pathVertices + 1, next.points);
   for (size_t j = 0; j < next.parents.size(); ++j)
     receivers.addIrradiance(next.parents[j].receiver,
                             next.parents[j].factor * next.points.irradiance(j));

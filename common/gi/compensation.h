@@ -25,16 +25,37 @@
 // kMaxVertices levels.
 #pragma once
 
-#include "common/gi/light_set.h"
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "common/base/counters.h"
 #include "common/gi/receiver_samples.h"
 #include "common/gi/receivers.h"
-#include "common/gi/scratch.h"
+#include "common/gi/transport.h"
 
 namespace ninefold {
 
-// Adds compensation to receivers.er/eg/eb. pathVertices as in irradiance.h, which this calls for
-// E(y).
-void compensate(const Transport& transport, const LightSet& lights, const ReceiverSamples& samples,
-                int pathVertices, Scratch& scratch, Receivers& receivers, RayCounts& rays);
+// What one level's rays met, and where its irradiance goes: `factor` times it to `receiver`.
+struct Bounces {
+  struct Parent {
+    size_t receiver;
+    Vec3 factor;
+  };
+  Receivers points;
+  std::vector<Parent> parents;
+
+  void clear() { points.clear(), parents.clear(); }
+};
+
+using CompensationScratch = std::deque<Bounces>;  // one level a bounce, as deep as it ever went
+
+// Adds E(y) to the receivers, whose paths have that many D vertices, compensated by this again.
+using IrradianceQuery = std::function<void(int pathVertices, Receivers& receivers)>;
+
+// Adds compensation to receivers.er/eg/eb. pathVertices as in layered_method.h.
+void compensate(const Transport& transport, const ReceiverSamples& samples, int pathVertices,
+                CompensationScratch& scratch, Receivers& receivers, RayCounts& rays,
+                const IrradianceQuery& irradiance);
 
 }  // namespace ninefold

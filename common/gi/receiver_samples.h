@@ -2,7 +2,7 @@
 //
 // A receiver is one sample of its pixel and frame: there is nothing to stratify it against, so the
 // numbers are plain hashes and no points of a Sobol' sequence.
-// Level: the number of D vertices between the eye and the receiver, pathVertices of irradiance.h.
+// Level: the number of D vertices between the eye and the receiver, pathVertices of layered_method.h.
 // Threads: pure functions.
 #pragma once
 

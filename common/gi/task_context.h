@@ -3,32 +3,21 @@
 // Threads: one thread's value. Refers to its arguments.
 #pragma once
 
-#include "common/gi/light_set.h"
-#include "common/gi/renderer.h"
-#include "common/gi/scratch.h"
-#include "common/gi/transport.h"
+#include "common/gi/task.h"
+#include "common/image/layers.h"
 #include "common/sampling/sampler.h"
 
 namespace ninefold {
 
-// Whose pixels they are. The settings of the Transport may be those of another view.
-struct View {
-  Camera camera;
-  int width, height;
-  MediumStack eyeMedia;  // the solids that the eye is inside of
-};
-
 struct TaskContext {
-  TaskContext(const Transport& transport, const View& whose, const Task& which,
-              const LightSet& lightSet, Scratch& memory, TileResult& result, uint32_t pathsPerPixel)
+  TaskContext(const Transport& transport, const View& whose, const Task& which, TileResult& result,
+              uint32_t pathsPerPixel)
       : t(transport),
         view(whose),
         task(which),
-        lights(lightSet),
         grid(view.width, view.height, t.settings.interleave),
         rect(task.rect.value_or(grid.rect(task.tile, task.phase))),
         camera(view.camera, view.width, view.height),
-        scratch(memory),
         out(result),
         eyePaths(t.settings.seed, SampleUse::eyePath, task.frame.randomization, pathsPerPixel,
                  t.settings.randomization) {
@@ -38,11 +27,9 @@ struct TaskContext {
   const Transport& t;
   const View& view;
   const Task& task;
-  const LightSet& lights;
   TileGrid grid;
   TaskRect rect;
   CameraRays camera;
-  Scratch& scratch;
   TileResult& out;
   PixelStream eyePaths;
 

@@ -62,7 +62,7 @@ void addThroughMedia(const Transport& t, const Vpl& vpl, const RayPacket& rays, 
 }
 
 // What the VPL sends to x [W/sr].
-Vec3 powerTo(const Transport& t, const LightSet& lights, const Vpl& vpl, int pathVertices, Vec3 x) {
+Vec3 powerTo(const Transport& t, const VplSet& lights, const Vpl& vpl, int pathVertices, Vec3 x) {
   if (vpl.glossy < 0) return vpl.power;
   const Vec3 glossy = lights.glossy[static_cast<size_t>(vpl.glossy)].intensityOverCosine(
       glm::normalize(x - vpl.position));
@@ -70,7 +70,7 @@ Vec3 powerTo(const Transport& t, const LightSet& lights, const Vpl& vpl, int pat
 }
 
 // The same for a VPL with a glossy lobe: each receiver sees it from a direction of its own.
-void addGlossy(const Transport& t, const LightSet& lights, const Vpl& vpl, const RayPacket& rays,
+void addGlossy(const Transport& t, const VplSet& lights, const Vpl& vpl, const RayPacket& rays,
                const float* weight, uint32_t visible, int pathVertices, Receivers& r,
                size_t first) {
   for (size_t lane = 0; lane < kPacket; ++lane) {
@@ -83,7 +83,7 @@ void addGlossy(const Transport& t, const LightSet& lights, const Vpl& vpl, const
 }
 
 // What passes straight through that which blocks these lanes.
-void addStraight(const Transport& t, const LightSet& lights, const Vpl& vpl, RayPacket& rays,
+void addStraight(const Transport& t, const VplSet& lights, const Vpl& vpl, RayPacket& rays,
                  Vec3 target, const float* weight, uint32_t blocked, int pathVertices, Receivers& r,
                  size_t first, uint64_t& shadowRays) {
   aimRays(vpl, target, r, first, rays);
@@ -102,7 +102,7 @@ void addStraight(const Transport& t, const LightSet& lights, const Vpl& vpl, Ray
 }
 
 // Asks for light along the rays of one VPL to a chunk of receivers, and adds it.
-void traceVpl(const Transport& t, const LightSet& lights, size_t v, int pathVertices,
+void traceVpl(const Transport& t, const VplSet& lights, size_t v, int pathVertices,
               VplGatherScratch& scratch, size_t begin, Receivers& receivers, uint64_t& shadowRays) {
   const Vpl& vpl = lights.vpls[v];
   RayPacket& rays = scratch.rays;
@@ -128,7 +128,7 @@ void traceVpl(const Transport& t, const LightSet& lights, size_t v, int pathVert
 
 }  // namespace
 
-void gatherVpls(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
+void gatherVpls(const Transport& t, const VplSet& lights, const ReceiverSamples& samples,
                 int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
                 uint64_t& shadowRays) {
   const std::vector<Vpl>& vpls = lights.vpls;

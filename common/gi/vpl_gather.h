@@ -37,9 +37,9 @@ struct VplGatherScratch {
 };
 
 // Adds to receivers.er/eg/eb; receivers must be padded to kPacket. VPLs whose path would exceed the
-// limit on D vertices are left out; pathVertices as in irradiance.h. `shadowRays` counts active
+// limit on D vertices are left out; pathVertices as in layered_method.h. `shadowRays` counts active
 // lanes.
-void gatherVpls(const Transport& transport, const LightSet& lights, const ReceiverSamples& samples,
+void gatherVpls(const Transport& transport, const VplSet& lights, const ReceiverSamples& samples,
                 int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
                 uint64_t& shadowRays);
 

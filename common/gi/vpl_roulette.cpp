@@ -24,7 +24,7 @@ void scale(float* weight, float by) {
 }
 
 // Largest component of what goes to x [W/sr].
-float brightness(const LightSet& lights, const Vpl& vpl, Vec3 x) {
+float brightness(const VplSet& lights, const Vpl& vpl, Vec3 x) {
   const float diffuse = maxComponent(vpl.power);
   if (vpl.glossy < 0 || x == vpl.position) return diffuse;
   const GlossyVpl& glossy = lights.glossy[static_cast<size_t>(vpl.glossy)];
@@ -36,7 +36,7 @@ float brightness(const LightSet& lights, const Vpl& vpl, Vec3 x) {
 
 }  // namespace
 
-void VplRoulette::play(float f, const LightSet& lights, const ReceiverSamples& samples,
+void VplRoulette::play(float f, const VplSet& lights, const ReceiverSamples& samples,
                        int pathVertices, const Receivers& receivers, size_t begin,
                        VplWeights& weights) {
   if (f <= 0) return;
@@ -45,7 +45,7 @@ void VplRoulette::play(float f, const LightSet& lights, const ReceiverSamples& s
                receivers.position(begin + first), first, weights);
 }
 
-void VplRoulette::playPacket(float f, const LightSet& lights, float u, Vec3 x, size_t first,
+void VplRoulette::playPacket(float f, const VplSet& lights, float u, Vec3 x, size_t first,
                              VplWeights& weights) {
   const std::vector<Vpl>& vpls = lights.vpls;
   contributions_.resize(vpls.size());

@@ -29,11 +29,11 @@ class VplRoulette {
  public:
   // Changes the weights of all packets of a chunk that begins at receiver `begin`; u for a packet is
   // its first receiver's sample.
-  void play(float f, const LightSet& lights, const ReceiverSamples& samples, int pathVertices,
+  void play(float f, const VplSet& lights, const ReceiverSamples& samples, int pathVertices,
             const Receivers& receivers, size_t begin, VplWeights& weights);
 
  private:
-  void playPacket(float f, const LightSet& lights, float u, Vec3 x, size_t first,
+  void playPacket(float f, const VplSet& lights, float u, Vec3 x, size_t first,
                   VplWeights& weights);
 
   std::vector<float> contributions_;  // c_v of one packet

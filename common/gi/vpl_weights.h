@@ -10,8 +10,9 @@
 // Source:  Keller 1997; Wald et al. 2002.   Threads: one owner at a time.   Errors: none.
 #pragma once
 
-#include "common/gi/light_set.h"
 #include "common/gi/receivers.h"
+#include "common/gi/transport.h"
+#include "common/gi/vpl.h"
 
 namespace ninefold {
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/gi/indirect_vpls.h"
 #include "common/gi/light_set.h"
 #include "common/gi/renderer.h"
 #include "tests/gi/make_scene.h"

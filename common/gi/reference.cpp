@@ -1,4 +1,4 @@
-#include "common/gi/reference_task.h"
+#include "common/gi/reference.h"
 
 #include "common/gi/direct_light.h"
 #include "common/gi/first_hits.h"
@@ -37,7 +37,15 @@ void addPath(TaskContext& c, const FirstHit& first, const PixelSampler& sampler)
 
 }  // namespace
 
-void pathTraceTask(TaskContext& c) {
+std::shared_ptr<const FrameLight> Reference::light(const FrameKey&, int, const View&) const {
+  return std::make_shared<const FrameLight>();
+}
+
+std::unique_ptr<Scratch> Reference::makeScratch() const { return std::make_unique<Scratch>(); }
+
+void Reference::render(const View& view, const Task& task, const FrameLight&, Scratch&,
+                       TileResult& out) const {
+  TaskContext c(t_, view, task, out, kPathsPerPixel);
   for (uint32_t path = 0; path < kPathsPerPixel; ++path)
     forEachFirstHit(c, path, [&](const FirstHit& first) {
       addPath(c, first, c.sampler(first.x, first.y, path));
