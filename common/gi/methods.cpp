@@ -1,8 +1,8 @@
 #include "common/gi/methods.h"
 
 #include "common/base/error.h"
-#include "common/gi/radiosity.h"
-#include "common/gi/reference.h"
+#include "common/gi/radiosity/radiosity.h"
+#include "common/gi/reference/reference.h"
 
 namespace ninefold {
 

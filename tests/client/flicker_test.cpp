@@ -13,7 +13,7 @@
 #include <map>
 
 #include "client/render_job.h"
-#include "common/gi/light_set.h"
+#include "common/gi/radiosity/light_set.h"
 #include "common/scene/world.h"
 #include "tests/gi/make_scene.h"
 
@@ -72,8 +72,7 @@ bool sameLight(const LightSet& a, const LightSet& b) {
   return same;
 }
 
-std::shared_ptr<const LightSet> lightSet(const Renderer& renderer, const FrameKey& key,
-                                         int phase) {
+std::shared_ptr<const LightSet> lightSet(const Renderer& renderer, const FrameKey& key, int phase) {
   return std::dynamic_pointer_cast<const LightSet>(
       renderer.light(key, lightSetOfPhase(phase, key.rotation, kSets)));
 }

@@ -2,7 +2,7 @@
 // to one of them leaves the samples of the others as they are, bit for bit, and no energy is lost or added.
 #include <gtest/gtest.h>
 
-#include "common/gi/light_set.h"
+#include "common/gi/radiosity/light_set.h"
 #include "common/scene/edit.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"

@@ -1,11 +1,11 @@
 // Fewer shadow rays with the same mean: the choice of VPLs alone, and through the gather.
-#include "common/gi/vpl_roulette.h"
+#include "common/gi/vpl/vpl_roulette.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/gi/vpl_gather.h"
+#include "common/gi/vpl/vpl_gather.h"
 #include "tests/gi/make_scene.h"
 
 namespace ninefold {

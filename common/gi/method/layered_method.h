@@ -6,9 +6,9 @@
 
 #include <vector>
 
-#include "common/gi/layer_receivers.h"
+#include "common/gi/eye/layer_receivers.h"
+#include "common/gi/eye/receiver_samples.h"
 #include "common/gi/method/method.h"
-#include "common/gi/receiver_samples.h"
 
 namespace ninefold {
 

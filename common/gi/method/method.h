@@ -15,7 +15,7 @@
 #include <memory>
 #include <string>
 
-#include "common/gi/task.h"
+#include "common/gi/eye/task.h"
 #include "common/image/layers.h"
 
 namespace ninefold {
@@ -46,8 +46,8 @@ class GiMethod {
   virtual std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
                                                   const View& view) const = 0;
   // `light`: of the task's frame and set. `scratch`: one that makeScratch made.
-  virtual void render(const View& view, const Task& task, const FrameLight& light,
-                      Scratch& scratch, TileResult& out) const = 0;
+  virtual void render(const View& view, const Task& task, const FrameLight& light, Scratch& scratch,
+                      TileResult& out) const = 0;
   virtual std::unique_ptr<Scratch> makeScratch() const = 0;
 
  protected:
