@@ -8,7 +8,7 @@
 
 #include "common/scene/camera_choice.h"
 #include "master/options_flags.h"
-#include "master/output_files.h"
+#include "master/numbered_name.h"
 #include "proto/connection.h"
 #include "proto/tile_codec.h"
 

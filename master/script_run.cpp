@@ -11,6 +11,7 @@
 #include "master/invitation.h"
 #include "master/latency_log.h"
 #include "master/live_run.h"
+#include "master/numbered_name.h"
 #include "master/output_files.h"
 #include "master/script_player.h"
 #include "master/stats.h"

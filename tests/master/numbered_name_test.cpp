@@ -1,5 +1,5 @@
 // The files of a run are looked at before it begins.
-#include "master/output_files.h"
+#include "master/numbered_name.h"
 
 #include <gtest/gtest.h>
 
