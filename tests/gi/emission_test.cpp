@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/gi/radiosity/light_set.h"
+#include "common/sampling/sampler.h"
 #include "common/gi/renderer.h"
 #include "common/gi/vpl/indirect_vpls.h"
 #include "tests/gi/make_scene.h"

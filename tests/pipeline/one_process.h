@@ -4,8 +4,8 @@
 
 #include "common/gi/renderer.h"
 #include "common/scene/needs.h"
-#include "master/frame_plan.h"
-#include "master/picture.h"
+#include "master/assembly/picture.h"
+#include "master/running/frame_plan.h"
 
 namespace ninefold::testing {
 
