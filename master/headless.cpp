@@ -8,6 +8,7 @@
 #include "common/base/log.h"
 #include "common/base/process.h"
 #include "common/base/standard_streams.h"
+#include "common/scene/methods.h"
 #include "master/assembly.h"
 #include "master/cluster_setup.h"
 #include "master/frame_plan.h"

@@ -1,6 +1,7 @@
 #include "master/live_run.h"
 
 #include "common/base/log.h"
+#include "common/scene/methods.h"
 #include "master/cluster_setup.h"
 #include "master/invitation.h"
 

@@ -5,6 +5,7 @@
 
 #include "common/base/cpu_time.h"
 #include "common/base/log.h"
+#include "common/scene/methods.h"
 #include "master/task_rays.h"
 #include "proto/tile_names.h"
 
@@ -252,11 +253,10 @@ void Server::openFrames(Time) {
     if (!order) return;
     if (order->job != offer_.job()) announce(*order);
     open_[order->key.frame] = *order;
-    const bool isTraced = order->settings.method == Method::pathTrace;
     scheduler_.openFrame(order->key, order->grid(),
                          {.wholeTiles = order->delivery.wholeTiles(),
                           .urgent = order->urgent,
-                          .freeSets = isTraced,
+                          .freeSets = factsOf(order->settings.method).freeSets,
                           .rays = raysOfTask(*order)});
   }
 }

@@ -8,6 +8,7 @@
 #include "common/gi/scratch.h"
 #include "common/gi/transport.h"
 #include "common/sampling/sampler.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 

@@ -4,7 +4,7 @@
 
 #include "common/gi/renderer.h"
 #include "common/gi/scratch.h"
-#include "common/scene/needs.h"
+#include "common/scene/methods.h"
 #include "master/frame_plan.h"
 #include "master/picture.h"
 
