@@ -1,7 +1,7 @@
 #include "client/render_job.h"
 
 #include "common/sampling/whole_tile.h"
-#include "common/scene/needs.h"
+#include "common/scene/methods.h"
 #include "common/scene/replay_line.h"
 #include "proto/tile_names.h"
 
@@ -11,12 +11,6 @@ namespace {
 // Frames whose light sets are kept: at rest a client's sets are of one frame after another, some of
 // whose tasks its threads are still at, and one that stragglers may be of.
 constexpr size_t kFramesKept = 4;
-
-bool differInViewOnly(Settings a, const Settings& b) {
-  a.camera = b.camera;
-  a.width = b.width, a.height = b.height;
-  return a == b;
-}
 
 }  // namespace
 
@@ -52,7 +46,7 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
       layerMask(layerMaskOf(needsOf(*scene->scene, settings.environment), settings.method)),
       begun(!scene->begun ? nullptr
             : before != nullptr && before->scene->begun == scene->begun &&
-                    differInViewOnly(before->settings, settings)
+                    haveSameLight(before->settings, settings)
                 ? before->begun
                 : std::make_shared<const Renderer>(scene->begun->tracer, settings)),
       renderer(scene->tracer, settings, begun.get()),
@@ -64,7 +58,7 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
 bool RenderJob::hasLightOf(const std::shared_ptr<const TracedScene>& scene,
                            const Settings& settings, const Delivery& delivery) const {
   return scene == light_->scene && delivery.filter == light_->filter &&
-         differInViewOnly(settings_, settings);
+         haveSameLight(settings_, settings);
 }
 
 RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,

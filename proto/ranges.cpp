@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "common/scene/methods.h"
 #include "proto/messages.h"
 
 namespace ninefold {
@@ -33,7 +34,7 @@ void checkCamera(const Camera& camera) {
 }  // namespace
 
 void checkRanges(const Settings& s) {
-  inRange("method", static_cast<int>(s.method), 0, static_cast<int>(Method::pathTrace));
+  inRange("method", static_cast<int>(s.method), 0, static_cast<int>(allMethods().back().method));
   inRange("width", s.width, 1, 16384);
   inRange("height", s.height, 1, 16384);
   checkCamera(s.camera);

@@ -1,5 +1,6 @@
 #include "proto/settings_wire.h"
 
+#include "common/scene/methods.h"
 #include "proto/messages.h"
 #include "proto/text.h"
 
@@ -67,7 +68,7 @@ void toWire(const Settings& s, pb::Settings& out) {
 
 Settings fromWire(const pb::Settings& in) {
   Settings s;
-  s.method = toEnum("method", in.method(), Method::pathTrace);
+  s.method = toEnum("method", in.method(), allMethods().back().method);
   s.width = toInt(in.width());
   s.height = toInt(in.height());
   s.camera = fromWire(in.camera());

@@ -127,20 +127,4 @@ std::vector<std::string> describe(const Needs& needs) {
   };
 }
 
-std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
-  std::vector<std::string> lines;
-  const bool traced = settings.method == Method::pathTrace;
-  if (traced && needs.punctualLights && needs.smoothSpecular)
-    lines.emplace_back(
-        "path-trace cannot find light that comes from point, spot or directional lights by way of "
-        "smooth mirrors, glass or transparent surfaces: it is missing");
-  if (!needs.caustics) return lines;
-  if (settings.caustics == Caustics::off || (settings.photons == 0 && !traced))
-    lines.emplace_back("caustics are off: light by way of mirrors and glass is missing");
-  else if (settings.caustics == Caustics::direct)
-    lines.emplace_back(
-        "caustics are direct: light that lit surfaces send by way of mirrors and glass is missing");
-  return lines;
-}
-
 }  // namespace ninefold

@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/scene/settings.h"
 
 namespace ninefold {
 
@@ -52,26 +51,9 @@ bool letsPassStraight(const Scene& scene, const Material& material);
 // straight on is not focused.
 bool focusesLight(const Scene& scene, const Material& material);
 
-// Whether pictures have light that photons bring.
-inline bool usesPhotons(const Needs& needs, const Settings& settings) {
-  return needs.caustics && settings.method == Method::instantRadiosity &&
-         settings.caustics != Caustics::off && settings.photons > 0;
-}
-
-// The layers that a task of this method carries; master and clients must agree on it.
-inline uint8_t layerMaskOf(const Needs& needs, Method method) {
-  return method == Method::pathTrace ? uint8_t{1} : needs.layerMask();
-}
-
-// Whether all of a method's light is radiance U: then nothing of it is filtered.
-inline bool isUnfiltered(Method method) { return method == Method::pathTrace; }
-
 Needs needsOf(const Scene& scene, Radiance environment);
 
 // One line for each need: what is on or off, and why. First lines of the log.
 std::vector<std::string> describe(const Needs& needs);
-
-// What these settings leave out of the picture, one line for each: warnings of the log.
-std::vector<std::string> leftOut(const Needs& needs, const Settings& settings);
 
 }  // namespace ninefold

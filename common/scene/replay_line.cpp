@@ -5,11 +5,11 @@
 #include <array>
 
 #include "common/scene/camera_choice.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 namespace {
 
-constexpr std::array kMethods{"instant-radiosity", "path-trace"};
 constexpr std::array kCaustics{"off", "direct", "all"};
 
 template <typename Names, typename Value>
@@ -24,14 +24,15 @@ const char* nameOf(Randomization r) {
 }  // namespace
 
 std::string replayLine(const Scene& scene, const Settings& s, uint32_t frame) {
+  const MethodFacts& facts = factsOf(s.method);
   std::string line = fmt::format(
       "ninefold-master SCENE --local-clients 1 --output again.exr --frames {} --size {}x{} "
       "--camera {} --seed {} --method {} --interleave {}x{} --path-length {} --specular-depth {} "
       "--environment {:.9g},{:.9g},{:.9g} --randomization {}",
-      uint64_t{frame} + 1, s.width, s.height, specOf(scene, s.camera), s.seed,
-      nameOf(kMethods, s.method), s.interleave.n, s.interleave.m, s.pathLength, s.specularDepth,
-      s.environment.x, s.environment.y, s.environment.z, nameOf(s.randomization));
-  if (s.method == Method::pathTrace) return line;
+      uint64_t{frame} + 1, s.width, s.height, specOf(scene, s.camera), s.seed, facts.name,
+      s.interleave.n, s.interleave.m, s.pathLength, s.specularDepth, s.environment.x,
+      s.environment.y, s.environment.z, nameOf(s.randomization));
+  if (!facts.has(kVpls | kCausticPhotons)) return line;
   return line + fmt::format(
                     " --direct-vpls {} --indirect-vpls {} --photons {} --bound {:.9g} "
                     "--vpl-roulette {:.9g} --photon-radius {:.9g} --caustics {}",

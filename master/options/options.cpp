@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/scene/camera_choice.h"
+#include "common/scene/methods.h"
 #include "master/options/numbered_name.h"
 #include "master/options/options_flags.h"
 #include "proto/connection.h"
@@ -21,15 +22,14 @@ constexpr uint64_t kMaxFrames = 1'000'000'000;
 constexpr double kMaxSeconds = 1e9;
 
 // One of the names, as its place in the list.
-template <size_t n>
 std::optional<size_t> choice(const RawOptions& raw, const char* flag,
-                             const std::array<const char*, n>& names) {
+                             std::span<const char* const> names) {
   const auto text = raw.text(flag);
   if (!text) return std::nullopt;
   std::string list;
-  for (size_t i = 0; i < n; ++i) {
+  for (size_t i = 0; i < names.size(); ++i) {
     if (*text == names[i]) return i;
-    list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
+    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
   }
   failUsage("--{} {}: must be {}", flag, *text, list);
 }
@@ -60,7 +60,9 @@ void readSampling(const RawOptions& raw, Settings& s) {
     const auto [n, m] = parsePair("interleave", *interleave, 1, 16);
     s.interleave = {.n = n, .m = m};
   }
-  assign(s.method, choice(raw, "method", std::array{"instant-radiosity", "path-trace"}));
+  std::vector<const char*> methods;
+  for (const MethodFacts& facts : allMethods()) methods.push_back(facts.name);
+  assign(s.method, choice(raw, "method", methods));
   assign(s.directVpls, raw.whole("direct-vpls", 0, 65536));
   assign(s.indirectVpls, raw.whole("indirect-vpls", 0, 65536));
   assign(s.photons, raw.whole("photons", 0, 16777216));

@@ -3,6 +3,7 @@
 #include <boost/program_options.hpp>
 #include <sstream>
 
+#include "common/scene/methods.h"
 #include "master/options/options.h"
 
 namespace ninefold {
@@ -16,10 +17,10 @@ constexpr const char* kScene = "scene";  // the word that belongs to no flag
 struct Flag {
   const char* name;
   const char* value;  // what stands for its value in the help; null: a switch
-  const char* help;
+  std::string help;
 };
 
-constexpr Flag kPicture[] = {
+const Flag kPicture[] = {
     {"size", "WxH", "pixels, each 1 to 16384 (default 640x480)"},
     {"camera", "NAME|INDEX|SPEC",
      "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
@@ -33,13 +34,11 @@ constexpr Flag kPicture[] = {
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
      "error, clients, objects or weights"},
 };
-constexpr Flag kMethod[] = {
+const Flag kMethod[] = {
     {"preset", "NAME",
      "interactive, final (more of everything) or paper (the paper's numbers, sampling and filter); "
      "flags given beside it win (default interactive)"},
-    {"method", "NAME",
-     "how light is computed: instant-radiosity (default) or path-trace (the slow, unbiased "
-     "reference)"},
+    {"method", "NAME", "how light is computed: " + describeMethods()},
     {"interleave", "NxM", "light sets side by side, each 1 to 16 (default 3x3)"},
     {"direct-vpls", "N", "virtual lights on the lights, per set, 0 to 65536 (default 4; final 16)"},
     {"indirect-vpls", "N",
@@ -62,7 +61,7 @@ constexpr Flag kMethod[] = {
      "thresholds, or none (default surface; paper paper)"},
     {"seed", "N", "of all randomness (default 1)"},
 };
-constexpr Flag kRun[] = {
+const Flag kRun[] = {
     {"frames", "N", "stop after N frames (default 64 if no other stop is given)"},
     {"seconds", "S", "stop after S seconds"},
     {"until-error", "E",
@@ -80,7 +79,7 @@ constexpr Flag kRun[] = {
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"headless", nullptr, "no window (default)"},
 };
-constexpr Flag kCluster[] = {
+const Flag kCluster[] = {
     {"local-clients", "N",
      "client processes started on this machine, 0 = only remote ones (default: one per core)"},
     {"client-threads", "N", "threads of each local client, 1 to 1024 (default 1)"},
@@ -101,7 +100,7 @@ constexpr Flag kCluster[] = {
      "with what there is, unless in a window (default 120)"},
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
-constexpr Flag kFiles[] = {
+const Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
@@ -115,9 +114,10 @@ po::options_description group(const char* title, const Flag (&flags)[n]) {
   po::options_description group(title, kHelpWidth);
   for (const Flag& flag : flags) {
     if (flag.value == nullptr)
-      group.add_options()(flag.name, flag.help);
+      group.add_options()(flag.name, flag.help.c_str());
     else
-      group.add_options()(flag.name, po::value<std::string>()->value_name(flag.value), flag.help);
+      group.add_options()(flag.name, po::value<std::string>()->value_name(flag.value),
+                          flag.help.c_str());
   }
   return group;
 }

@@ -6,6 +6,7 @@
 
 #include "common/base/standard_streams.h"
 #include "common/base/written_file.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 namespace {
@@ -51,8 +52,6 @@ Json object(const Camera& c) {
           {"up", list(c.up)},
           {"vertical_fov", c.verticalFov}};
 }
-
-const char* nameOf(Method m) { return m == Method::pathTrace ? "path-trace" : "instant-radiosity"; }
 
 const char* nameOf(Caustics c) {
   return c == Caustics::off ? "off" : c == Caustics::direct ? "direct" : "all";
@@ -136,7 +135,7 @@ void addWork(const RunStats& s, Json& json) {
 void addJob(const RunStats& s, Json& json) {
   json["relative_error"] = numberOrNull(s.relativeError);
   json["needs"] = object(s.needs);
-  json["method"] = nameOf(s.settings.method);
+  json["method"] = factsOf(s.settings.method).name;
   json["settings"] = object(s.settings, s.preset, s.surfaceTest);
   json["seed"] = s.settings.seed;
   json["reproducible"] = s.reproducible;

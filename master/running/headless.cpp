@@ -2,19 +2,18 @@
 
 #include <unistd.h>
 
-#include <thread>
-
 #include "common/base/cpu_time.h"
 #include "common/base/log.h"
 #include "common/base/process.h"
 #include "common/base/standard_streams.h"
-#include "master/assembly/assembly.h"
+#include "common/scene/methods.h"
 #include "master/assembly/picture.h"
 #include "master/options/stop_rule.h"
 #include "master/output/output_files.h"
 #include "master/output/progress.h"
 #include "master/output/run_record.h"
 #include "master/running/cluster_setup.h"
+#include "master/running/frame_machine.h"
 #include "master/running/frame_plan.h"
 #include "master/running/invitation.h"
 #include "master/running/job.h"
@@ -26,14 +25,12 @@ constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure 
 
 class HeadlessRun {
  public:
-  HeadlessRun(const Options& options, const Job& job, Listener::Keys keys);
-  ~HeadlessRun();
+  HeadlessRun(const Options& options, const Job& job, const Listener::Keys& keys);
 
   int run();
 
  private:
-  ServerDuty duty();
-  std::optional<FrameOrder> nextFrame();
+  std::optional<FrameOrder> nextWork();
   void gatherFrames();
   bool isDone();
   void tellProgress();
@@ -41,21 +38,19 @@ class HeadlessRun {
   void writePicture() const;
   void writeStatistics() const;
   Duration elapsed() const;
+  Cluster& cluster() { return machine_.cluster(); }
+  const Cluster& cluster() const { return machine_.cluster(); }
 
   const Options& options_;
   const Job& job_;
-  const Listener::Keys keys_;
   const StopRule rule_;
-  const int workers_;
   FramePlan plan_;            // the network thread's
   FrameOrder order_;          // of all frames, but for the key
   std::atomic<bool> enough_;  // no more frames are opened
   PictureMaker picture_;
   RunRecord record_;
   Progress progress_;
-  // In this order: the workers end before the cluster that they report to.
-  Cluster cluster_;
-  Assembly assembly_;
+  FrameMachine machine_;  // last: its threads end before what they work on
 };
 
 // Of all frames, but for key and weight.
@@ -80,69 +75,51 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   return setup;
 }
 
-HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys keys)
+HeadlessRun::HeadlessRun(const Options& options, const Job& job, const Listener::Keys& keys)
     : options_(options),
       job_(job),
-      keys_(std::move(keys)),
       rule_(options.stop),
-      workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
       order_(orderOf(job)),
       enough_(false),
-      picture_(pictureSetup(options, job, workers_)),
+      picture_(pictureSetup(options, job, FrameMachine::workers())),
       progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
-      cluster_(clusterSetup(options, keys_), *job.offer, duty()),
-      assembly_(
-          workers_,
-          [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
-            cluster_.decoded(std::move(tile), malformed);
-          },
-          [this](int worker, const GatheredFrame& frame, int tile) {
-            picture_.finishTile(worker, frame, tile);
-          }) {}
-
-HeadlessRun::~HeadlessRun() {
-  cluster_.stop("the master ends");
-  cluster_.join();
-}
-
-ServerDuty HeadlessRun::duty() {
-  return {[this] { return nextFrame(); },
-          [this](ReceivedTile& tile) { return assembly_.take(tile); }};
-}
+      machine_(options, keys, *job.offer,
+               {[this] { return nextWork(); },
+                [this](int worker, const GatheredFrame& frame, int tile) {
+                  picture_.finishTile(worker, frame, tile);
+                }}) {}
 
 // On the network thread.
-std::optional<FrameOrder> HeadlessRun::nextFrame() {
+std::optional<FrameOrder> HeadlessRun::nextWork() {
   const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
-  if (enough_ || allOpened || !assembly_.hasRoom()) return std::nullopt;
+  if (enough_ || allOpened) return std::nullopt;
   FrameOrder order = order_;
   order.key = plan_.next();
   order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
-  assembly_.open({order.key, job_.shape, order.settings.camera, order.neighbourWeight});
+  machine_.open(order, job_.shape);
   return order;
 }
 
 int HeadlessRun::run() {
-  invite(options_, cluster_.endpoint());
-  cluster_.start();
+  machine_.start();
   gatherFrames();
-  cluster_.stop("the picture is done");
+  cluster().stop("the picture is done");
   if (picture_.frames() > 0) writePicture();
-  cluster_.join();
-  if (picture_.frames() > 0 || cluster_.failure()) writeStatistics();
-  if (const auto failure = cluster_.failure()) fail("{}", *failure);
+  cluster().join();
+  if (picture_.frames() > 0 || cluster().failure()) writeStatistics();
+  if (const auto failure = cluster().failure()) fail("{}", *failure);
   if (picture_.frames() == 0) warn("stopped before any frame was complete: nothing is written");
-  return cluster_.signal() == 0 ? 0 : 128 + cluster_.signal();
+  return cluster().signal() == 0 ? 0 : 128 + cluster().signal();
 }
 
 void HeadlessRun::gatherFrames() {
   while (!isDone()) {
     tellProgress();
-    if (const auto frame = assembly_.next(Clock::now() + kLook)) {
+    if (const auto frame = machine_.next(Clock::now() + kLook)) {
       picture_.frameDone();
       record_.frameDone(*frame, processCpuTime());
-      assembly_.release(*frame);
-      cluster_.wake();  // there may be room for another
+      machine_.release(*frame);
     }
   }
   enough_ = true;
@@ -152,11 +129,11 @@ void HeadlessRun::gatherFrames() {
 
 bool HeadlessRun::isDone() {
   const bool metRule = rule_.isMet(picture_.frames(), elapsed(), picture_.relativeError());
-  return metRule || cluster_.signal() != 0 || cluster_.failure();
+  return metRule || cluster().signal() != 0 || cluster().failure();
 }
 
 Duration HeadlessRun::elapsed() const {
-  const std::optional<Time> begin = cluster_.firstDispatch();
+  const std::optional<Time> begin = cluster().firstDispatch();
   return begin ? Clock::now() - *begin : Duration{0};
 }
 
@@ -166,7 +143,7 @@ void HeadlessRun::tellProgress() {
 
 ProgressState HeadlessRun::progressState() const {
   const double fraction = rule_.fraction(picture_.frames(), elapsed(), picture_.relativeError());
-  return {fraction, picture_.frames(), rule_.frames, cluster_.summary()};
+  return {fraction, picture_.frames(), rule_.frames, cluster().summary()};
 }
 
 void HeadlessRun::writePicture() const {
@@ -184,8 +161,8 @@ void HeadlessRun::writePicture() const {
 
 void HeadlessRun::writeStatistics() const {
   if (!options_.stats) return;
-  RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), workers_);
-  stats.stalls = cluster_.stalls();
+  RunStats stats = record_.stats(cluster().server(), machine_.busy(), FrameMachine::workers());
+  stats.stalls = cluster().stalls();
   stats.frames = picture_.frames();
   stats.relativeError = picture_.relativeError();
   stats.imageHash = picture_.imageHash();
@@ -202,9 +179,9 @@ int runHeadless(const Options& options) {
   // What can be told at once comes before a scene is read, which may take long.
   checkGuests(options);
   checkFiles(options);
-  Listener::Keys keys = loadKeys(options);
+  const Listener::Keys keys = loadKeys(options);
   const Job job = makeJob(options);
-  HeadlessRun run(options, job, std::move(keys));
+  HeadlessRun run(options, job, keys);
   return run.run();
 }
 

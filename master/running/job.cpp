@@ -1,6 +1,7 @@
 #include "master/running/job.h"
 
 #include "common/base/log.h"
+#include "common/scene/methods.h"
 #include "common/scene/reader.h"
 #include "proto/scene_blobs.h"
 
@@ -12,7 +13,8 @@ uint8_t extraPlanes(const Options& options, const Needs& needs) {
   const bool photons = needs.caustics && options.settings.caustics != Caustics::off;
   return static_cast<uint8_t>(
       kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane | (photons ? kCausticPlane : 0) |
-      (isUnfiltered(options.settings.method) ? kIrradiancePlane : 0) | planesOf(options.view));
+      (factsOf(options.settings.method).isUnfiltered ? kIrradiancePlane : 0) |
+      planesOf(options.view));
 }
 
 std::string hashOf(const std::vector<Blob>& blobs) {

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/image/layers.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 LivePlan::LivePlan(const Setup& setup, Time now)
@@ -139,9 +140,10 @@ Settings LivePlan::settingsAt(const Quality& quality) const {
   const double light = MotionQuality::kLights[static_cast<size_t>(quality.light)];
   Settings s = state_.settings;
   s.width = scaled(s.width, size), s.height = scaled(s.height, size);
-  s.directVpls = scaled(s.directVpls, light);
-  s.indirectVpls = scaled(s.indirectVpls, light);
-  s.photons = scaled(s.photons, light);
+  const MethodFacts& facts = factsOf(s.method);
+  if (facts.has(kDirectVpls)) s.directVpls = scaled(s.directVpls, light);
+  if (facts.has(kIndirectVpls)) s.indirectVpls = scaled(s.indirectVpls, light);
+  if (facts.has(kCausticPhotons)) s.photons = scaled(s.photons, light);
   if (!moving_) return s;
   // Light from lit surfaces through glass comes back at rest.
   if (s.caustics == Caustics::all) s.caustics = Caustics::direct;

@@ -1,8 +1,7 @@
 #include "master/running/live_run.h"
 
 #include "common/base/log.h"
-#include "master/running/cluster_setup.h"
-#include "master/running/invitation.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 namespace {
@@ -28,45 +27,37 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
                  OnPicture onPicture)
     : options_(options),
       job_(job),
-      workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
       onPicture_(std::move(onPicture)),
-      picture_({options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius, pace.motion,
-                pace.person}),
+      picture_({options.surfaceTest, FrameMachine::workers(), kDepthShownWhite * job.sceneRadius,
+                pace.motion, pace.person}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
       view_(options.view),
       pace_(pace),
-      cluster_(clusterSetup(options, keys), *job.offer,
-               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); },
-                [this] { return giveUp(); }}),
-      assembly_(
-          workers_,
-          [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
-            cluster_.decoded(std::move(tile), malformed);
-          },
-          [this](int worker, const GatheredFrame& frame, int tile) {
-            finishTile(worker, frame, tile);
-          }) {
+      machine_(
+          options, keys, *job.offer,
+          {[this] { return nextWork(); },
+           [this](int worker, const GatheredFrame& frame, int tile) {
+             finishTile(worker, frame, tile);
+           },
+           [this](const ReceivedTile& tile) { noteOwner(tile); }, [this] { return giveUp(); }}) {
   setDelivery();
-  invite(options, cluster_.endpoint());
 }
 
 LiveRun::~LiveRun() {
   ending_ = true;
   if (thread_.joinable()) thread_.join();
-  cluster_.stop("the master ends");
-  cluster_.join();
 }
 
 void LiveRun::start() {
-  cluster_.start();
+  machine_.start();
   thread_ = std::thread([this] { gatherFrames(); });
 }
 
 void LiveRun::stop(const std::string& reason) {
   ending_ = true;
-  cluster_.stop(reason);
+  machine_.cluster().stop(reason);
 }
 
 void LiveRun::change(const std::function<void()>& apply) {
@@ -80,9 +71,8 @@ void LiveRun::change(const std::function<void()>& apply) {
     firstWanted = plan_.change(next, Clock::now());
     if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
   }
-  if (!firstWanted) return cluster_.wake();
-  assembly_.supersede(*firstWanted);
-  cluster_.supersede(*firstWanted);
+  if (!firstWanted) return machine_.cluster().wake();
+  machine_.supersede(*firstWanted);
 }
 
 void LiveRun::setSettings(const Settings& settings) {
@@ -196,49 +186,35 @@ FrameShape LiveRun::shapeOf(const FrameOrder& order) const {
 }
 
 // On the network thread.
-std::optional<FrameOrder> LiveRun::nextFrame() {
+std::optional<FrameOrder> LiveRun::nextWork() {
   const std::lock_guard lock(mutex_);
-  if (ending_ || !assembly_.hasRoom()) return std::nullopt;
+  if (ending_) return std::nullopt;
   std::optional<LiveFrame> frame = plan_.next(Clock::now());
   if (!frame) return std::nullopt;
   FrameOrder& order = frame->order;
   order.edit = std::exchange(unsent_, {});
   order.neighbourWeight = frame->neighbourWeight;
-  FrameView view;
-  view.key = order.key;
-  view.shape = shapeOf(order);
-  view.camera = order.settings.camera;
-  view.neighbourWeight = frame->neighbourWeight;
   open_[order.key.frame] = std::make_shared<Open>(
       Open{*frame, plan_.state(), lookAt(*frame),
            std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});
-  assembly_.open(view);
+  machine_.open(order, shapeOf(order));
   return order;
 }
 
 // On the network thread.
-bool LiveRun::take(ReceivedTile& tile) {
-  {
-    const std::lock_guard lock(mutex_);
-    const auto open = open_.find(tile.result.frame);
-    if (open != open_.end()) {
-      const auto sets = static_cast<size_t>(open->second->frame.order.settings.interleave.sets());
-      open->second->owners.at(tile.result.tile * sets + tile.result.phase) = tile.client;
-    }
-  }
-  return assembly_.take(tile);
+void LiveRun::noteOwner(const ReceivedTile& tile) {
+  const std::lock_guard lock(mutex_);
+  const auto open = open_.find(tile.result.frame);
+  if (open == open_.end()) return;
+  const auto sets = static_cast<size_t>(open->second->frame.order.settings.interleave.sets());
+  open->second->owners.at(tile.result.tile * sets + tile.result.phase) = tile.client;
 }
 
 // On the network thread.
 uint32_t LiveRun::giveUp() {
-  uint32_t firstWanted = 0;
-  {
-    const std::lock_guard lock(mutex_);
-    firstWanted = plan_.giveUp();
-    open_.clear();
-  }
-  assembly_.supersede(firstWanted);
-  return firstWanted;
+  const std::lock_guard lock(mutex_);
+  open_.clear();
+  return plan_.giveUp();
 }
 
 // On a worker's thread.
@@ -255,7 +231,7 @@ void LiveRun::finishTile(int worker, const GatheredFrame& frame, int tile) {
 
 void LiveRun::gatherFrames() {
   while (!ending_) {
-    const auto frame = assembly_.next(Clock::now() + kLook);
+    const auto frame = machine_.next(Clock::now() + kLook);
     if (!frame) continue;
     std::shared_ptr<const Open> done;
     {
@@ -266,8 +242,7 @@ void LiveRun::gatherFrames() {
       picture_.frameDone();
       publish(*done, frame->finished);
     }
-    assembly_.release(*frame);
-    cluster_.wake();
+    machine_.release(*frame);
     if (done) onPicture_(shown());
   }
 }
@@ -280,7 +255,7 @@ void LiveRun::publish(const Open& done, Time completed) {
   shown->completed = completed;
   shown->frames = picture_.frames();
   shown->relativeError = picture_.relativeError();
-  shown->rays = cluster_.tally().rays;
+  shown->rays = machine_.cluster().tally().rays;
   const std::lock_guard lock(mutex_);
   open_.erase(open_.begin(), open_.upper_bound(done.frame.order.key.frame));
   shown_ = std::move(shown);

@@ -20,11 +20,10 @@
 #include <thread>
 #include <vector>
 
-#include "master/assembly/assembly.h"
+#include "master/running/frame_machine.h"
 #include "master/running/job.h"
 #include "master/running/live_picture.h"
 #include "master/running/live_plan.h"
-#include "master/serving/cluster.h"
 
 namespace ninefold {
 
@@ -73,7 +72,7 @@ class LiveRun {
   Needs needs() const;        // of the scene as it is now
   bool isMoving() const;
   std::shared_ptr<const Shown> shown() const;  // null before the first frame
-  const Cluster& cluster() const { return cluster_; }
+  const Cluster& cluster() const { return machine_.cluster(); }
   void stop(const std::string& reason);
 
  private:
@@ -83,8 +82,8 @@ class LiveRun {
     LiveLook look;
     std::vector<uint32_t> owners;  // by task
   };
-  std::optional<FrameOrder> nextFrame();
-  bool take(ReceivedTile& tile);
+  std::optional<FrameOrder> nextWork();
+  void noteOwner(const ReceivedTile& tile);
   uint32_t giveUp();
   void finishTile(int worker, const GatheredFrame& frame, int tile);
   void gatherFrames();
@@ -98,7 +97,6 @@ class LiveRun {
 
   const Options& options_;
   Job& job_;
-  const int workers_;
   const OnPicture onPicture_;
   LivePicture picture_;
 
@@ -115,9 +113,7 @@ class LiveRun {
   std::shared_ptr<const Shown> shown_;
 
   std::atomic<bool> ending_ = false;
-  // In this order: the workers end before the cluster that they report to.
-  Cluster cluster_;
-  Assembly assembly_;
+  FrameMachine machine_;  // its threads end before what they work on
   std::thread thread_;
 };
 

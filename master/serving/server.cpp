@@ -5,6 +5,7 @@
 
 #include "common/base/cpu_time.h"
 #include "common/base/log.h"
+#include "common/scene/methods.h"
 #include "master/scheduling/task_rays.h"
 #include "proto/tile_names.h"
 
@@ -248,15 +249,14 @@ void Server::tell(const StuckNote& note) const {
 
 void Server::openFrames(Time) {
   while (scheduler_.wantsFrame() && scheduler_.openFrames() < kMaxOpenFrames) {
-    const std::optional<FrameOrder> order = duty_.nextFrame();
+    const std::optional<FrameOrder> order = duty_.nextWork();
     if (!order) return;
     if (order->job != offer_.job()) announce(*order);
     open_[order->key.frame] = *order;
-    const bool isTraced = order->settings.method == Method::pathTrace;
     scheduler_.openFrame(order->key, order->grid(),
                          {.wholeTiles = order->delivery.wholeTiles(),
                           .urgent = order->urgent,
-                          .freeSets = isTraced,
+                          .freeSets = factsOf(order->settings.method).freeSets,
                           .rays = raysOfTask(*order)});
   }
 }

@@ -36,8 +36,8 @@ struct ServerSetup {
 
 // What the server is there for; called in the loop's thread, must not wait.
 struct ServerDuty {
-  // The next frame to render; nothing when there is none or no room for it now.
-  std::function<std::optional<FrameOrder>()> nextFrame;
+  // What is to be done next, a frame; nothing when there is none or no room for it now.
+  std::function<std::optional<FrameOrder>()> nextWork;
   // Takes a tile that is wanted, answered by decoded(); false when there is no room.
   std::function<bool(ReceivedTile&)> take;
   // Nobody is left who can do the open frames, only newcomers who have missed their job. Gives back

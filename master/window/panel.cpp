@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/math/units.h"
+#include "common/scene/methods.h"
 #include "master/window/overlays.h"
 
 namespace ninefold {
@@ -59,11 +60,18 @@ void drawClients(const PanelView& view) {
   }
 }
 
+// As ImGui's menus want them: each ends in a zero.
+std::string titlesOfMethods() {
+  std::string titles;
+  for (const MethodFacts& facts : allMethods()) titles += std::string(facts.title) + '\0';
+  return titles;
+}
+
 void drawLight(const PanelView& view, PanelChanges& changes) {
   if (!ImGui::CollapsingHeader("Light")) return;
   Settings s = view.settings;
   int method = static_cast<int>(s.method), caustics = static_cast<int>(s.caustics);
-  bool changed = ImGui::Combo("method", &method, "instant radiosity\0path tracing\0");
+  bool changed = ImGui::Combo("method", &method, titlesOfMethods().c_str());
   changed |= ImGui::SliderInt("direct VPLs", &s.directVpls, 0, 64);
   changed |= ImGui::SliderInt("indirect VPLs", &s.indirectVpls, 0, 256);
   changed |= ImGui::SliderInt("photons", &s.photons, 0, 20000);

@@ -6,6 +6,7 @@
 
 #include "common/gi/radiosity/light_set.h"
 #include "common/sampling/sampler.h"
+#include "common/scene/methods.h"
 #include "common/gi/renderer.h"
 #include "common/gi/vpl/indirect_vpls.h"
 #include "tests/gi/make_scene.h"

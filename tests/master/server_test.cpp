@@ -79,7 +79,7 @@ class ServerTest : public testing::Test {
  protected:
   ServerTest() {
     ServerDuty duty;
-    duty.nextFrame = [this]() -> std::optional<FrameOrder> {
+    duty.nextWork = [this]() -> std::optional<FrameOrder> {
       if (opened == frames) return std::nullopt;
       FrameOrder order;
       order.settings = smallPicture();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/gi/renderer.h"
+#include "common/scene/methods.h"
 #include "common/scene/needs.h"
 #include "master/assembly/picture.h"
 #include "master/running/frame_plan.h"

@@ -113,39 +113,6 @@ TEST(Needs, OnlyMaterialsThatAreSeenCount) {
   EXPECT_FALSE(needsOf(scene, Radiance(0)).specular());
 }
 
-// The path tracer cannot meet a point by chance: what comes from one by a smooth surface is missing, and said
-// to be; rough lobes sample lights, area lights are met.
-TEST(LeftOut, PathTracerNamesTheCausticsOfPunctualLights) {
-  Settings settings;
-  settings.method = Method::pathTrace;
-  const auto lines = [&](float roughness, bool punctual) {
-    Material metal;
-    metal.roughness = roughness, metal.emission = Vec3(1);
-    Scene scene = withMaterial(metal);
-    if (punctual) scene.lights.emplace_back();
-    return leftOut(needsOf(scene, Radiance(1)), settings);
-  };
-  ASSERT_EQ(lines(0, true).size(), 1u);
-  EXPECT_NE(lines(0, true)[0].find("cannot find"), std::string::npos);
-  EXPECT_TRUE(lines(0.3f, true).empty());
-  EXPECT_TRUE(lines(0, false).empty());
-  settings.method = Method::instantRadiosity;
-  EXPECT_TRUE(lines(0, true).empty());
-}
-
-TEST(LeftOut, FewerCausticsAreNamedIfThereAreAny) {
-  Settings settings;
-  Material glass = matte();
-  glass.transmission = 1;
-  for (const Caustics caustics : {Caustics::off, Caustics::direct, Caustics::all}) {
-    settings.caustics = caustics;
-    EXPECT_EQ(leftOut(needsWith(glass), settings).size(), caustics == Caustics::all ? 0u : 1u);
-    EXPECT_TRUE(leftOut(needsWith(matte()), settings).empty());
-  }
-  settings.photons = 0;
-  EXPECT_EQ(leftOut(needsWith(glass), settings).size(), 1u);
-}
-
 TEST(Needs, KindsOfLight) {
   Scene scene = withMaterial(matte());
   EXPECT_FALSE(needsOf(scene, Radiance(0)).environment);

@@ -6,6 +6,7 @@
 #include "common/gi/eye/task.h"
 #include "common/image/layers.h"
 #include "common/sampling/sampler.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 

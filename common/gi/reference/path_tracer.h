@@ -11,7 +11,7 @@
 // 0 (no light straight to the first D). The first kSureVertices vertices survive for sure; later
 // ones with the probability of the lobes' albedo. It cannot find a caustic of a punctual light (L
 // is a point, S is smooth): those paths are missing, and the log says so (leftOut in
-// scene/needs.h).
+// scene/methods.h).
 //
 // Dimensions of vertex j, from 1 on: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light.
 //

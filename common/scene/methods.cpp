@@ -1,0 +1,105 @@
+// The table, and what follows from it. Rays of a task, p its pixels, v the VPLs and f the photons
+// of its light set, which is counted, too:
+//
+//     n = p (2 + v) + v + 4 f        instant radiosity: a photon meets four surfaces
+//     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
+#include "common/scene/methods.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "common/image/layers.h"
+
+namespace ninefold {
+namespace {
+
+double radiosityRays(const Settings& s, double pixels) {
+  const double vpls = s.directVpls + s.indirectVpls;
+  return pixels * (2 + vpls) + vpls + 4.0 * s.photons;
+}
+
+double pathRays(const Settings&, double pixels) { return 64 * pixels; }
+
+constexpr std::array kTable{
+    MethodFacts{.method = Method::instantRadiosity,
+                .name = "instant-radiosity",
+                .title = "instant radiosity",
+                .help = "",
+                .parts = kVpls | kCausticPhotons,
+                .isUnfiltered = false,
+                .lightNeedsView = false,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = radiosityRays},
+    MethodFacts{.method = Method::pathTrace,
+                .name = "path-trace",
+                .title = "path tracing",
+                .help = "the slow, unbiased reference",
+                .parts = 0,
+                .isUnfiltered = true,
+                .lightNeedsView = false,
+                .freeSets = true,
+                .missesPunctualCaustics = true,
+                .rays = pathRays},
+};
+
+constexpr bool isInOrder() {
+  for (size_t i = 0; i < kTable.size(); ++i)
+    if (static_cast<size_t>(kTable[i].method) != i) return false;
+  return true;
+}
+static_assert(isInOrder());
+
+}  // namespace
+
+std::span<const MethodFacts> allMethods() { return kTable; }
+
+const MethodFacts& factsOf(Method method) { return kTable.at(static_cast<size_t>(method)); }
+
+uint8_t layerMaskOf(const Needs& needs, Method method) {
+  return factsOf(method).isUnfiltered ? kDiffuseBit : needs.layerMask();
+}
+
+bool usesPhotons(const Needs& needs, const Settings& settings) {
+  return needs.caustics && factsOf(settings.method).has(kCausticPhotons) &&
+         settings.caustics != Caustics::off && settings.photons > 0;
+}
+
+bool haveSameLight(const Settings& a, const Settings& b) {
+  if (factsOf(a.method).lightNeedsView) return a == b;
+  Settings seenAlike = a;
+  seenAlike.camera = b.camera, seenAlike.width = b.width, seenAlike.height = b.height;
+  return seenAlike == b;
+}
+
+std::string describeMethods() {
+  std::string text;
+  for (const MethodFacts& facts : kTable) {
+    const bool isLast = &facts == &kTable.back();
+    if (&facts != &kTable.front()) text += isLast ? " or " : ", ";
+    const std::string note = facts.method == Settings{}.method ? "default" : facts.help;
+    text += note.empty() ? std::string(facts.name) : fmt::format("{} ({})", facts.name, note);
+  }
+  return text;
+}
+
+std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
+  std::vector<std::string> lines;
+  const MethodFacts& facts = factsOf(settings.method);
+  if (facts.missesPunctualCaustics && needs.punctualLights && needs.smoothSpecular)
+    lines.push_back(fmt::format(
+        "{} cannot find light that comes from point, spot or directional lights by way of smooth "
+        "mirrors, glass or transparent surfaces: it is missing",
+        facts.name));
+  if (!needs.caustics) return lines;
+  const bool noPhotons = facts.has(kCausticPhotons) && settings.photons == 0;
+  if (settings.caustics == Caustics::off || noPhotons)
+    lines.emplace_back("caustics are off: light by way of mirrors and glass is missing");
+  else if (settings.caustics == Caustics::direct)
+    lines.emplace_back(
+        "caustics are direct: light that lit surfaces send by way of mirrors and glass is missing");
+  return lines;
+}
+
+}  // namespace ninefold

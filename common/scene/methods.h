@@ -1,0 +1,59 @@
+// methods.h: what differs from method to method, as far as one can tell without tracing a ray: one
+// row of facts for each. Master, wire, options, stats, panel, report and help read it, so that none
+// of them asks which method it is. What a method computes lies in common/gi.
+//
+// A new method is a value of Method (settings.h) and a row of the table in methods.cpp.
+// Threads: constant data, pure functions. Errors: none.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/scene/needs.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+// What light is made of. Settings and thinning in motion go by it.
+enum LightPart : uint8_t { kDirectVpls = 1, kIndirectVpls = 2, kCausticPhotons = 4 };
+inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
+
+struct MethodFacts {
+  Method method;
+  const char* name;   // of flags and files
+  const char* title;  // for people, in the panel
+  const char* help;   // in brackets behind its name; may be empty
+  uint8_t parts;      // LightParts that it has, as bits: in motion there are fewer of each
+
+  // All light is radiance U: tasks carry one layer, and nothing of it is filtered.
+  bool isUnfiltered;
+  bool lightNeedsView;          // a light set is made for a camera
+  bool freeSets;                // a light set costs nothing, so that any client may take any task
+  bool missesPunctualCaustics;  // cannot meet point, spot or directional lights by smooth surfaces
+  double (*rays)(const Settings& settings, double pixels);  // of a task; see methods.cpp
+
+  bool has(uint8_t part) const { return (parts & part) == part; }
+};
+
+// In the order of Method.
+std::span<const MethodFacts> allMethods();
+const MethodFacts& factsOf(Method method);
+
+// The layers that a task of this method carries; master and clients must agree on it.
+uint8_t layerMaskOf(const Needs& needs, Method method);
+
+// Whether pictures have light that photons bring.
+bool usesPhotons(const Needs& needs, const Settings& settings);
+
+// Whether light sets that were made with `a` are those of `b`, byte for byte.
+bool haveSameLight(const Settings& a, const Settings& b);
+
+// For a menu: "a (default), b (slow) or c" with the names of all methods and what helps to choose.
+std::string describeMethods();
+
+// What these settings leave out of the picture, one line for each: warnings of the log.
+std::vector<std::string> leftOut(const Needs& needs, const Settings& settings);
+
+}  // namespace ninefold

@@ -1,0 +1,61 @@
+// frame_machine.h: cluster and assembly wired together, once for every kind of run: work goes out,
+// tiles come back and are placed, whole frames come out.
+//
+//   duty.nextWork -> cluster -> tiles -> assembly -> duty.finishTile -> next
+//
+// Threads: nextWork, tileCame and giveUp are called on the network thread, finishTile on a worker's;
+// everything else from any thread. Owner: the run; ends all its threads when destroyed.
+// Errors: the constructor throws Error (cannot listen, bad key); cluster().failure() tells what ends
+// the run later.
+#pragma once
+
+#include "master/assembly/assembly.h"
+#include "master/options/options.h"
+#include "master/serving/cluster.h"
+
+namespace ninefold {
+
+// What a run does at each station.
+struct FrameDuty {
+  // The next frame, after open() of it; nothing if there is none now. Asked only if there is room.
+  std::function<std::optional<FrameOrder>()> nextWork;
+  Assembly::Finish finishTile;
+  // A tile is about to be taken. May be null.
+  std::function<void(const ReceivedTile&)> tileCame = nullptr;
+  // As ServerDuty::giveUp. May be null.
+  std::function<uint32_t()> giveUp = nullptr;
+};
+
+class FrameMachine {
+ public:
+  FrameMachine(const Options& options, const Listener::Keys& keys, JobOffer& offer, FrameDuty duty);
+  ~FrameMachine();
+
+  static int workers();  // of finishTile, on all cores
+  // Says where clients may join, and begins.
+  void start();
+
+  // A frame of this shape will come, by nextWork.
+  void open(const FrameOrder& order, const FrameShape& shape);
+  // No frame before `firstWanted` is wanted any more.
+  void supersede(uint32_t firstWanted);
+
+  // The next whole frame, if it is there by `deadline`. Give it back with release.
+  std::optional<Assembly::Complete> next(Time deadline) { return assembly_.next(deadline); }
+  void release(const Assembly::Complete& frame);
+
+  Cluster& cluster() { return cluster_; }
+  const Cluster& cluster() const { return cluster_; }
+  Assembly::Busy busy() const { return assembly_.busy(); }
+
+ private:
+  ServerDuty serverDuty();
+
+  const Options& options_;
+  const FrameDuty duty_;
+  // In this order: the workers end before the cluster that they report to.
+  Cluster cluster_;
+  Assembly assembly_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,132 @@
+#include "common/scene/methods.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+#include "common/image/layers.h"
+#include "tests/scene/simple_scene.h"
+
+namespace ninefold {
+namespace {
+
+Scene withMaterial(const Material& material) {
+  Scene scene = simpleScene();
+  scene.materials[0] = material;
+  return scene;
+}
+
+Needs needsWith(const Material& m) { return needsOf(withMaterial(m), Radiance(0)); }
+
+Material matte() {
+  Material m;
+  m.metallic = 0;
+  return m;
+}
+
+Settings settingsOf(const MethodFacts& facts) {
+  Settings s;
+  s.method = facts.method;
+  return s;
+}
+
+TEST(Methods, EachHasARowInTheOrderOfTheirNumbers) {
+  std::set<std::string> names, titles;
+  size_t number = 0;
+  for (const MethodFacts& facts : allMethods()) {
+    EXPECT_EQ(static_cast<size_t>(facts.method), number++);
+    EXPECT_EQ(&factsOf(facts.method), &facts);
+    EXPECT_TRUE(names.insert(facts.name).second) << facts.name << " is there twice";
+    EXPECT_TRUE(titles.insert(facts.title).second) << facts.title << " is there twice";
+    EXPECT_EQ(std::string(facts.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz-"),
+              std::string::npos)
+        << facts.name << " is a word of the command line";
+    EXPECT_NE(describeMethods().find(facts.name), std::string::npos);
+  }
+}
+
+// A tracer's radiance is finished: one layer, whatever the scene has.
+TEST(Methods, UnfilteredRadianceIsOneLayer) {
+  Needs needs;
+  needs.reflection = needs.transmission = true;
+  for (const MethodFacts& facts : allMethods())
+    EXPECT_EQ(layerMaskOf(needs, facts.method),
+              facts.isUnfiltered ? kDiffuseBit : kDiffuseBit | kReflectionBit | kTransmissionBit)
+        << facts.name;
+}
+
+TEST(Methods, PhotonsNeedAMethodThatHasThemAndASceneThatFocuses) {
+  Needs focusing;
+  focusing.caustics = true;
+  for (const MethodFacts& facts : allMethods()) {
+    Settings s = settingsOf(facts);
+    EXPECT_EQ(usesPhotons(focusing, s), facts.has(kCausticPhotons)) << facts.name;
+    EXPECT_FALSE(usesPhotons(Needs{}, s)) << facts.name;
+    s.photons = 0;
+    EXPECT_FALSE(usesPhotons(focusing, s)) << facts.name;
+    s.photons = 1, s.caustics = Caustics::off;
+    EXPECT_FALSE(usesPhotons(focusing, s)) << facts.name;
+  }
+}
+
+// A set that costs nothing has no rays of its own: then rays are in proportion to the pixels.
+TEST(Methods, RaysOfATaskAreThoseOfItsPixelsAndOfItsSet) {
+  for (const MethodFacts& facts : allMethods()) {
+    Settings s = settingsOf(facts);
+    const double none = facts.rays(s, 0), one = facts.rays(s, 1), ten = facts.rays(s, 10);
+    EXPECT_EQ(none == 0, facts.freeSets) << facts.name;
+    EXPECT_GT(one, none) << facts.name;
+    EXPECT_DOUBLE_EQ(ten - none, 10 * (one - none)) << facts.name;
+    s.photons += 5;
+    EXPECT_EQ(facts.rays(s, 1) > one, facts.has(kCausticPhotons)) << facts.name;
+  }
+}
+
+TEST(Methods, LightIsSharedByViewsUnlessItIsMadeForOne) {
+  for (const MethodFacts& facts : allMethods()) {
+    const Settings s = settingsOf(facts);
+    Settings other = s;
+    other.camera.eye.x += 1, other.width = 7, other.height = 5;
+    EXPECT_TRUE(haveSameLight(s, s)) << facts.name;
+    EXPECT_EQ(haveSameLight(s, other), !facts.lightNeedsView) << facts.name;
+    other = s, other.seed += 1;
+    EXPECT_FALSE(haveSameLight(s, other)) << facts.name;
+  }
+}
+
+// The path tracer cannot meet a point by chance: what comes from one by a smooth surface is missing, and said
+// to be; rough lobes sample lights, area lights are met.
+TEST(LeftOut, PathTracerNamesTheCausticsOfPunctualLights) {
+  Settings settings;
+  settings.method = Method::pathTrace;
+  const auto lines = [&](float roughness, bool punctual) {
+    Material metal;
+    metal.roughness = roughness, metal.emission = Vec3(1);
+    Scene scene = withMaterial(metal);
+    if (punctual) scene.lights.emplace_back();
+    return leftOut(needsOf(scene, Radiance(1)), settings);
+  };
+  ASSERT_EQ(lines(0, true).size(), 1u);
+  EXPECT_NE(lines(0, true)[0].find("cannot find"), std::string::npos);
+  EXPECT_TRUE(lines(0.3f, true).empty());
+  EXPECT_TRUE(lines(0, false).empty());
+  settings.method = Method::instantRadiosity;
+  EXPECT_TRUE(lines(0, true).empty());
+}
+
+TEST(LeftOut, FewerCausticsAreNamedIfThereAreAny) {
+  Settings settings;
+  Material glass = matte();
+  glass.transmission = 1;
+  for (const Caustics caustics : {Caustics::off, Caustics::direct, Caustics::all}) {
+    settings.caustics = caustics;
+    EXPECT_EQ(leftOut(needsWith(glass), settings).size(), caustics == Caustics::all ? 0u : 1u);
+    EXPECT_TRUE(leftOut(needsWith(matte()), settings).empty());
+  }
+  settings.photons = 0;
+  EXPECT_EQ(leftOut(needsWith(glass), settings).size(), 1u);
+}
+
+}  // namespace
+}  // namespace ninefold
