@@ -1,13 +1,13 @@
 #include "master/assembly/assembly.h"
 
 #include <gtest/gtest.h>
-#include <thread>
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <random>
 #include <set>
+#include <thread>
 
 namespace ninefold {
 namespace {
