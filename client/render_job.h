@@ -71,7 +71,7 @@ class RenderJob {
   struct Desk {  // of one thread
     Desk(const Renderer& renderer, SurfaceTest test)
         : scratch(renderer.makeScratch()), filter(test) {}
-    std::unique_ptr<Scratch, void (*)(Scratch*)> scratch;
+    std::unique_ptr<Scratch> scratch;
     TileResult tile;
     Patch patch;
     PatchFilter filter;

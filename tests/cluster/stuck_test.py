@@ -1,7 +1,7 @@
 """Clients with a task that never ends: told of, worked around, restarted; and when to give up.
 
 The sleeping client (sleeping_client.cpp) is a real one of which one task sleeps while its heartbeats go
-on. Its deadline is 10 s and a little, once it has given results (master/scheduler_client.h).
+on. Its deadline is 10 s and a little, once it has given results (master/scheduling/scheduler_client.h).
 """
 import json
 import shutil

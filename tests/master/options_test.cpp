@@ -1,4 +1,4 @@
-#include "master/options.h"
+#include "master/options/options.h"
 
 #include <gtest/gtest.h>
 
@@ -81,9 +81,9 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
 
 // Range, default and what presets make of it come from where they are used.
 TEST(Options, HelpTellsRangesAndDefaults) {
-  std::string help = helpText();
-  for (size_t i = help.find("\n "); i != std::string::npos; i = help.find("\n ", i))
-    help.erase(i, help.find_first_not_of(" \n", i) - i).insert(i, " ");
+  std::istringstream words(helpText());  // however its lines are broken
+  std::string help;
+  for (std::string word; words >> word;) help += word + " ";
   for (const char* text : {
            "pixels, each 1 to 16384 (default 640x480)",
            "instant-radiosity (default) or path-trace (the slow, unbiased reference)",
