@@ -215,9 +215,4 @@ Frame encodeMessage(Message&& message);
 // Frame to message; throws Error as said above. `sender` is who the frame came from.
 Message decodeMessage(Frame&& frame, Peer sender);
 
-// Ranges of DESIGN's options; throw Error naming the field. Used for the wire and for the command
-// line.
-void checkRanges(const Settings& settings);
-void checkRanges(const FrameKey& frame);
-
 }  // namespace ninefold

@@ -1,6 +1,9 @@
 #include "proto/settings_wire.h"
 
-#include "common/scene/methods.h"
+#include <cmath>
+#include <map>
+
+#include "common/scene/settings_table.h"
 #include "proto/messages.h"
 #include "proto/text.h"
 
@@ -9,17 +12,6 @@ namespace {
 
 void toWire(Vec3 v, pb::Vec3& out) { out.set_x(v.x), out.set_y(v.y), out.set_z(v.z); }
 Vec3 fromWire(const pb::Vec3& in) { return Vec3(in.x(), in.y(), in.z()); }
-
-// Numbers that would not fit become -1, which no range allows.
-int toInt(uint32_t value) { return value <= 0x7fffffff ? static_cast<int>(value) : -1; }
-
-// Enums are checked before they are made: a value outside would already be wrong to hold.
-template <typename Enum>
-Enum toEnum(const char* field, uint32_t value, Enum last) {
-  if (value > static_cast<uint32_t>(last))
-    fail("{} is {}, must be 0 to {}", field, value, static_cast<uint32_t>(last));
-  return static_cast<Enum>(value);
-}
 
 void toWire(const Camera& camera, pb::Camera& out) {
   out.set_name(printable(camera.name, kMaxText));
@@ -41,54 +33,110 @@ Camera fromWire(const pb::Camera& in) {
   return camera;
 }
 
+// Both numbers and the camera: one overload for each type of a row.
+void put(uint64_t value, pb::Setting& out) { out.add_whole(value); }
+void put(int value, pb::Setting& out) { out.add_whole(static_cast<uint64_t>(int64_t{value})); }
+void put(bool value, pb::Setting& out) { out.add_whole(value ? 1 : 0); }
+void put(float value, pb::Setting& out) { out.add_real(value); }
+void put(Interleave value, pb::Setting& out) { put(value.n, out), put(value.m, out); }
+void put(Radiance value, pb::Setting& out) {
+  for (int i = 0; i < 3; ++i) out.add_real(value[i]);
+}
+void put(const Camera& value, pb::Setting& out) { toWire(value, *out.mutable_camera()); }
+template <typename Enum>
+requires std::is_enum_v<Enum>
+void put(Enum value, pb::Setting& out) { out.add_whole(static_cast<uint64_t>(value)); }
+
+void expect(const pb::Setting& in, const char* name, int wholes, int reals, int cameras = 0) {
+  const int held = in.has_camera() ? 1 : 0;
+  if (in.whole_size() != wholes || in.real_size() != reals || held != cameras)
+    fail("{} has {} whole numbers, {} real ones and {} cameras, must have {}, {} and {}", name,
+         in.whole_size(), in.real_size(), held, wholes, reals, cameras);
+}
+
+// Numbers that would not fit become -1, which no range allows.
+int toInt(uint64_t value) { return value <= 0x7fffffff ? static_cast<int>(value) : -1; }
+
+void take(const pb::Setting& in, const Setting<uint64_t>& row, uint64_t& to) {
+  expect(in, row.name, 1, 0);
+  to = in.whole(0);
+}
+
+void take(const pb::Setting& in, const Setting<int>& row, int& to) {
+  expect(in, row.name, 1, 0);
+  to = toInt(in.whole(0));
+  checkRange(row, to);
+}
+
+void take(const pb::Setting& in, const Setting<bool>& row, bool& to) {
+  expect(in, row.name, 1, 0);
+  if (in.whole(0) > 1) fail("{} is {}, must be 0 or 1", row.name, in.whole(0));
+  to = in.whole(0) == 1;
+}
+
+void take(const pb::Setting& in, const Setting<float>& row, float& to) {
+  expect(in, row.name, 0, 1);
+  to = in.real(0);
+  checkRange(row, to);
+}
+
+void take(const pb::Setting& in, const Setting<Interleave>& row, Interleave& to) {
+  expect(in, row.name, 2, 0);
+  to = {toInt(in.whole(0)), toInt(in.whole(1))};
+  checkRange(row, to);
+}
+
+void take(const pb::Setting& in, const Setting<Radiance>& row, Radiance& to) {
+  expect(in, row.name, 0, 3);
+  to = Radiance(in.real(0), in.real(1), in.real(2));
+  checkRange(row, to);
+}
+
+void take(const pb::Setting& in, const Setting<Camera>& row, Camera& to) {
+  expect(in, row.name, 0, 0, 1);
+  to = fromWire(in.camera());
+  checkRange(row, to);
+}
+
+// Checked before it is made: a value outside would already be wrong to hold.
+template <typename Enum>
+void take(const pb::Setting& in, const Setting<Enum>& row, Enum& to) {
+  expect(in, row.name, 1, 0);
+  checkRange(row, in.whole(0));
+  to = static_cast<Enum>(in.whole(0));
+}
+
+using ByName = std::map<std::string, const pb::Setting*>;
+
+ByName byName(const pb::Settings& in) {
+  ByName given;
+  for (const pb::Setting& each : in.setting())
+    if (!given.emplace(each.name(), &each).second)
+      fail("{} is there twice", printable(each.name(), kMaxText));
+  return given;
+}
+
 }  // namespace
 
-void toWire(const Settings& s, pb::Settings& out) {
-  out.set_method(static_cast<uint32_t>(s.method));
-  out.set_width(static_cast<uint32_t>(s.width));
-  out.set_height(static_cast<uint32_t>(s.height));
-  toWire(s.camera, *out.mutable_camera());
-  out.set_interleave_n(static_cast<uint32_t>(s.interleave.n));
-  out.set_interleave_m(static_cast<uint32_t>(s.interleave.m));
-  out.set_direct_vpls(static_cast<uint32_t>(s.directVpls));
-  out.set_indirect_vpls(static_cast<uint32_t>(s.indirectVpls));
-  out.set_photons(static_cast<uint32_t>(s.photons));
-  out.set_path_length(static_cast<uint32_t>(s.pathLength));
-  out.set_specular_depth(static_cast<uint32_t>(s.specularDepth));
-  out.set_bound(s.bound);
-  out.set_photon_radius(s.photonRadius);
-  out.set_vpl_roulette(s.vplRoulette);
-  out.set_caustics(static_cast<uint32_t>(s.caustics));
-  toWire(s.environment, *out.mutable_environment());
-  out.set_seed(s.seed);
-  out.set_randomization(static_cast<uint32_t>(s.randomization));
-  out.set_jitter(s.jitter);
-  out.set_compensate(s.compensate);
+void toWire(const Settings& settings, pb::Settings& out) {
+  forEachSetting([&](const auto& row) {
+    pb::Setting& setting = *out.add_setting();
+    setting.set_name(row.name);
+    put(settings.*row.member, setting);
+  });
 }
 
 Settings fromWire(const pb::Settings& in) {
-  Settings s;
-  s.method = toEnum("method", in.method(), allMethods().back().method);
-  s.width = toInt(in.width());
-  s.height = toInt(in.height());
-  s.camera = fromWire(in.camera());
-  s.interleave = {toInt(in.interleave_n()), toInt(in.interleave_m())};
-  s.directVpls = toInt(in.direct_vpls());
-  s.indirectVpls = toInt(in.indirect_vpls());
-  s.photons = toInt(in.photons());
-  s.pathLength = toInt(in.path_length());
-  s.specularDepth = toInt(in.specular_depth());
-  s.bound = in.bound();
-  s.photonRadius = in.photon_radius();
-  s.vplRoulette = in.vpl_roulette();
-  s.caustics = toEnum("caustics", in.caustics(), Caustics::all);
-  s.environment = fromWire(in.environment());
-  s.seed = in.seed();
-  s.randomization = toEnum("randomization", in.randomization(), Randomization::random);
-  s.jitter = in.jitter();
-  s.compensate = in.compensate();
-  checkRanges(s);
-  return s;
+  ByName given = byName(in);
+  Settings settings;
+  forEachSetting([&](const auto& row) {
+    const auto found = given.extract(row.name);
+    if (found.empty()) fail("{} is missing", row.name);
+    take(*found.mapped(), row, settings.*row.member);
+  });
+  if (!given.empty())
+    fail("{} is no setting that this release has", printable(given.begin()->first, kMaxText));
+  return settings;
 }
 
 void toWire(const FrameKey& frame, pb::FrameKey& out) {
@@ -100,7 +148,8 @@ void toWire(const FrameKey& frame, pb::FrameKey& out) {
 
 FrameKey fromWire(const pb::FrameKey& in) {
   const FrameKey frame{in.frame(), in.randomization(), in.rotation(), in.photon_radius()};
-  checkRanges(frame);
+  if (!(frame.photonRadius >= 0) || !std::isfinite(frame.photonRadius))
+    fail("photon radius of frame {} is {}, must be 0 or more", frame.frame, frame.photonRadius);
   return frame;
 }
 

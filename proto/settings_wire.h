@@ -1,5 +1,6 @@
 // settings_wire.h: Settings and FrameKey as protobuf messages. Internal to messages_decode/encode.
-// Errors: the fromWire functions throw Error naming a field that is out of range. Threads: pure.
+// Errors: the fromWire functions throw Error naming what is out of range, unknown, missing or there
+// twice. Threads: pure.
 #pragma once
 
 #include "common/scene/settings.h"

@@ -13,6 +13,7 @@
 
 #include "common/gi/renderer.h"
 #include "common/scene/reader.h"
+#include "common/scene/settings_table.h"
 #include "common/tracing/ray_log.h"
 #include "proto/tile_codec.h"
 #include "tools/command.h"
@@ -44,7 +45,7 @@ struct Cost {
 
 Settings settingsFor(const Options& o, const Scene& scene) {
   Settings s;
-  const auto [width, height] = parsePair("size", o.size, 1, 16384);
+  const auto [width, height] = parseSize(o.size);
   s.width = width, s.height = height;
   s.camera = scene.cameras.front();
   s.environment = scene.environment;

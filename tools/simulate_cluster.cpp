@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "common/scene/settings_table.h"
 #include "tools/command.h"
 #include "tools/simulated_cluster.h"
 
@@ -120,7 +121,7 @@ int run(int argc, char** argv) {
   checkRange("clients", o.clients, 1, 10'000);
   checkRange("frames", o.frames, 1, 1'000'000);
   checkRange("frames-in-flight", o.framesInFlight, 1, 1000);
-  const auto [width, height] = parsePair("size", o.size, 1, 16384);
+  const auto [width, height] = parseSize(o.size);
   SimulatedJob job;
   job.grid = TileGrid(width, height, {3, 3});
   job.frames = o.frames, job.framesInFlight = o.framesInFlight;

@@ -1,6 +1,6 @@
 // settings.h: everything besides the scene that decides the bytes of a picture. Part of every
-// task's key. Value types; the same on master and clients. Ranges are enforced where they enter
-// (command line, wire).
+// task's key. Value types; the same on master and clients. Names, ranges and texts of all members:
+// settings_table.h. Ranges are enforced where values enter (command line, panel, wire).
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,19 @@ namespace ninefold {
 enum class Method : uint8_t { instantRadiosity, pathTrace };
 enum class Caustics : uint8_t { off, direct, all };
 
-inline constexpr float kMaxVplRoulette = 1000;
-
 struct Settings {
   Method method = Method::instantRadiosity;
-  int width = 640, height = 480;  // 1..16384 each
+  int width = 640, height = 480;
   Camera camera;
   Interleave interleave;
-  int directVpls = 4;          // per set, 0..65536
-  int indirectVpls = 18;       // per set, mean, 0..65536
-  int photons = 1000;          // caustic photons per set, 0..16777216
+  int directVpls = 4;          // per set
+  int indirectVpls = 18;       // per set, mean
+  int photons = 1000;          // caustic photons per set
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
-  int specularDepth = 32;      // S vertices in a row, 1..1024
-  float bound = 30;            // c of b = c/R^2, > 0
-  float vplRoulette = 4;       // f of vpl_roulette.h, 0 (ask all) .. kMaxVplRoulette
-  float photonRadius = 0.02f;  // first photon radius as a fraction of R, > 0
+  int specularDepth = 32;      // S vertices in a row
+  float bound = 30;            // c of b = c/R^2
+  float vplRoulette = 4;       // f of vpl_roulette.h, 0: ask all
+  float photonRadius = 0.02f;  // first photon radius as a fraction of R
   Caustics caustics = Caustics::all;
   Radiance environment{0};
   uint64_t seed = 1;

@@ -7,32 +7,19 @@
 #include <limits>
 
 #include "common/scene/camera_choice.h"
-#include "common/scene/methods.h"
+#include "common/scene/settings_table.h"
 #include "master/options/numbered_name.h"
 #include "master/options/options_flags.h"
+#include "master/options/settings_flags.h"
 #include "proto/connection.h"
 #include "proto/tile_codec.h"
 
 namespace ninefold {
 namespace {
 
-constexpr int kMaxSide = 16384;
 constexpr uint64_t kMaxClients = 4096;
 constexpr uint64_t kMaxFrames = 1'000'000'000;
 constexpr double kMaxSeconds = 1e9;
-
-// One of the names, as its place in the list.
-std::optional<size_t> choice(const RawOptions& raw, const char* flag,
-                             std::span<const char* const> names) {
-  const auto text = raw.text(flag);
-  if (!text) return std::nullopt;
-  std::string list;
-  for (size_t i = 0; i < names.size(); ++i) {
-    if (*text == names[i]) return i;
-    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
-  }
-  failUsage("--{} {}: must be {}", flag, *text, list);
-}
 
 template <typename T, typename Value>
 void assign(T& to, const std::optional<Value>& value) {
@@ -40,60 +27,19 @@ void assign(T& to, const std::optional<Value>& value) {
 }
 
 void applyPreset(Options& o) {
-  if (o.preset == Preset::final) {
-    o.settings.directVpls = 16, o.settings.indirectVpls = 72;
-    o.settings.photons = 10000;
-  }
-  if (o.preset == Preset::paper) {  // Wald et al. 2002: 22 VPLs, 1000 photons from the lights
-    o.settings.pathLength = 4;
-    o.settings.caustics = Caustics::direct;
-    o.settings.randomization = Randomization::exclusiveOr;
-    o.surfaceTest = SurfaceTest::paper;
-    o.converging = false;
-    o.settings.bound = 300, o.settings.vplRoulette = 0;
-    o.settings.compensate = o.settings.jitter = false;
-  }
-}
-
-void readSampling(const RawOptions& raw, Settings& s) {
-  if (const auto interleave = raw.text("interleave")) {
-    const auto [n, m] = parsePair("interleave", *interleave, 1, 16);
-    s.interleave = {.n = n, .m = m};
-  }
-  std::vector<const char*> methods;
-  for (const MethodFacts& facts : allMethods()) methods.push_back(facts.name);
-  assign(s.method, choice(raw, "method", methods));
-  assign(s.directVpls, raw.whole("direct-vpls", 0, 65536));
-  assign(s.indirectVpls, raw.whole("indirect-vpls", 0, 65536));
-  assign(s.photons, raw.whole("photons", 0, 16777216));
-  assign(s.pathLength, raw.whole("path-length", 0, 1 << 20));
-  assign(s.specularDepth, raw.whole("specular-depth", 1, 1024));
-  assign(s.bound, raw.real("bound", 1e-6, 1e12));
-  assign(s.vplRoulette, raw.real("vpl-roulette", 0, double{kMaxVplRoulette}));
-  assign(s.photonRadius, raw.real("photon-radius", 1e-6, 1));
-  assign(s.caustics, choice(raw, "caustics", std::array{"off", "direct", "all"}));
-  assign(s.randomization, choice(raw, "randomization", std::array{"xor", "owen", "random"}));
-  if (const auto seed = raw.text("seed"))
-    s.seed = parseWhole("seed", *seed, 0, std::numeric_limits<uint64_t>::max());
-}
-
-std::optional<Radiance> readEnvironment(const RawOptions& raw) {
-  const auto text = raw.text("environment");
-  if (!text) return std::nullopt;
-  if (*text == "none") return Radiance(0);
-  std::vector<double> c = parseNumbers("environment", *text);
-  if (c.size() == 1) c = {c[0], c[0], c[0]};
-  if (c.size() != 3) failUsage("--environment {}: write none, R,G,B or one number", *text);
-  for (const double x : c) checkRange("environment", x, 0.0, 1e6);
-  return Radiance(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
+  o.settings = settingsOf(o.preset);
+  if (o.preset != Preset::paper) return;
+  o.surfaceTest = SurfaceTest::paper;
+  o.converging = false;
 }
 
 void readPicture(const RawOptions& raw, Options& o) {
   if (const auto size = raw.text("size"))
-    std::tie(o.settings.width, o.settings.height) = parsePair("size", *size, 1, kMaxSide);
+    std::tie(o.settings.width, o.settings.height) = parseSize(*size);
+  readSettings(raw, o.settings);
+  if (raw.has("environment")) o.environment = o.settings.environment;
   o.camera = raw.text("camera").value_or("");
-  o.environment = readEnvironment(raw);
-  assign(o.surfaceTest, choice(raw, "filter", std::array{"none", "paper", "surface"}));
+  assign(o.surfaceTest, raw.choice("filter", std::array{"none", "paper", "surface"}));
   o.autoExposure = raw.text("exposure") == "auto";
   if (!o.autoExposure)
     if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
@@ -109,7 +55,7 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
-  if (const auto isa = choice(raw, "isa", kIsas)) o.isa = kIsas[*isa];
+  if (const auto isa = raw.choice("isa", kIsas)) o.isa = kIsas[*isa];
   o.listen = raw.text("listen").value_or(o.listen);
   try {
     if (!isLoopback(parseEndpoint(o.listen, "--listen").host) && !o.keyFile)
@@ -126,7 +72,7 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
 
 // After the picture: its interleaving and extra layers matter.
 void readDelivery(const RawOptions& raw, Options& o) {
-  if (const auto at = choice(raw, "filter-at", std::array{"master", "clients"}))
+  if (const auto at = raw.choice("filter-at", std::array{"master", "clients"}))
     o.filterAtClients = *at == 1;
   const auto level = raw.text("wire-level");
   if (level && *level != "auto")
@@ -197,11 +143,6 @@ void readFiles(const RawOptions& raw, Options& o) {
 
 }  // namespace
 
-const char* nameOf(Preset preset) {
-  constexpr std::array kNames{"interactive", "final", "paper"};
-  return kNames[static_cast<size_t>(preset)];
-}
-
 Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores) {
   const RawOptions raw(argc, argv, variable);
   Options o;
@@ -212,10 +153,9 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
 
   o.scene = raw.text("scene").value_or("");
   if (o.scene.empty()) failUsage("no scene is given; see ninefold-master --help");
-  assign(o.preset, choice(raw, "preset", std::array{"interactive", "final", "paper"}));
+  assign(o.preset, raw.choice("preset", kPresetNames));
   applyPreset(o);
   readPicture(raw, o);
-  readSampling(raw, o.settings);
   readCluster(raw, cores, o);
   readDelivery(raw, o);
   readRun(raw, o);

@@ -2,6 +2,7 @@
 // preset's defaults.
 //
 //   options_flags   which flags there are, the text of --help, raw values from flags and variables
+//   settings_flags  those of them that are settings
 //   options         what they mean: checked values, presets, what this release does not have
 //   makeSettings    with a scene: the settings of a job
 //
@@ -18,13 +19,12 @@
 #include "common/scene/scene.h"
 #include "common/scene/settings.h"
 #include "master/assembly/view.h"
+#include "master/options/preset.h"
 #include "master/options/script.h"
 #include "master/options/stop_rule.h"
 #include "proto/messages.h"
 
 namespace ninefold {
-
-enum class Preset : uint8_t { interactive, final, paper };
 
 struct Options {
   bool help = false;                  // print helpText() and end; nothing else counts
@@ -86,7 +86,5 @@ std::string helpText();
 
 // Settings of the job: the options', with the scene's camera and light. Error: no such camera.
 Settings makeSettings(const Options& options, const Scene& scene);
-
-const char* nameOf(Preset preset);
 
 }  // namespace ninefold

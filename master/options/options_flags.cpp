@@ -1,10 +1,13 @@
 #include "master/options/options_flags.h"
 
+#include <fmt/format.h>
+
 #include <boost/program_options.hpp>
 #include <sstream>
 
-#include "common/scene/methods.h"
+#include "common/scene/settings_table.h"
 #include "master/options/options.h"
+#include "master/options/settings_flags.h"
 
 namespace ninefold {
 namespace {
@@ -17,16 +20,12 @@ constexpr const char* kScene = "scene";  // the word that belongs to no flag
 struct Flag {
   const char* name;
   const char* value;  // what stands for its value in the help; null: a switch
-  std::string help;
+  const char* help;
 };
 
-const Flag kPicture[] = {
-    {"size", "WxH", "pixels, each 1 to 16384 (default 640x480)"},
+constexpr Flag kPicture[] = {
     {"camera", "NAME|INDEX|SPEC",
      "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
-    {"environment", "none|COLOR",
-     "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; white 1, with a warning, "
-     "if the scene has no light at all)"},
     {"exposure", "EV|auto",
      "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
      "what the scene says, else 0)"},
@@ -34,34 +33,15 @@ const Flag kPicture[] = {
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
      "error, clients, objects or weights"},
 };
-const Flag kMethod[] = {
-    {"preset", "NAME",
-     "interactive, final (more of everything) or paper (the paper's numbers, sampling and filter); "
-     "flags given beside it win (default interactive)"},
-    {"method", "NAME", "how light is computed: " + describeMethods()},
-    {"interleave", "NxM", "light sets side by side, each 1 to 16 (default 3x3)"},
-    {"direct-vpls", "N", "virtual lights on the lights, per set, 0 to 65536 (default 4; final 16)"},
-    {"indirect-vpls", "N",
-     "virtual lights that light has bounced to, mean per set, 0 to 65536 (default 18; final 72)"},
-    {"photons", "N", "caustic photons per set, 0 to 16777216 (default 1000; final 10000)"},
-    {"path-length", "N", "diffuse vertices of a path at most, 0 = no limit (default 0; paper 4)"},
-    {"specular-depth", "N", "mirrors and glass in a row at most, 1 to 1024 (default 32)"},
-    {"bound", "C", "bound of the geometry term b = C/R^2, above 0 (default 30; paper 300)"},
-    {"vpl-roulette", "F",
-     "skip virtual lights that add less than F times the mean, at random; 0 = none (default 4; "
-     "paper 0)"},
-    {"photon-radius", "F", "first photon radius as a fraction of R, up to 1 (default 0.02)"},
-    {"caustics", "off|direct|all",
-     "photons from nowhere, from the lights, or from lit surfaces too (default all; paper direct)"},
-    {"randomization", "owen|xor|random",
-     "of the sample points: nested scrambling or exclusive-or of a Sobol' sequence, or none of it: "
-     "pseudo-random points (default owen; paper xor)"},
-    {"filter", "surface|paper|none",
-     "neighbours that the discontinuity buffer averages: on one smooth surface, within the paper's "
-     "thresholds, or none (default surface; paper paper)"},
-    {"seed", "N", "of all randomness (default 1)"},
-};
-const Flag kRun[] = {
+constexpr Flag kPreset{
+    "preset", "NAME",
+    "interactive, final (more of everything) or paper (the paper's numbers, sampling and filter); "
+    "flags given beside it win (default interactive)"};
+constexpr Flag kFilter{
+    "filter", "surface|paper|none",
+    "neighbours that the discontinuity buffer averages: on one smooth surface, within the paper's "
+    "thresholds, or none (default surface; paper paper)"};
+constexpr Flag kRun[] = {
     {"frames", "N", "stop after N frames (default 64 if no other stop is given)"},
     {"seconds", "S", "stop after S seconds"},
     {"until-error", "E",
@@ -79,7 +59,7 @@ const Flag kRun[] = {
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"headless", nullptr, "no window (default)"},
 };
-const Flag kCluster[] = {
+constexpr Flag kCluster[] = {
     {"local-clients", "N",
      "client processes started on this machine, 0 = only remote ones (default: one per core)"},
     {"client-threads", "N", "threads of each local client, 1 to 1024 (default 1)"},
@@ -100,7 +80,7 @@ const Flag kCluster[] = {
      "with what there is, unless in a window (default 120)"},
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
-const Flag kFiles[] = {
+constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
@@ -109,22 +89,39 @@ const Flag kFiles[] = {
     {"version", nullptr, "print the release and end"},
 };
 
-template <size_t n>
-po::options_description group(const char* title, const Flag (&flags)[n]) {
+void add(po::options_description& group, const Flag& flag) {
+  if (flag.value == nullptr)
+    group.add_options()(flag.name, flag.help);
+  else
+    group.add_options()(flag.name, po::value<std::string>()->value_name(flag.value), flag.help);
+}
+
+po::options_description group(const char* title, std::span<const Flag> flags) {
   po::options_description group(title, kHelpWidth);
-  for (const Flag& flag : flags) {
-    if (flag.value == nullptr)
-      group.add_options()(flag.name, flag.help.c_str());
-    else
-      group.add_options()(flag.name, po::value<std::string>()->value_name(flag.value),
-                          flag.help.c_str());
-  }
+  for (const Flag& flag : flags) add(group, flag);
   return group;
 }
 
+// What is seen, in the first group; and how it is computed, in the second.
+void addSettings(po::options_description& picture, po::options_description& method) {
+  constexpr Setting<int> side = settingOf(&Settings::width);
+  const Settings usual;
+  const std::string size = fmt::format("pixels, each {} to {} (default {}x{})", side.low, side.high,
+                                       usual.width, usual.height);
+  add(picture, {"size", "WxH", size.c_str()});
+  const std::string_view environment = settingOf(&Settings::environment).name;
+  for (const SettingFlag& flag : settingFlags())
+    add(flag.name == environment ? picture : method, {flag.name, flag.value, flag.help.c_str()});
+}
+
 po::options_description allFlags() {
+  po::options_description picture("Picture", kHelpWidth), method("Method", kHelpWidth);
+  add(method, kPreset);
+  addSettings(picture, method);
+  add(method, kFilter);
+  for (const Flag& flag : kPicture) add(picture, flag);
   po::options_description all(kHelpWidth);
-  all.add(group("Picture", kPicture)).add(group("Method", kMethod)).add(group("Run", kRun));
+  all.add(picture).add(method).add(group("Run", kRun));
   all.add(group("Cluster", kCluster)).add(group("Files", kFiles));
   return all;
 }
@@ -201,6 +198,18 @@ bool RawOptions::isOn(const std::string& flag) const {
   if (value != "0" && value != "1")
     failUsage("{} is {}: must be 0 or 1", variableOfFlag(flag), value);
   return value == "1";
+}
+
+std::optional<size_t> RawOptions::choice(const std::string& flag,
+                                         std::span<const char* const> names) const {
+  const auto given = text(flag);
+  if (!given) return std::nullopt;
+  std::string list;
+  for (size_t i = 0; i < names.size(); ++i) {
+    if (*given == names[i]) return i;
+    list += (i == 0 ? "" : i + 1 == names.size() ? " or " : ", ") + std::string(names[i]);
+  }
+  failUsage("--{} {}: must be {}", flag, *given, list);
 }
 
 std::optional<int64_t> RawOptions::whole(const std::string& flag, uint64_t low,

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/base/command_line.h"
@@ -19,6 +20,8 @@ class RawOptions {
   std::optional<std::string> text(const std::string& flag) const;
   // A switch; from a variable also "0" or "1".
   bool isOn(const std::string& flag) const;
+  // One of the names, as its place in the list.
+  std::optional<size_t> choice(const std::string& flag, std::span<const char* const> names) const;
   // A whole number, or a real one, in [low, high].
   std::optional<int64_t> whole(const std::string& flag, uint64_t low, uint64_t high) const;
   std::optional<double> real(const std::string& flag, double low, double high) const;

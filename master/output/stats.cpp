@@ -6,7 +6,7 @@
 
 #include "common/base/standard_streams.h"
 #include "common/base/written_file.h"
-#include "common/scene/methods.h"
+#include "common/scene/settings_table.h"
 
 namespace ninefold {
 namespace {
@@ -53,38 +53,30 @@ Json object(const Camera& c) {
           {"vertical_fov", c.verticalFov}};
 }
 
-const char* nameOf(Caustics c) {
-  return c == Caustics::off ? "off" : c == Caustics::direct ? "direct" : "all";
-}
-
-const char* nameOf(Randomization r) {
-  return r == Randomization::owen ? "owen" : r == Randomization::exclusiveOr ? "xor" : "random";
-}
-
 const char* nameOf(SurfaceTest t) {
   return t == SurfaceTest::surface ? "surface" : t == SurfaceTest::paper ? "paper" : "none";
 }
 
+template <typename T>
+Json jsonOf(const T& value) {
+  if constexpr (std::is_enum_v<T>)
+    return textOf(value);
+  else
+    return value;
+}
+Json jsonOf(Interleave value) { return Json::array({value.n, value.m}); }
+Json jsonOf(Radiance value) { return list(value); }
+Json jsonOf(const Camera& value) { return object(value); }
+
 Json object(const Settings& s, const std::string& preset, SurfaceTest filter) {
-  return {{"preset", preset},
-          {"width", s.width},
-          {"height", s.height},
-          {"camera", object(s.camera)},
-          {"interleave", Json::array({s.interleave.n, s.interleave.m})},
-          {"direct_vpls", s.directVpls},
-          {"indirect_vpls", s.indirectVpls},
-          {"photons", s.photons},
-          {"path_length", s.pathLength},
-          {"specular_depth", s.specularDepth},
-          {"bound", s.bound},
-          {"photon_radius", s.photonRadius},
-          {"vpl_roulette", s.vplRoulette},
-          {"caustics", nameOf(s.caustics)},
-          {"environment", list(s.environment)},
-          {"filter", nameOf(filter)},
-          {"randomization", nameOf(s.randomization)},
-          {"jitter", s.jitter},
-          {"compensate", s.compensate}};
+  Json all{{"preset", preset}};
+  forEachSetting([&](const auto& row) {
+    std::string key = row.name;
+    std::ranges::replace(key, '-', '_');
+    all[key] = jsonOf(s.*row.member);
+  });
+  all["filter"] = nameOf(filter);
+  return all;
 }
 
 Json object(const std::vector<ClientStats>& clients) {
@@ -135,7 +127,7 @@ void addWork(const RunStats& s, Json& json) {
 void addJob(const RunStats& s, Json& json) {
   json["relative_error"] = numberOrNull(s.relativeError);
   json["needs"] = object(s.needs);
-  json["method"] = factsOf(s.settings.method).name;
+  json["method"] = textOf(s.settings.method);
   json["settings"] = object(s.settings, s.preset, s.surfaceTest);
   json["seed"] = s.settings.seed;
   json["reproducible"] = s.reproducible;

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "common/math/units.h"
-#include "common/scene/methods.h"
+#include "common/scene/settings_table.h"
 #include "master/window/overlays.h"
 
 namespace ninefold {
@@ -60,32 +60,84 @@ void drawClients(const PanelView& view) {
   }
 }
 
-// As ImGui's menus want them: each ends in a zero.
-std::string titlesOfMethods() {
-  std::string titles;
-  for (const MethodFacts& facts : allMethods()) titles += std::string(facts.title) + '\0';
-  return titles;
+// What was typed may be anything, even no number.
+template <typename T>
+T inRange(T value, double low, double high) {
+  const T least = static_cast<T>(low), most = static_cast<T>(high);
+  return value >= least ? std::min(value, most) : least;
 }
 
+// Slides within [low, high]; what is typed may be more, but not out of [least, most].
+bool slider(const char* label, float& value, Vec2 reach, const char* format, double least,
+            double most, ImGuiSliderFlags flags = ImGuiSliderFlags_None) {
+  const bool changed = ImGui::SliderFloat(label, &value, reach.x, reach.y, format, flags);
+  if (changed) value = inRange(value, least, most);
+  return changed;
+}
+
+// Whether a person has changed it: one overload for each type of a row with a slider.
+bool draw(const Setting<int>& row, int& value) {
+  const Slider& s = row.slider;
+  const bool changed = ImGui::SliderInt(s.label, &value, static_cast<int>(s.low),
+                                        static_cast<int>(s.high), s.format);
+  if (changed) value = inRange(value, row.low, row.high);
+  return changed;
+}
+
+bool draw(const Setting<float>& row, float& value) {
+  const Slider& s = row.slider;
+  return slider(s.label, value, Vec2(s.low, s.high), s.format, row.low, row.high,
+                s.isLogarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None);
+}
+
+bool draw(const Setting<bool>& row, bool& value) {
+  return ImGui::Checkbox(row.slider.label, &value);
+}
+
+bool draw(const Setting<Interleave>& row, Interleave& value) {
+  const Slider& s = row.slider;
+  int side = value.n;
+  const bool changed =
+      ImGui::SliderInt(s.label, &side, static_cast<int>(s.low), static_cast<int>(s.high));
+  side = inRange(side, row.low, row.high);
+  if (changed) value = {side, side};
+  return changed;
+}
+
+const char* titleOf(Method method) { return factsOf(method).title; }
+
+template <typename Enum>
+const char* titleOf(Enum value) {
+  return namesOf(value)[static_cast<size_t>(value)];
+}
+
+template <typename Enum>
+requires std::is_enum_v<Enum>
+bool draw(const Setting<Enum>& row, Enum& value) {
+  if (!ImGui::BeginCombo(row.slider.label, titleOf(value))) return false;
+  const Enum before = value;
+  for (size_t i = 0; i < namesOf(before).size(); ++i) {
+    const auto each = static_cast<Enum>(i);
+    if (ImGui::Selectable(titleOf(each), each == before)) value = each;
+  }
+  ImGui::EndCombo();
+  return value != before;
+}
+
+// What the method has no use for is grey.
 void drawLight(const PanelView& view, PanelChanges& changes) {
   if (!ImGui::CollapsingHeader("Light")) return;
   Settings s = view.settings;
-  int method = static_cast<int>(s.method), caustics = static_cast<int>(s.caustics);
-  bool changed = ImGui::Combo("method", &method, titlesOfMethods().c_str());
-  changed |= ImGui::SliderInt("direct VPLs", &s.directVpls, 0, 64);
-  changed |= ImGui::SliderInt("indirect VPLs", &s.indirectVpls, 0, 256);
-  changed |= ImGui::SliderInt("photons", &s.photons, 0, 20000);
-  changed |= ImGui::SliderInt("path length", &s.pathLength, 0, 16, "%d (0 = no limit)");
-  changed |= ImGui::SliderFloat("bound", &s.bound, 1, 1000, "%.0f", ImGuiSliderFlags_Logarithmic);
-  changed |= ImGui::SliderFloat("photon radius", &s.photonRadius, 0.001f, 0.1f, "%.3f R");
-  changed |= ImGui::Combo("caustics", &caustics, "off\0direct\0all\0");
-  int interleave = s.interleave.n;
-  changed |= ImGui::SliderInt("light sets n x n", &interleave, 1, 5);
-  changed |= ImGui::Checkbox("compensate the bound", &s.compensate);
-  if (!changed) return;
-  s.method = static_cast<Method>(method), s.caustics = static_cast<Caustics>(caustics);
-  s.interleave = {interleave, interleave};
-  changes.settings = s;
+  bool changed = false;
+  forEachSetting([&](const auto& row) {
+    if constexpr (requires { draw(row, s.*row.member); }) {
+      if (row.slider.label == nullptr) return;
+      ImGui::BeginDisabled(!row.isUsedBy(view.settings.method));
+      changed |= draw(row, s.*row.member);
+      ImGui::EndDisabled();
+    }
+  });
+  slide(changed, changes.settings, s);
 }
 
 void drawViews(const PanelView& view, PanelChanges& changes) {
@@ -103,11 +155,13 @@ void drawPicture(const PanelView& view, PanelChanges& changes) {
   drawViews(view, changes);
   float exposure = view.exposure, target = view.target;
   bool automatic = view.autoExposure;
-  slide(ImGui::SliderFloat("exposure", &exposure, -8, 8, "%.1f EV"), changes.exposure, exposure);
+  slide(slider("exposure", exposure, Vec2(-8, 8), "%.1f EV", -kMostExposure, kMostExposure),
+        changes.exposure, exposure);
   slide(ImGui::Checkbox("auto exposure", &automatic), changes.autoExposure, automatic);
-  slide(ImGui::SliderFloat("frame in motion", &target, 20, 500, "%.0f ms"), changes.target, target);
+  slide(slider("frame in motion", target, Vec2(20, 500), "%.0f ms", 1, 10000), changes.target,
+        target);
   float fov = view.settings.camera.verticalFov * 180 / kPi;
-  slide(ImGui::SliderFloat("field of view", &fov, 5, 120, "%.0f deg"), changes.verticalFov,
+  slide(slider("field of view", fov, Vec2(5, 120), "%.0f deg", 1, 179), changes.verticalFov,
         fov * kPi / 180);
   for (size_t i = 0; i < view.cameras.size() && i < kCamerasShown; ++i) {
     if (i % 3 > 0) ImGui::SameLine();
@@ -127,10 +181,10 @@ void drawPicture(const PanelView& view, PanelChanges& changes) {
 void drawMaterial(const PanelView& view, PanelChanges& changes) {
   MaterialEdit m = view.material;
   bool changed = ImGui::ColorEdit3("colour", &m.baseColor.x, ImGuiColorEditFlags_Float);
-  changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1);
-  changed |= ImGui::SliderFloat("metalness", &m.metallic, 0, 1);
-  changed |= ImGui::SliderFloat("transmission", &m.transmission, 0, 1);
-  changed |= ImGui::SliderFloat("ior", &m.ior, 1, 2.5f);
+  changed |= slider("roughness", m.roughness, Vec2(0, 1), "%.3f", 0, 1);
+  changed |= slider("metalness", m.metallic, Vec2(0, 1), "%.3f", 0, 1);
+  changed |= slider("transmission", m.transmission, Vec2(0, 1), "%.3f", 0, 1);
+  changed |= slider("ior", m.ior, Vec2(1, 2.5f), "%.3f", 1, 10);
   if (!isBlack(m.emission) || view.material.material != m.material)
     changed |= ImGui::DragFloat3("emission", &m.emission.x, 0.5f, 0, 10000);
   m.baseColor = glm::clamp(m.baseColor, Vec3(0), Vec3(1));

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "common/scene/replay_line.h"
+#include "common/scene/settings_table.h"
 #include "tests/scene/simple_scene.h"
 
 namespace ninefold {
@@ -63,9 +64,43 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
   again.camera = s.camera;
   EXPECT_EQ(again, s);
 
-  s.method = Method::pathTrace;
-  const Options traced = parse(replayLine(scene, s, 0).substr(program.size()), {}, false);
-  EXPECT_EQ(traced.settings.method, Method::pathTrace);
+  // What a method has no use for is not named.
+  for (const MethodFacts& facts : allMethods()) {
+    s.method = facts.method;
+    const std::string words = replayLine(scene, s, 0).substr(program.size());
+    const Settings same = makeSettings(parse(words, {}, false), scene);
+    forEachSetting([&](const auto& row) {
+      const bool isNamed = words.find(fmt::format("--{} ", row.name)) != std::string::npos;
+      if (row.value == nullptr) return;
+      EXPECT_EQ(isNamed, row.isUsedBy(facts.method)) << facts.name << ": " << words;
+      if (!isNamed) return;
+      EXPECT_EQ(same.*row.member, s.*row.member) << facts.name << ": " << words;
+    });
+  }
+}
+
+// Range, default and what presets make of it come from where they are used.
+TEST(Options, HelpTellsRangesAndDefaults) {
+  std::istringstream words(helpText());  // however its lines are broken
+  std::string help;
+  for (std::string word; words >> word;) help += word + " ";
+  for (const char* text : {
+           "pixels, each 1 to 16384 (default 640x480)",
+           "instant-radiosity (default) or path-trace (the slow, unbiased reference)",
+           "light sets side by side, each 1 to 16 (default 3x3)",
+           "per set, 0 to 65536 (default 4; final 16)",
+           "mean per set, 0 to 65536 (default 18; final 72)",
+           "caustic photons per set, 0 to 16777216 (default 1000; final 10000)",
+           "0 = no limit (default 0; paper 4)",
+           "in a row at most, 1 to 1024 (default 32)",
+           "b = C/R^2, above 0 (default 30; paper 300)",
+           "0 = none (default 4; paper 0)",
+           "as a fraction of R, up to 1 (default 0.02)",
+           "from lit surfaces too (default all; paper direct)",
+           "pseudo-random points (default owen; paper xor)",
+           "of all randomness (default 1)",
+       })
+    EXPECT_NE(help.find(text), std::string::npos) << text << " in " << help;
 }
 
 TEST(Options, PatienceIsTwoMinutesUnlessItIsStated) {

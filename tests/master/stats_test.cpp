@@ -2,12 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "common/base/error.h"
+#include "common/scene/settings_table.h"
 
 namespace ninefold {
 namespace {
@@ -91,6 +93,24 @@ TEST(Stats, SettingsNameRandomizationAndFilterAsTheFlagsDo) {
   const Json settings = Json::parse(toJson(s))["settings"];
   EXPECT_EQ(settings["randomization"], "random");
   EXPECT_EQ(settings["filter"], "none");
+}
+
+// Their keys are their names, with _ for -.
+TEST(Stats, SettingsAreAllThere) {
+  const Json settings = Json::parse(toJson(example()))["settings"];
+  forEachSetting([&](const auto& row) {
+    std::string key = row.name;
+    std::ranges::replace(key, '-', '_');
+    EXPECT_TRUE(settings.contains(key)) << key;
+  });
+  EXPECT_EQ(settings["preset"], "paper");
+  EXPECT_EQ(settings["method"], "instant-radiosity");
+  EXPECT_EQ(settings["interleave"], Json::array({3, 3}));
+  EXPECT_EQ(settings["direct_vpls"], 4);
+  EXPECT_EQ(settings["caustics"], "all");
+  EXPECT_EQ(settings["environment"], Json::array({0, 0, 0}));
+  EXPECT_EQ(settings["compensate"], true);
+  EXPECT_EQ(settings["camera"]["forward"], Json::array({0, 0, -1}));
 }
 
 TEST(Stats, ARunWithoutFramesIsStillValidJson) {

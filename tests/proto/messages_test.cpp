@@ -5,6 +5,8 @@
 #include <functional>
 #include <random>
 
+#include "common/scene/settings_table.h"
+#include "proto/messages.pb.h"
 #include "proto/scene_blobs.h"
 #include "proto/tile_names.h"
 
@@ -173,11 +175,14 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"path-length", [](Settings& s) { s.pathLength = -1; }},
       {"specular-depth", [](Settings& s) { s.specularDepth = 0; }},
       {"bound", [](Settings& s) { s.bound = NAN; }},
+      {"bound", [](Settings& s) { s.bound = 2e12f; }},
       {"photon-radius", [](Settings& s) { s.photonRadius = 0; }},
+      {"photon-radius", [](Settings& s) { s.photonRadius = 1.5f; }},
       {"vpl-roulette", [](Settings& s) { s.vplRoulette = -1; }},
       {"vpl-roulette", [](Settings& s) { s.vplRoulette = NAN; }},
       {"environment", [](Settings& s) { s.environment.y = -1; }},
       {"environment", [](Settings& s) { s.environment.x = INFINITY; }},
+      {"environment", [](Settings& s) { s.environment.z = 2e6f; }},
       {"camera eye", [](Settings& s) { s.camera.eye.z = NAN; }},
       {"camera forward", [](Settings& s) { s.camera.forward = Vec3(0); }},
       {"camera up", [](Settings& s) { s.camera.up = s.camera.forward; }},
@@ -188,6 +193,56 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
     EXPECT_NE(text.find(field), std::string::npos) << field << ": " << text;
     EXPECT_NE(text.find("Configure"), std::string::npos) << text;
   }
+}
+
+// A Configure whose list of settings somebody has spoilt.
+std::string refusalOfList(const std::function<void(pb::Settings&)>& spoil) {
+  Frame frame = encodeMessage(msg::Configure{});
+  pb::Configure configure;
+  EXPECT_TRUE(configure.ParseFromString(frame.header));
+  spoil(*configure.mutable_settings());
+  configure.SerializeToString(&frame.header);
+  try {
+    decodeMessage(std::move(frame), Peer::master);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+// None is forgotten, none is there twice, none is unknown, and each holds the numbers that it should.
+TEST(Messages, ListsOfSettingsAreComplete) {
+  EXPECT_EQ(refusalOfList([](pb::Settings&) {}), "");
+  int place = 0;
+  forEachSetting([&](const auto& row) {
+    const auto isNamed = [&](const std::function<void(pb::Settings&)>& spoil) {
+      return refusalOfList(spoil).find(row.name) != std::string::npos;
+    };
+    const int i = place++;
+    EXPECT_TRUE(isNamed([&](pb::Settings& s) { s.mutable_setting()->DeleteSubrange(i, 1); }));
+    EXPECT_TRUE(isNamed([&](pb::Settings& s) { *s.add_setting() = s.setting(i); }));
+    EXPECT_TRUE(isNamed([&](pb::Settings& s) { s.mutable_setting(i)->add_whole(0); }));
+    EXPECT_TRUE(isNamed([&](pb::Settings& s) { s.mutable_setting(i)->add_real(0); }));
+    EXPECT_TRUE(isNamed([&](pb::Settings& s) {
+      pb::Setting& setting = *s.mutable_setting(i);
+      if (setting.has_camera())
+        setting.clear_camera();
+      else
+        setting.mutable_camera();
+    }));
+  });
+  const std::string unknown =
+      refusalOfList([](pb::Settings& s) { s.add_setting()->set_name("voodoo\n"); });
+  EXPECT_NE(unknown.find("voodoo?"), std::string::npos) << unknown;
+}
+
+TEST(Messages, EverySettingArrives) {
+  const Frame sent = encodeMessage(msg::Configure{3, 4, oddSettings()});
+  const Message received = decodeMessage(Frame(sent), Peer::master);
+  EXPECT_EQ(std::get<msg::Configure>(received).settings, oddSettings());
+  forEachSetting([](const auto& row) {
+    EXPECT_FALSE(oddSettings().*row.member == Settings{}.*row.member) << row.name << " is not odd";
+  });
 }
 
 TEST(Messages, DeliveriesOutOfRangeAreNamed) {

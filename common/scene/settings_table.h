@@ -1,0 +1,211 @@
+// settings_table.h: all settings, once: for each its name, member, range, unit, help, the parts of
+// light that it is about, and its slider. Flags, their help and variables, the wire, ranges, JSON,
+// the panel and replay lines visit this table. A new setting is a member of Settings and a row here.
+//
+//   type of the member   range            flag, JSON                      wire
+//   int, float           low to high      a number                        a number
+//   uint64_t, bool       all values       a number; true, false           a number
+//   an enum              namesOf it       its name                        its number
+//   Interleave           low to high      NxM; [n, m]                     two numbers
+//   Radiance             low to high      none or R,G,B; [r, g, b]        three numbers
+//   Camera               its own rules    by the scene; an object         a message of its own
+//
+// Errors: checkRange throws Error naming what is out of range. Threads: constant data.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <type_traits>
+#include <utility>
+
+#include "common/base/command_line.h"
+#include "common/scene/methods.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+// A slider, menu or box in the panel; none without a label.
+struct Slider {
+  const char* label = nullptr;
+  double low = 0, high = 0;  // what can be reached without typing
+  const char* format = nullptr;
+  bool isLogarithmic = false;
+};
+
+template <typename T>
+struct Setting {
+  const char* name;  // on the wire, in messages and as a flag; JSON has _ for -
+  T Settings::*member;
+  double low = 0, high = 0;  // of each number
+  const char* unit = "";
+  const char* value = nullptr;  // what stands for it in the help; null: no flag of that name
+  // {0} and {1} are low and high, and the names of methods; what it is by default is added.
+  const char* help = "";
+  uint8_t parts = 0;  // LightParts that it is about; 0: it is about any light
+  Slider slider = {};
+
+  bool isUsedBy(Method method) const { return parts == 0 || (factsOf(method).parts & parts) != 0; }
+};
+
+inline constexpr std::tuple kSettings{
+    Setting<Method>{.name = "method",
+                    .member = &Settings::method,
+                    .value = "NAME",
+                    .help = "how light is computed: {0}",
+                    .slider = {"method"}},
+    Setting<int>{
+        .name = "width", .member = &Settings::width, .low = 1, .high = 16384, .unit = "pixels"},
+    Setting<int>{
+        .name = "height", .member = &Settings::height, .low = 1, .high = 16384, .unit = "pixels"},
+    Setting<Camera>{.name = "camera", .member = &Settings::camera},
+    Setting<Interleave>{.name = "interleave",
+                        .member = &Settings::interleave,
+                        .low = 1,
+                        .high = 16,
+                        .value = "NxM",
+                        .help = "light sets side by side, each {0} to {1}",
+                        .slider = {"light sets n x n", 1, 5}},
+    // Of no light part: with 0 the path tracer leaves direct light out, too.
+    Setting<int>{.name = "direct-vpls",
+                 .member = &Settings::directVpls,
+                 .low = 0,
+                 .high = 65536,
+                 .value = "N",
+                 .help = "virtual lights on the lights, per set, {0} to {1}",
+                 .slider = {"direct VPLs", 0, 64}},
+    Setting<int>{.name = "indirect-vpls",
+                 .member = &Settings::indirectVpls,
+                 .low = 0,
+                 .high = 65536,
+                 .value = "N",
+                 .help = "virtual lights that light has bounced to, mean per set, {0} to {1}",
+                 .parts = kIndirectVpls,
+                 .slider = {"indirect VPLs", 0, 256}},
+    Setting<int>{.name = "photons",
+                 .member = &Settings::photons,
+                 .low = 0,
+                 .high = 16777216,
+                 .value = "N",
+                 .help = "caustic photons per set, {0} to {1}",
+                 .parts = kCausticPhotons,
+                 .slider = {"photons", 0, 20000}},
+    Setting<int>{.name = "path-length",
+                 .member = &Settings::pathLength,
+                 .low = 0,
+                 .high = 1 << 20,
+                 .value = "N",
+                 .help = "diffuse vertices of a path at most, 0 = no limit",
+                 .slider = {"path length", 0, 16, "%d (0 = no limit)"}},
+    Setting<int>{.name = "specular-depth",
+                 .member = &Settings::specularDepth,
+                 .low = 1,
+                 .high = 1024,
+                 .value = "N",
+                 .help = "mirrors and glass in a row at most, {0} to {1}"},
+    Setting<float>{.name = "bound",
+                   .member = &Settings::bound,
+                   .low = 1e-6,
+                   .high = 1e12,
+                   .value = "C",
+                   .help = "bound of the geometry term b = C/R^2, above 0",
+                   .parts = kVpls,
+                   .slider = {"bound", 1, 1000, "%.0f", true}},
+    Setting<float>{.name = "vpl-roulette",
+                   .member = &Settings::vplRoulette,
+                   .low = 0,
+                   .high = 1000,
+                   .value = "F",
+                   .help = "skip virtual lights that add less than F times the mean, at random; 0 "
+                           "= none",
+                   .parts = kVpls},
+    Setting<float>{.name = "photon-radius",
+                   .member = &Settings::photonRadius,
+                   .low = 1e-6,
+                   .high = 1,
+                   .unit = "R",
+                   .value = "F",
+                   .help = "first photon radius as a fraction of R, up to {1}",
+                   .parts = kCausticPhotons,
+                   .slider = {"photon radius", 0.001, 0.1, "%.3f R"}},
+    Setting<Caustics>{.name = "caustics",
+                      .member = &Settings::caustics,
+                      .value = "off|direct|all",
+                      .help = "photons from nowhere, from the lights, or from lit surfaces too",
+                      .slider = {"caustics"}},
+    Setting<Radiance>{.name = "environment",
+                      .member = &Settings::environment,
+                      .low = 0,
+                      .high = 1e6,
+                      .unit = "W/(m^2 sr)",
+                      .value = "none|COLOR",
+                      .help = "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; "
+                              "white 1, with a warning, if the scene has no light at all)"},
+    Setting<Randomization>{
+        .name = "randomization",
+        .member = &Settings::randomization,
+        .value = "owen|xor|random",
+        .help = "of the sample points: nested scrambling or exclusive-or of a Sobol' sequence, or "
+                "none of it: pseudo-random points"},
+    Setting<uint64_t>{
+        .name = "seed", .member = &Settings::seed, .value = "N", .help = "of all randomness"},
+    Setting<bool>{.name = "jitter", .member = &Settings::jitter},
+    Setting<bool>{.name = "compensate",
+                  .member = &Settings::compensate,
+                  .parts = kVpls,
+                  .slider = {"compensate the bound"}},
+};
+
+// Calls visit(row) for each.
+template <typename Visit>
+void forEachSetting(const Visit& visit) {
+  std::apply([&](const auto&... rows) { (visit(rows), ...); }, kSettings);
+}
+
+// The row of a member.
+template <typename T>
+constexpr Setting<T> settingOf(T Settings::*member) {
+  Setting<T> found{};
+  const auto look = [&](const auto& row) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(row)>, Setting<T>>)
+      if (row.member == member) found = row;
+  };
+  std::apply([&](const auto&... rows) { (look(rows), ...); }, kSettings);
+  return found;
+}
+
+// Width and height of --size WxH, by their rows. Error: UsageError.
+std::pair<int, int> parseSize(std::string_view text);
+
+// Names of an enum's values, in their order.
+std::span<const char* const> namesOf(Method);
+std::span<const char* const> namesOf(Caustics);
+std::span<const char* const> namesOf(Randomization);
+
+// One word, as a flag takes it.
+inline std::string textOf(int value) { return std::to_string(value); }
+inline std::string textOf(uint64_t value) { return std::to_string(value); }
+std::string textOf(float value);
+std::string textOf(Interleave value);
+std::string textOf(Radiance value);
+template <typename Enum>
+requires std::is_enum_v<Enum> std::string textOf(Enum value) {
+  return namesOf(value)[static_cast<size_t>(value)];
+}
+
+// Throws if a value is out of its row's range. Enums: the number that is to become one.
+void checkRange(const Setting<int>& row, int value);
+void checkRange(const Setting<float>& row, float value);
+void checkRange(const Setting<Interleave>& row, Interleave value);
+void checkRange(const Setting<Radiance>& row, Radiance value);
+void checkRange(const Setting<Camera>& row, const Camera& value);
+template <typename Enum>
+requires std::is_enum_v<Enum>
+void checkRange(const Setting<Enum>& row, uint64_t number) {
+  if (const uint64_t last = namesOf(Enum{}).size() - 1; number > last)
+    fail("{} is {}, must be 0 to {}", row.name, number, last);
+}
+
+}  // namespace ninefold

@@ -1,0 +1,21 @@
+#include "master/options/preset.h"
+
+namespace ninefold {
+
+Settings settingsOf(Preset preset) {
+  Settings s;
+  if (preset == Preset::final) {
+    s.directVpls = 16, s.indirectVpls = 72;
+    s.photons = 10000;
+  }
+  if (preset == Preset::paper) {
+    s.pathLength = 4;
+    s.caustics = Caustics::direct;
+    s.randomization = Randomization::exclusiveOr;
+    s.bound = 300, s.vplRoulette = 0;
+    s.compensate = s.jitter = false;
+  }
+  return s;
+}
+
+}  // namespace ninefold
