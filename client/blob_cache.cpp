@@ -9,9 +9,9 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/process.h"
 #include "common/base/written_file.h"
 #include "proto/scene_blobs.h"
 
@@ -41,7 +41,7 @@ std::vector<Entry> entriesOf(const fs::path& folder) {
 
 // The whole file, or nothing if it is not there, not a regular file, or larger than `maxBytes`.
 std::optional<Bytes> readWhole(const fs::path& path, uint64_t maxBytes) {
-  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
       static_cast<uint64_t>(status.st_size) > maxBytes)

@@ -54,7 +54,7 @@ void checkNone(const std::string& odd, const std::string& where, const Scene& sc
   if (odd.empty()) return;
   const std::string line = fmt::format("that light is a number ({}, {}; {})", odd, where,
                                        replayLine(scene, settings, frame));
-  checkFailed(line.c_str(), __FILE__, __LINE__);
+  checkFailed(line.c_str(), {}, __FILE__, __LINE__);
 }
 
 }  // namespace
