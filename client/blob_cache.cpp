@@ -12,6 +12,7 @@
 #include "common/base/descriptor.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/base/read_up_to.h"
 #include "common/base/written_file.h"
 #include "proto/scene_blobs.h"
 
@@ -47,11 +48,7 @@ std::optional<Bytes> readWhole(const fs::path& path, uint64_t maxBytes) {
       static_cast<uint64_t>(status.st_size) > maxBytes)
     return std::nullopt;
   Bytes bytes(static_cast<size_t>(status.st_size));
-  for (size_t have = 0; have < bytes.size();) {
-    const ssize_t n = ::read(fd.get(), bytes.data() + have, bytes.size() - have);
-    if (n <= 0) return std::nullopt;
-    have += static_cast<size_t>(n);
-  }
+  if (readUpTo(fd.get(), bytes) < bytes.size()) return std::nullopt;
   ::futimens(fd.get(), nullptr);  // used now
   return bytes;
 }

@@ -1,4 +1,6 @@
 // ninefold-master: renders a scene on a cluster of clients.
+#include <signal.h>
+
 #include <thread>
 
 #include "common/base/program.h"
@@ -35,6 +37,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ninefold;
+  ::signal(SIGUSR1, SIG_IGN);  // asked before there is anything to tell (cluster.h)
   return runProgram("ninefold-master", [&] {
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     return run(parseOptions(argc, argv, processVariable, cores));

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/prefetch.h"
 
 namespace ninefold {
 namespace {
@@ -20,10 +21,6 @@ void addRow(const float* values, size_t n, int64_t count, double* mean) {
 
 // Rows of a tile are far apart in the film, where no processor looks ahead by itself.
 constexpr int kRowsAhead = 2;
-void prefetch(const double* mean, size_t n) {
-  constexpr size_t kLine = 64 / sizeof *mean;
-  for (size_t i = 0; i < n; i += kLine) __builtin_prefetch(mean + i, 1);
-}
 
 }  // namespace
 
@@ -68,7 +65,8 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
     const size_t from = tile.at(0, y);
     if (y + kRowsAhead < tile.height)
       for (const auto* means : {&r_, &g_, &b_})
-        prefetch(means->data() + to + pixelCount(width_, kRowsAhead), width);
+        prefetch<Soon::isWritten>(means->data() + to + pixelCount(width_, kRowsAhead),
+                                  width * sizeof(double));
     addRow(&tile.pixels.r[from], width, count, &r_[to]);
     addRow(&tile.pixels.g[from], width, count, &g_[to]);
     addRow(&tile.pixels.b[from], width, count, &b_[to]);

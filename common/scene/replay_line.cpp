@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <string>
 
 #include "common/scene/camera_choice.h"
 
@@ -21,16 +23,25 @@ const char* nameOf(Randomization r) {
   return r == Randomization::owen ? "owen" : r == Randomization::exclusiveOr ? "xor" : "random";
 }
 
+// By its number, if it is one of the scene's: that is exact.
+std::string cameraOf(const Scene& scene, const Camera& camera) {
+  const auto found = std::ranges::find(scene.cameras, camera);
+  if (found == scene.cameras.end()) return specOf(scene, camera);
+  return std::to_string(found - scene.cameras.begin());
+}
+
 }  // namespace
 
-std::string replayLine(const Scene& scene, const Settings& s, uint32_t frame) {
+std::string replayLine(const Scene& scene, const Settings& s, const FrameKey& frame, int tile,
+                       int phase) {
   std::string line = fmt::format(
-      "ninefold-master SCENE --local-clients 1 --output again.exr --frames {} --size {}x{} "
+      "ninefold-replay-task SCENE --frame {}:{}:{}:{:.9g} --tile {} --phase {} --size {}x{} "
       "--camera {} --seed {} --method {} --interleave {}x{} --path-length {} --specular-depth {} "
-      "--environment {:.9g},{:.9g},{:.9g} --randomization {}",
-      uint64_t{frame} + 1, s.width, s.height, specOf(scene, s.camera), s.seed,
-      nameOf(kMethods, s.method), s.interleave.n, s.interleave.m, s.pathLength, s.specularDepth,
-      s.environment.x, s.environment.y, s.environment.z, nameOf(s.randomization));
+      "--environment {:.9g},{:.9g},{:.9g} --randomization {}{}",
+      frame.frame, frame.randomization, frame.rotation, frame.photonRadius, tile, phase, s.width,
+      s.height, cameraOf(scene, s.camera), s.seed, nameOf(kMethods, s.method), s.interleave.n,
+      s.interleave.m, s.pathLength, s.specularDepth, s.environment.x, s.environment.y,
+      s.environment.z, nameOf(s.randomization), s.compensate ? "" : " --preset paper");
   if (s.method == Method::pathTrace) return line;
   return line + fmt::format(
                     " --direct-vpls {} --indirect-vpls {} --photons {} --bound {:.9g} "
