@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "common/base/log.h"
+#include "common/base/process.h"
 
 namespace ninefold {
 namespace {
@@ -61,6 +62,7 @@ void Cluster::tellState() const {
 }
 
 void Cluster::run() {
+  takeSignal(SIGUSR1, true);
   try {
     local_.start(Clock::now());
     tick();

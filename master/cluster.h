@@ -6,8 +6,8 @@
 // Errors: the constructor throws Error (cannot listen). What ends the run later is told by
 // failure().
 //
-// SIGUSR1 asks what is under way: lines of the log that begin with "state:". In programs whose main ignores
-// it until then, nobody is ended by asking too early.
+// SIGUSR1 asks what is under way: lines of the log that begin with "state:". The network thread alone takes it;
+// where main does not, as it should, nobody is ended by asking before that thread runs, or after.
 #pragma once
 
 #include <atomic>

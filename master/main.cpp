@@ -3,6 +3,7 @@
 
 #include <thread>
 
+#include "common/base/process.h"
 #include "common/base/program.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
@@ -37,7 +38,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ninefold;
-  ::signal(SIGUSR1, SIG_IGN);  // asked before there is anything to tell (cluster.h)
+  takeSignal(SIGUSR1, false);  // who asks too early or too late waits (cluster.h)
   return runProgram("ninefold-master", [&] {
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     return run(parseOptions(argc, argv, processVariable, cores));

@@ -17,8 +17,8 @@ namespace ninefold {
 // Raised whenever the meaning of any message, the tiles' or the scenes' format changes.
 inline constexpr uint32_t kProtocol = 3;
 
-inline constexpr std::string_view kMessagesDigest = "";
-inline constexpr std::string_view kTilesDigest = "";
-inline constexpr std::string_view kScenesDigest = "";
+inline constexpr std::string_view kMessagesDigest = "9cfa9002f505b67f";
+inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
+inline constexpr std::string_view kScenesDigest = "fde0a0c2619dbf8c";
 
 }  // namespace ninefold

@@ -90,6 +90,9 @@ TaskPlace placeOf(const CommandLine& line) {
 Options masterOptions(const CommandLine& line) {
   std::vector<const char*> words{kProgram};
   for (const std::string& word : line.rest) words.push_back(word.c_str());
+  // A run needs one; nothing is written.
+  if (std::ranges::none_of(line.rest, [](const auto& w) { return w.starts_with("--output"); }))
+    words.push_back("--output=none.exr");
   Options options = parseOptions(static_cast<int>(words.size()), words.data(), processVariable, 1);
   if (isLive(options)) failUsage("only tasks of --recording are of a window, script or animation");
   return options;

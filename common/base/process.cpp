@@ -86,6 +86,13 @@ std::vector<int> endingSignals() {
   return signals;
 }
 
+void takeSignal(int signal, bool take) {
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal);
+  ::pthread_sigmask(take ? SIG_UNBLOCK : SIG_BLOCK, &one, nullptr);
+}
+
 std::filesystem::path programBesideUs(const std::string& name) {
   std::error_code error;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", error);

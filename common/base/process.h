@@ -57,6 +57,9 @@ class ChildProcess {
 // started us had it ignored, as nohup does), a pipe without a reader.
 std::vector<int> endingSignals();
 
+// Whether this thread, and those that it starts, take the signal. While no thread does, it waits.
+void takeSignal(int signal, bool take);
+
 inline constexpr int kInheritedDescriptor = 3;
 
 // The program `name` in the folder of our own executable.

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "proto/scene_blobs.h"
+#include "proto/tile_names.h"
 
 namespace ninefold {
 namespace {
