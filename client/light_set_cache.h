@@ -18,11 +18,11 @@
 
 namespace ninefold {
 
-struct LightSet;
+struct FrameLight;
 
 class LightSetCache {
  public:
-  using Shared = std::shared_ptr<const LightSet>;
+  using Shared = std::shared_ptr<const FrameLight>;
   using Make = std::function<Shared(const FrameKey&, int set)>;
 
   LightSetCache(Make make, size_t frames) : make_(std::move(make)), frames_(frames) {}

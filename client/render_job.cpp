@@ -1,6 +1,5 @@
 #include "client/render_job.h"
 
-#include "common/gi/light_set.h"
 #include "common/sampling/whole_tile.h"
 #include "common/scene/needs.h"
 #include "common/scene/replay_line.h"
@@ -57,7 +56,7 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
                 ? before->begun
                 : std::make_shared<const Renderer>(scene->begun->tracer, settings)),
       renderer(scene->tracer, settings, begun.get()),
-      sets([this](const FrameKey& frame, int set) { return renderer.lightSet(frame, set); },
+      sets([this](const FrameKey& frame, int set) { return renderer.light(frame, set); },
            kFramesKept) {
   for (int i = 0; i < threads; ++i) desks.push_back(std::make_unique<Desk>(renderer, filter));
 }

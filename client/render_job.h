@@ -79,7 +79,7 @@ class RenderJob {
   struct Desk : FilterDesk {  // of one thread
     Desk(const Renderer& renderer, SurfaceTest test)
         : FilterDesk(test), scratch(renderer.makeScratch()) {}
-    std::unique_ptr<Scratch, void (*)(Scratch*)> scratch;
+    std::unique_ptr<Scratch> scratch;
     TileResult tile;
     TileEncoder encoder;
   };

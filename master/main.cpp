@@ -7,8 +7,8 @@
 #include "common/base/program.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
-#include "master/headless.h"
-#include "master/script_run.h"
+#include "master/running/headless.h"
+#include "master/running/script_run.h"
 #include "master/window/session.h"
 #include "proto/key.h"
 

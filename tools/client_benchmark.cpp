@@ -11,9 +11,7 @@
 #include <ctime>
 #include <nlohmann/json.hpp>
 
-#include "common/gi/light_set.h"
 #include "common/gi/renderer.h"
-#include "common/gi/scratch.h"
 #include "common/scene/reader.h"
 #include "common/tracing/ray_log.h"
 #include "proto/tile_codec.h"
@@ -90,7 +88,7 @@ class Bench {
       attach(log);
       const double start = threadSeconds();
       const auto set = lightSetOfPhase(phase, key.rotation, settings_.interleave.sets());
-      const auto lights = renderer_.lightSet(key, set);
+      const auto lights = renderer_.light(key, set);
       if (!log) cost.sets += threadSeconds() - start, cost.rays += lights->rays.total();
       if (log) bare(cost);
       for (int tile = 0; tile < grid_.tiles(); ++tile) task(key, tile, phase, *lights, log, cost);
@@ -103,7 +101,7 @@ class Bench {
  private:
   void attach(bool log) { tracer_.logTo(log ? &log_ : nullptr); }
 
-  void task(const FrameKey& key, int tile, int phase, const LightSet& lights, bool log,
+  void task(const FrameKey& key, int tile, int phase, const FrameLight& lights, bool log,
             Cost& cost) {
     attach(log);
     const double start = threadSeconds();
@@ -131,7 +129,7 @@ class Bench {
   Tracer tracer_;
   Settings settings_;
   Renderer renderer_;
-  std::unique_ptr<Scratch, void (*)(Scratch*)> scratch_;
+  std::unique_ptr<Scratch> scratch_;
   TileGrid grid_;
   int level_;
   TileResult tile_;

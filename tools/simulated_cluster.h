@@ -21,7 +21,7 @@
 #include <vector>
 
 #include "common/base/error.h"
-#include "master/scheduler.h"
+#include "master/scheduling/scheduler.h"
 #include "proto/messages.h"
 
 namespace ninefold {

@@ -37,18 +37,6 @@ std::string oddPlane(const TileResult& tile) {
   return {};
 }
 
-std::string oddLight(const LightSet& lights) {
-  for (size_t i = 0; i < lights.vpls.size(); ++i)
-    if (const Vec3 power = lights.vpls[i].power; !isFinite(power))
-      return fmt::format("VPL {} has a power of ({}, {}, {})", i, power.x, power.y, power.z);
-  for (const PhotonGrid& grid : lights.photons)
-    for (const Photon& photon : grid.photons())
-      if (!isFinite(photon.flux))
-        return fmt::format("a photon has a flux of ({}, {}, {})", photon.flux.x, photon.flux.y,
-                           photon.flux.z);
-  return {};
-}
-
 void checkNone(const std::string& odd, const std::string& where, const Scene& scene,
                const Settings& settings, const Task& task) {
   if (odd.empty()) return;
@@ -67,14 +55,14 @@ void checkLight(const TileResult& tile, const Task& task, const Scene& scene,
             scene, settings, task);
 }
 
-void checkLight(const LightSet& lights, const FrameKey& frame, int set, const Scene& scene,
+void checkLight(const FrameLight& light, const FrameKey& frame, int set, const Scene& scene,
                 const Settings& settings) {
   // Any task of the set makes it again.
   Task task{.frame = frame};
   const int sets = settings.interleave.sets();
   while (task.phase + 1 < sets && lightSetOfPhase(task.phase, frame.rotation, sets) != set)
     ++task.phase;
-  checkNone(oddLight(lights), fmt::format("frame {}, set {}", frame.frame, set), scene, settings,
+  checkNone(light.oddValue(), fmt::format("frame {}, set {}", frame.frame, set), scene, settings,
             task);
 }
 

@@ -5,15 +5,14 @@
 // Threads: pure.   Errors: aborts with the values and the command that makes them again.
 #pragma once
 
-#include "common/gi/light_set.h"
-#include "common/gi/renderer.h"
+#include "common/gi/method/method.h"
 #include "common/scene/scene.h"
 
 namespace ninefold {
 
 void checkLight(const TileResult& tile, const Task& task, const Scene& scene,
                 const Settings& settings);
-void checkLight(const LightSet& lights, const FrameKey& frame, int set, const Scene& scene,
+void checkLight(const FrameLight& light, const FrameKey& frame, int set, const Scene& scene,
                 const Settings& settings);
 
 }  // namespace ninefold

@@ -100,7 +100,7 @@ std::string probeClass(Isa isa) {
   uint64_t hash = 0;
   TileResult tile;
   for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
-    const auto lights = renderer.lightSet(frame, phase);
+    const auto lights = renderer.light(frame, phase);
     renderer.render(Task{frame, 0, phase, 0}, *lights, *scratch, tile);
     hash = addTile(hash, tile);
   }

@@ -8,26 +8,11 @@
 #pragma once
 
 #include <memory>
-#include <optional>
+#include <string>
 
-#include "common/image/layers.h"
-#include "common/sampling/interleave.h"
-#include "common/scene/settings.h"
-#include "common/tracing/tracer.h"
+#include "common/gi/method/method.h"
 
 namespace ninefold {
-
-struct LightSet;  // light_set.h: VPLs and caustic photons of one interleaved set
-struct Scratch;   // scratch.h: one thread's planar working memory, kept between tasks
-
-// The pixels of one phase in one tile of one frame, and the extra planes wanted.
-struct Task {
-  FrameKey frame;
-  int tile = 0;
-  int phase = 0;
-  uint8_t extraMask = 0;
-  std::optional<TaskRect> rect = {};  // other pixels of the phase than the tile's own
-};
 
 class Renderer {
  public:
@@ -41,14 +26,14 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Light set k of a frame. Costs 0.1 to some ms; share it among the tasks that use it
+  // Light of set k of a frame. Costs 0.1 to some ms; share it among the tasks that use it
   // (lightSetOfPhase).
-  std::shared_ptr<const LightSet> lightSet(const FrameKey& frame, int k) const;
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set) const;
 
-  // Renders one task into `out`; lights = lightSet(task.frame, lightSetOfPhase(task.phase, ...)).
-  void render(const Task& task, const LightSet& lights, Scratch& scratch, TileResult& out) const;
+  // Renders one task into `out`; light = light(task.frame, lightSetOfPhase(task.phase, ...)).
+  void render(const Task& task, const FrameLight& light, Scratch& scratch, TileResult& out) const;
 
-  std::unique_ptr<Scratch, void (*)(Scratch*)> makeScratch() const;
+  std::unique_ptr<Scratch> makeScratch() const;
 
  private:
   struct Impl;

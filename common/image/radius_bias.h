@@ -1,5 +1,5 @@
 // radius_bias.h: how far the photons' blur has moved the means of a film, told by frames that take
-// a wider and a narrower radius by turns (master/frame_plan.h), so that four of the eight
+// a wider and a narrower radius by turns (master/running/frame_plan.h), so that four of the eight
 // replications have each.
 //
 //   D_s   mean of the four replications in s less the mean of the others      35 ways s to halve eight

@@ -10,11 +10,11 @@
 #include <memory>
 #include <optional>
 
-#include "master/camera_control.h"
-#include "master/edit_history.h"
-#include "master/live_run.h"
+#include "master/interaction/camera_control.h"
+#include "master/interaction/edit_history.h"
+#include "master/interaction/window_input.h"
+#include "master/running/live_run.h"
 #include "master/window/panel.h"
-#include "master/window_input.h"
 
 namespace ninefold {
 

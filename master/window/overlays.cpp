@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "master/window_keys.h"
+#include "master/interaction/window_keys.h"
 
 namespace ninefold {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "master/window_layout.h"
+#include "master/interaction/window_layout.h"
 
 namespace ninefold {
 

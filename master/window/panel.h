@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/scene/edit.h"
-#include "master/live_run.h"
-#include "master/window_layout.h"
+#include "master/interaction/window_layout.h"
+#include "master/running/live_run.h"
 
 namespace ninefold {
 

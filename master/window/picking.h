@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "master/live_run.h"
+#include "master/running/live_run.h"
 #include "master/window/panel.h"
 
 namespace ninefold {

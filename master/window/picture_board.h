@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "master/live_run.h"
-#include "master/notice.h"
+#include "master/interaction/notice.h"
+#include "master/running/live_run.h"
 #include "master/window/panel.h"
 #include "master/window/window.h"
 

@@ -8,8 +8,8 @@
 #include <functional>
 
 #include "common/scene/scene.h"
-#include "master/notice.h"
-#include "master/save_target.h"
+#include "master/interaction/notice.h"
+#include "master/interaction/save_target.h"
 #include "master/window/window.h"
 
 namespace ninefold {

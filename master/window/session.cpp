@@ -6,12 +6,12 @@
 #include "common/base/log.h"
 #include "common/image/auto_exposure.h"
 #include "common/scene/camera_choice.h"
-#include "master/cluster_setup.h"
-#include "master/headless.h"
-#include "master/invitation.h"
-#include "master/output_files.h"
-#include "master/script_run.h"
-#include "master/stats.h"
+#include "master/output/output_files.h"
+#include "master/output/stats.h"
+#include "master/running/cluster_setup.h"
+#include "master/running/headless.h"
+#include "master/running/invitation.h"
+#include "master/running/script_run.h"
 #include "master/window/overlays.h"
 
 namespace ninefold {

@@ -10,12 +10,12 @@
 #include <mutex>
 #include <optional>
 
-#include "master/latency_log.h"
-#include "master/playback.h"
+#include "master/interaction/window_input.h"
+#include "master/running/latency_log.h"
+#include "master/running/playback.h"
 #include "master/window/editor.h"
 #include "master/window/picture_board.h"
 #include "master/window/save_dialog.h"
-#include "master/window_input.h"
 
 namespace ninefold {
 

@@ -17,8 +17,8 @@
 
 #include "common/base/error.h"
 #include "common/image/tone_map.h"
-#include "master/window_events.h"
-#include "master/window_layout.h"
+#include "master/interaction/window_events.h"
+#include "master/interaction/window_layout.h"
 
 struct GLFWwindow;
 

@@ -13,7 +13,7 @@
 #include <map>
 
 #include "client/render_job.h"
-#include "common/gi/light_set.h"
+#include "common/gi/radiosity/light_set.h"
 #include "common/scene/world.h"
 #include "tests/gi/make_scene.h"
 
@@ -72,6 +72,11 @@ bool sameLight(const LightSet& a, const LightSet& b) {
   return same;
 }
 
+std::shared_ptr<const LightSet> lightSet(const Renderer& renderer, const FrameKey& key, int phase) {
+  return std::dynamic_pointer_cast<const LightSet>(
+      renderer.light(key, lightSetOfPhase(phase, key.rotation, kSets)));
+}
+
 // A frame by phase: its light set, and what its tasks send.
 struct Frame {
   std::vector<std::shared_ptr<const LightSet>> light;
@@ -84,7 +89,7 @@ Frame render(const std::shared_ptr<const TracedScene>& traced, const Settings& s
   RenderJob job(traced, 1, s, {}, 1);
   Frame frame;
   for (int phase = 0; phase < kSets; ++phase) {
-    frame.light.push_back(renderer.lightSet(key, lightSetOfPhase(phase, key.rotation, kSets)));
+    frame.light.push_back(lightSet(renderer, key, phase));
     std::vector<Bytes>& tasks = frame.sent.emplace_back();
     const TileGrid grid(s.width, s.height, s.interleave);
     for (int tile = 0; tile < grid.tiles(); ++tile)
@@ -160,7 +165,7 @@ class Pixels {
     const Renderer renderer(traced.tracer, s);
     const auto scratch = renderer.makeScratch();
     for (int phase = 0; phase < kSets; ++phase) {
-      light.push_back(renderer.lightSet(key, lightSetOfPhase(phase, key.rotation, kSets)));
+      light.push_back(lightSet(renderer, key, phase));
       for (int tile = 0; tile < grid_.tiles(); ++tile)
         renderer.render(Task{key, tile, phase, kObjectPlane | kDepthPlane}, *light.back(), *scratch,
                         results_[{phase, tile}]);

@@ -13,7 +13,7 @@ namespace {
 // A set that nobody looks into: only its identity counts here.
 LightSetCache::Shared someSet() {
   const auto holder = std::make_shared<int>(0);
-  return {holder, reinterpret_cast<const LightSet*>(holder.get())};
+  return {holder, reinterpret_cast<const FrameLight*>(holder.get())};
 }
 
 FrameKey frameOf(uint32_t randomization) {
@@ -60,7 +60,7 @@ TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {
         return someSet();
       },
       2);
-  const std::weak_ptr<const LightSet> first = cache.get(frameOf(1), 0).set;
+  const std::weak_ptr<const FrameLight> first = cache.get(frameOf(1), 0).set;
   cache.get(frameOf(2), 0);
   cache.get(frameOf(1), 0);  // used again: 2 is now the oldest
   cache.get(frameOf(3), 0);

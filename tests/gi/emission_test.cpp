@@ -1,11 +1,13 @@
 // Particles carry the emitters' power: the mean flux of many equals the whole, whether they start in the
 // ordinary way or aimed at a specular object, for every kind of emitter.
-#include "common/gi/emission.h"
+#include "common/gi/light/emission.h"
 
 #include <gtest/gtest.h>
 
-#include "common/gi/light_set.h"
+#include "common/gi/radiosity/light_set.h"
+#include "common/sampling/sampler.h"
 #include "common/gi/renderer.h"
+#include "common/gi/vpl/indirect_vpls.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"
 

@@ -2,7 +2,7 @@
 // to one of them leaves the samples of the others as they are, bit for bit, and no energy is lost or added.
 #include <gtest/gtest.h>
 
-#include "common/gi/light_set.h"
+#include "common/gi/radiosity/light_set.h"
 #include "common/scene/edit.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"
@@ -108,7 +108,9 @@ Samples samplesOf(const Scene& now, const Scene* begun) {
   const Renderer gesture(tracer, settings, renderer.get());
   Samples samples;
   for (int k = 0; k < kSets; ++k) {
-    const auto set = gesture.lightSet(FrameKey{0, 0, 0, 0.05f}, k);
+    const auto light = gesture.light(FrameKey{0, 0, 0, 0.05f}, k);
+    const auto* set = dynamic_cast<const LightSet*>(light.get());
+    if (set == nullptr) throw std::logic_error("the light is no light set");
     samples.vpls.insert(samples.vpls.end(), set->vpls.begin(), set->vpls.end());
     for (const PhotonGrid& grid : set->photons)
       samples.photons.insert(samples.photons.end(), grid.photons().begin(), grid.photons().end());

@@ -2,8 +2,8 @@
 // sets, a single receiver gathers them.
 #include <gtest/gtest.h>
 
-#include "common/gi/light_set.h"
-#include "common/gi/vpl_gather.h"
+#include "common/gi/radiosity/light_set.h"
+#include "common/gi/vpl/vpl_gather.h"
 #include "tests/gi/closed_form.h"
 #include "tests/gi/make_scene.h"
 

@@ -1,10 +1,10 @@
 // What counts where solids overlap: the smaller one, whatever order a path met them in.
-#include "common/gi/media.h"
+#include "common/gi/light/media.h"
 
 #include <gtest/gtest.h>
 
-#include "common/gi/shading.h"
-#include "common/gi/solid_ranks.h"
+#include "common/gi/light/shading.h"
+#include "common/gi/light/solid_ranks.h"
 #include "tests/gi/make_scene.h"
 
 namespace ninefold {

@@ -5,7 +5,7 @@
 //   n_V^2  int_V |cos v| E[weight; w in L] dv  =  n_L^2  int_L |cos l| E[weight; w in V] dl
 //
 // for all pairs of twelve sets of each side's directions, in the mean over a quarter of a million of both.
-#include "common/gi/particle_scatter.h"
+#include "common/gi/light/particle_scatter.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The share of a photon's disk that is surface, against areas from elementary geometry.
-#include "common/gi/photon_footprint.h"
+#include "common/gi/photons/photon_footprint.h"
 
 #include <gtest/gtest.h>
 

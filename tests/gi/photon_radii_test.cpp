@@ -1,5 +1,5 @@
 // Which radius a photon gets: none is brighter than the limit, and none wider than it must be.
-#include "common/gi/photon_radii.h"
+#include "common/gi/photons/photon_radii.h"
 
 #include <gtest/gtest.h>
 

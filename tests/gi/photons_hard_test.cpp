@@ -2,7 +2,7 @@
 // middle of a cell. (One photon: energy_balance_test. A million: tests/nightly.)
 #include <random>
 
-#include "common/gi/photon_grid.h"
+#include "common/gi/photons/photon_grid.h"
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 

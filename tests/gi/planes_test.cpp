@@ -34,7 +34,7 @@ void forEachTask(const Tracer& tracer, Settings s, uint32_t frame, uint8_t plane
   const FrameKey key{frame, frame, 0, s.photonRadius * tracer.scene().bounds.radius()};
   TileResult tile;
   for (int phase = 0; phase < s.interleave.sets(); ++phase) {
-    renderer.render({key, 0, phase, planes, {}}, *renderer.lightSet(key, phase), *scratch, tile);
+    renderer.render({key, 0, phase, planes, {}}, *renderer.light(key, phase), *scratch, tile);
     visit(phase, tile);
   }
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/gi/renderer.h"
-#include "common/gi/scratch.h"
 
 namespace ninefold::testing {
 
@@ -54,7 +53,7 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames,
     double sum = 0;
     for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
       const auto lights =
-          renderer.lightSet(key, lightSetOfPhase(phase, frame, settings.interleave.sets()));
+          renderer.light(key, lightSetOfPhase(phase, frame, settings.interleave.sets()));
       for (int t = 0; t < grid.tiles(); ++t) {
         renderer.render(Task{key, t, phase, 0}, *lights, *scratch, tile);
         out.rays += tile.rays;

@@ -27,9 +27,9 @@ TEST(View, AnotherCameraOnTheSameLightGivesTheBytesOfANewRenderer) {
   TileResult a, c;
   const auto scratch = fresh.makeScratch();
   for (int phase = 0; phase < 9; ++phase) {
-    const auto lights = original.lightSet(key, lightSetOfPhase(phase, key.rotation, 9));
+    const auto lights = original.light(key, lightSetOfPhase(phase, key.rotation, 9));
     shared.render(Task{key, 0, phase, 7}, *lights, *scratch, a);
-    fresh.render(Task{key, 0, phase, 7}, *fresh.lightSet(key, lightSetOfPhase(phase, 3, 9)),
+    fresh.render(Task{key, 0, phase, 7}, *fresh.light(key, lightSetOfPhase(phase, 3, 9)),
                  *scratch, c);
     EXPECT_EQ(a.layers, c.layers);
     EXPECT_EQ(a.extras, c.extras);

@@ -1,11 +1,11 @@
 // Fewer shadow rays with the same mean: the choice of VPLs alone, and through the gather.
-#include "common/gi/vpl_roulette.h"
+#include "common/gi/vpl/vpl_roulette.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "common/gi/vpl_gather.h"
+#include "common/gi/vpl/vpl_gather.h"
 #include "tests/gi/make_scene.h"
 
 namespace ninefold {
@@ -57,7 +57,7 @@ struct Open {
     for (int trial = 0; trial < trials; ++trial) {
       std::fill(receivers.er.begin(), receivers.er.end(), 0.0f);
       const ReceiverSamples samples(0, static_cast<uint32_t>(first + trial), 0);
-      gatherVpls(transport, {vpls, {}, {}, {}}, samples, 1, scratch, receivers, rays);
+      gatherVpls(transport, {vpls, {}}, samples, 1, scratch, receivers, rays);
       for (size_t i = 0; i < sum.size(); ++i) {
         const auto e = static_cast<double>(receivers.er[i]);
         sum[i] += e, squares[i] += e * e;

@@ -1,4 +1,4 @@
-#include "master/assembly_books.h"
+#include "master/assembly/assembly_books.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "master/assembly.h"
+#include "master/assembly/assembly.h"
 
 #include <gtest/gtest.h>
 

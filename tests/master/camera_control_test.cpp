@@ -1,5 +1,5 @@
 // A person's camera: what turns, what stays, and that time may be cut into any pieces.
-#include "master/camera_control.h"
+#include "master/interaction/camera_control.h"
 
 #include <gtest/gtest.h>
 

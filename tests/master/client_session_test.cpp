@@ -1,4 +1,4 @@
-#include "master/client_session.h"
+#include "master/serving/client_session.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Where a dragged thing goes.
-#include "master/drag.h"
+#include "master/interaction/drag.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Undo and redo, against a copy of every state.
-#include "master/edit_history.h"
+#include "master/interaction/edit_history.h"
 
 #include <gtest/gtest.h>
 

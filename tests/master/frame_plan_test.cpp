@@ -1,6 +1,6 @@
 // The plan of frames at rest: fresh randomization each frame, and two biases that die out faster
 // than the noise.
-#include "master/frame_plan.h"
+#include "master/running/frame_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "master/invitation.h"
+#include "master/running/invitation.h"
 
 #include <gtest/gtest.h>
 

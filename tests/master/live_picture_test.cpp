@@ -1,6 +1,6 @@
 // What a session shows of frames that come in tile by tile. Expected pictures are made the long way: the
 // same frames filtered into a film of their own, its mean tone mapped as a whole.
-#include "master/live_picture.h"
+#include "master/running/live_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "common/image/tone_map.h"
 #include "common/sampling/whole_tile.h"
-#include "master/picture.h"
+#include "master/assembly/picture.h"
 
 namespace ninefold {
 namespace {

@@ -1,5 +1,5 @@
 // Which frames a session opens while its picture changes, under a clock of the test.
-#include "master/live_plan.h"
+#include "master/running/live_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "master/local_clients.h"
+#include "master/serving/local_clients.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "master/options.h"
+#include "master/options/options.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,10 @@
 // The files of a run are looked at before it begins.
-#include "master/output_files.h"
+#include "master/output/output_files.h"
 
 #include <gtest/gtest.h>
 
 #include "common/base/error.h"
+#include "master/options/numbered_name.h"
 #include "tests/scene/temp_folder.h"
 
 namespace ninefold {

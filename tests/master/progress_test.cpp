@@ -1,10 +1,10 @@
-#include "master/progress.h"
+#include "master/output/progress.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "master/stop_rule.h"
+#include "master/options/stop_rule.h"
 
 namespace ninefold {
 namespace {

@@ -1,5 +1,5 @@
 // Which file a saved scene goes to, on a disk that has the scene and one more file.
-#include "master/save_target.h"
+#include "master/interaction/save_target.h"
 
 #include <gtest/gtest.h>
 

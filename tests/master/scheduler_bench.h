@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "master/scheduler.h"
+#include "master/scheduling/scheduler.h"
 
 namespace ninefold {
 

@@ -1,5 +1,5 @@
 // How the scheduler shares out work while all goes well.
-#include "master/scheduler.h"
+#include "master/scheduling/scheduler.h"
 
 #include "tests/master/scheduler_bench.h"
 

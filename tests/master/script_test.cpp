@@ -1,5 +1,5 @@
 // Scripts: what they say at a time, and what is wrong with bad ones.
-#include "master/playback.h"
+#include "master/running/playback.h"
 
 #include <gtest/gtest.h>
 

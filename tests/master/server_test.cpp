@@ -1,5 +1,5 @@
 // The server with real connections on one event loop; the clients are played by the test.
-#include "master/server.h"
+#include "master/serving/server.h"
 
 #include <gtest/gtest.h>
 

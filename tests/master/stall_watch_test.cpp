@@ -1,6 +1,6 @@
 // When nothing moves: said at once and after 30, 60, 120 s, given up after the patience that was
 // stated.
-#include "master/stall_watch.h"
+#include "master/scheduling/stall_watch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "master/stats.h"
+#include "master/output/stats.h"
 
 #include <gtest/gtest.h>
 

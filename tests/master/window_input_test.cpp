@@ -1,5 +1,5 @@
 // What keys and pointer mean, without a window.
-#include "master/window_input.h"
+#include "master/interaction/window_input.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The table of keys: each line is reached, and docs/window.md shows the same.
-#include "master/window_keys.h"
+#include "master/interaction/window_keys.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Where picture and panel lie, and what is remembered of it. A panel's column is 290 + 2 * 8 = 306
 // wide.
-#include "master/window_layout.h"
+#include "master/interaction/window_layout.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // A million photons in one set: as right as a thousand, and found as brute force finds them.
 #include <random>
 
-#include "common/gi/photon_grid.h"
+#include "common/gi/photons/photon_grid.h"
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 

@@ -10,7 +10,7 @@
 #include "client/scene_builder.h"
 #include "client/session.h"
 #include "common/scene/reader.h"
-#include "master/job_offer.h"
+#include "master/serving/job_offer.h"
 #include "tests/scene/random_edits.h"
 
 namespace ninefold {

@@ -8,8 +8,9 @@
 
 #include "client/render_job.h"
 #include "common/gi/light_check.h"
-#include "master/assembly.h"
-#include "master/picture.h"
+#include "common/gi/radiosity/light_set.h"
+#include "master/assembly/assembly.h"
+#include "master/assembly/picture.h"
 #include "proto/tile_names.h"
 #include "tests/scene/simple_scene.h"
 

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "common/gi/renderer.h"
-#include "common/gi/scratch.h"
 #include "common/scene/needs.h"
-#include "master/frame_plan.h"
-#include "master/picture.h"
+#include "master/assembly/picture.h"
+#include "master/running/frame_plan.h"
 
 namespace ninefold::testing {
 
@@ -42,7 +41,7 @@ class OneProcess {
     frame_.tasks.clear(), frame_.tasks.resize(static_cast<size_t>(tiles * sets));
     for (int phase = 0; phase < sets; ++phase) {
       const auto lights =
-          renderer_.lightSet(view.key, lightSetOfPhase(phase, view.key.rotation, sets));
+          renderer_.light(view.key, lightSetOfPhase(phase, view.key.rotation, sets));
       for (int tile = 0; tile < tiles; ++tile)
         if (view.shape.grid.rect(tile, phase).count() > 0)  // else it is nobody's task
           frame_.tasks[static_cast<size_t>(tile * sets + phase)] = result(tile, phase, *lights);
@@ -55,7 +54,7 @@ class OneProcess {
     s.camera = camera.value_or(scene.cameras.front()), s.environment = scene.environment;
     return s;
   }
-  UnpackedTile result(int tile, int phase, const LightSet& lights) {
+  UnpackedTile result(int tile, int phase, const FrameLight& lights) {
     const FrameShape& shape = frame_.view.shape;
     const TaskRect rect = shape.grid.rect(tile, phase);
     renderer_.render(Task{frame_.view.key, tile, phase, 0}, lights, *scratch_, sent_);
@@ -78,7 +77,7 @@ class OneProcess {
   Settings settings_;
   std::unique_ptr<const Renderer> begun_;
   Renderer renderer_;
-  std::unique_ptr<Scratch, void (*)(Scratch*)> scratch_;
+  std::unique_ptr<Scratch> scratch_;
   FramePlan plan_;
   GatheredFrame frame_;
   TileEncoder encoder_;

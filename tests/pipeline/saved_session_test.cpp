@@ -9,7 +9,7 @@
 #include "common/image/film.h"
 #include "common/scene/gltf_writer.h"
 #include "common/scene/reader.h"
-#include "master/edit_history.h"
+#include "master/interaction/edit_history.h"
 #include "tests/pipeline/one_process.h"
 #include "tests/scene/random_edits.h"
 #include "tests/scene/same_scene.h"

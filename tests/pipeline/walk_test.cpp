@@ -6,7 +6,7 @@
 
 #include "common/image/metrics.h"
 #include "common/scene/reader.h"
-#include "master/live_picture.h"
+#include "master/running/live_picture.h"
 #include "tests/pipeline/one_process.h"
 
 namespace ninefold {

@@ -1,0 +1,33 @@
+// task.h: what a client is asked for, and from where it is seen.
+//
+// Threads: plain data.
+#pragma once
+
+#include <optional>
+
+#include "common/gi/light/transport.h"
+#include "common/sampling/interleave.h"
+
+namespace ninefold {
+
+// The pixels of one phase in one tile of one frame, and the extra planes wanted.
+struct Task {
+  FrameKey frame;
+  int tile = 0;
+  int phase = 0;
+  uint8_t extraMask = 0;
+  std::optional<TaskRect> rect = {};  // other pixels of the phase than the tile's own
+};
+
+// Whose pixels they are. The settings of the Transport may be those of another view.
+struct View {
+  Camera camera;
+  int width, height;
+  MediumStack eyeMedia;  // the solids that the eye is inside of
+};
+
+// The view of these settings. An eye exactly on a surface would see nothing but it, at no
+// distance: it is moved off.
+View viewOf(const Transport& transport, const Settings& settings);
+
+}  // namespace ninefold

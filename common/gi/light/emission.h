@@ -1,0 +1,57 @@
+// emission.h: particles leave the lights, in the ordinary way or aimed at specular objects.
+//
+// Ordinary: emitter by power (probability P), then position and direction in proportion to what it
+// emits:
+//   triangle     A uniform, cos/pi         flux = sides pi A L / P
+//   point        uniform directions        flux = 4 pi I / P
+//   spot         uniform in the cone       flux = 2 pi (1-cos outer) I(omega) / P
+//   directional  disk of the scene's R     flux = pi R^2 E0 / P
+//   environment  directions, then disk     flux = 4 pi pi R^2 L / P
+//
+// The emitter is one of a stream's (light_streams.h); a sample of one that is off now carries nothing.
+//
+// Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q of the
+// ordinary density, with share kOrdinaryShare, and of the cones (disks) that the targets' bounds
+// subtend:
+//   flux = J(omega) / q(omega),  J = emitted W/sr (parallel light: W/m^2) divided by P.
+// In a gesture a target's share of the mixture is what it was from here when the gesture began, its
+// cone is that of now; where one of the two is not there the target gets nothing.
+// So every direction that emits has density > 0, and no flux exceeds 1/kOrdinaryShare of the
+// ordinary one.
+//
+// Units: flux [W], not yet divided by the number of particles.
+// Source:  Jensen 1996 (projection maps, here as cones with a mixture density).
+// Proved:  tests/gi (mean flux into a closed box equals the emitters' power, ordinary and aimed).
+// Threads: pure functions.   Errors: none; a black flux means nothing was emitted there.
+#pragma once
+
+#include "common/gi/light/transport.h"
+
+namespace ninefold {
+
+struct Particle {
+  Vec3 origin{0};     // already moved off the surface
+  Vec3 direction{0};  // unit
+  Flux flux{0};
+  bool punctual = false;  // from a light that no ray meets
+};
+
+inline constexpr float kOrdinaryShare = 0.2f;
+
+// u: four joint sample dimensions; emitter choice and first position coordinate share u[0].
+Particle emitParticle(const Transport& transport, size_t stream, Vec2 u01, Vec2 u23);
+
+// uTarget chooses between the ordinary emission and a target.
+Particle emitAimed(const Transport& transport, size_t stream, Vec2 u01, Vec2 u23, float uTarget);
+
+// A Lambertian source point, e.g. a D vertex of a light path: radiates `flux` with density cos/pi
+// about `normal`; the particle is aimed by the same mixture.
+struct LambertSource {
+  Vec3 position{0};
+  Vec3 normal{0};
+  float error = 0;
+  Flux flux{0};
+};
+Particle emitAimed(const Transport& transport, const LambertSource& source, Vec2 u, float uTarget);
+
+}  // namespace ninefold

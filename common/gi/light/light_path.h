@@ -1,0 +1,113 @@
+// light_path.h: the random walk of particles from the lights, written once. Visitors say what
+// becomes of it.
+//
+// At each hit the visitor is told; then one lobe is chosen, D or S, with probability in proportion
+// to its albedo, and the walk survives with the albedos' sum (largest channel, at most
+// kMaxSurvival):
+//   flux *= lobe weight / probability
+// so flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's
+// factor (see shading.h); for S lobes see particle_scatter.h.
+//
+// Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival; 4j+3
+// inside the lobe. Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
+// Threads: reentrant.   Errors: none. Walks end after kMaxVertices at the latest (survival 0.99^k
+// is nil).
+#pragma once
+
+#include "common/base/counters.h"
+#include "common/gi/light/emission.h"
+#include "common/gi/light/particle_scatter.h"
+#include "common/sampling/sampler.h"
+#include "common/sampling/warp.h"
+
+namespace ninefold {
+
+inline constexpr float kMaxSurvival = 0.99f;
+inline constexpr int kMaxVertices = 4096;
+
+// Where a particle arrives. flux is that of the arriving particle [W], attenuated by the medium; what
+// it adds to the (basic) irradiance there is flux / n^2.
+struct Arrival {
+  const ShadingPoint* point;
+  Flux flux;
+  MediumStack media;  // on the side it came from
+  bool focused;       // the last lobe that turned it was S and not glossy: photons bring this light
+  bool hidden;        // the light is punctual and met a smooth lobe first: no eye path finds it
+  int diffuseBefore;  // D vertices before this one
+};
+
+// Probabilities of the three ways on, D, reflection, transmission; their sum is the survival.
+struct LobeChoice {
+  float diffuse = 0, reflection = 0, transmission = 0;
+  float sum() const { return diffuse + reflection + transmission; }
+};
+
+inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
+  LobeChoice c;
+  c.diffuse = maxComponent(bsdf.diffuse);
+  if (bsdf.reflects) c.reflection = maxComponent(lobeAlbedo(bsdf, Lobe::reflection, cosThetaO));
+  if (bsdf.transmits())
+    c.transmission = maxComponent(lobeAlbedo(bsdf, Lobe::transmission, cosThetaO));
+  return c;
+}
+
+// visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes
+// on after S.
+template <typename Visit>
+void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
+                   const LightSampler& sampler, uint32_t index, uint32_t firstDimension,
+                   RayCounts& rays, Visit&& visit) {
+  bool focused = false, hidden = false;
+  int specularRun = 0;
+  for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
+    if (isBlack(particle.flux)) return;
+    ++rays.photon;
+    const Hit hit = t.tracer.closest(particle.origin, particle.direction,
+                                     std::numeric_limits<float>::infinity());
+    if (!hit) return;
+    const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -particle.direction, media);
+    if (t.shader.neverEntered(p, media)) {  // it started inside: the light was taken for one in air
+      particle.flux /= t.shader.squaredIndex(media);
+      t.shader.enter(media, p.surface.material);
+      particle.flux *= t.shader.squaredIndex(media);
+    }
+    particle.flux *= t.shader.attenuation(p, media, hit.t);
+    const bool goOn = visit(Arrival{&p, particle.flux, media, focused, hidden, diffuseBefore});
+
+    // Choose D or an S lobe, or the end.
+    const uint32_t d = firstDimension + 4 * static_cast<uint32_t>(vertex);
+    LobeChoice choice = albedoChoice(p.bsdf, p.localWo().z);
+    if (const float sum = choice.sum(); sum > kMaxSurvival) {
+      const float scale = kMaxSurvival / sum;
+      choice.diffuse *= scale, choice.reflection *= scale, choice.transmission *= scale;
+    }
+    float u = sampler.get1D(index, d + 2);
+    const Vec2 uDirection = sampler.get2D(index, d);
+    if (u < choice.diffuse) {
+      if (!goOn) return;
+      const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
+      particle.flux *= shadingFactor(p, p.ns, p.wo) / choice.diffuse * p.bsdf.diffuse;
+      particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
+      focused = hidden = false, specularRun = 0, ++diffuseBefore;
+      continue;
+    }
+    u -= choice.diffuse;
+    const Lobe lobe = u < choice.reflection ? Lobe::reflection : Lobe::transmission;
+    const float probability = lobe == Lobe::reflection ? choice.reflection : choice.transmission;
+    if (u >= choice.reflection + choice.transmission || ++specularRun > t.settings.specularDepth)
+      return;
+    const float left = (lobe == Lobe::reflection ? u : u - choice.reflection) / probability;
+    const auto scattered = scatterParticle(p, lobe, uDirection, sampler.get1D(index, d + 3), left);
+    if (!scattered) return;
+    particle.flux *= scattered->weight / probability;
+    particle.origin = offsetOrigin(p.surface, scattered->wi), particle.direction = scattered->wi;
+    if (lobe == Lobe::transmission) media = t.shader.pass(p, media);
+    if (lobe == Lobe::reflection)
+      focused = !isGlossy(p.bsdf);
+    else if (!scattered->smooth || !t.shader.passesStraight(p.surface))
+      focused = true;  // else it goes on as it came
+    if (vertex == 0) hidden = particle.punctual && scattered->smooth;
+  }
+}
+
+}  // namespace ninefold

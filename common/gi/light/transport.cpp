@@ -1,0 +1,73 @@
+#include "common/gi/light/transport.h"
+
+#include "common/math/rounding.h"
+#include "common/scene/world.h"
+
+namespace ninefold {
+namespace {
+
+float fluxOf(const Emitters& emitters) {
+  float flux = 0;
+  for (size_t i = 0; i < emitters.size(); ++i) flux += maxComponent(emitters[i].flux);
+  return flux;
+}
+
+// A light exactly in a ceiling would be hidden by it: spots go where they shine, points to the front.
+std::vector<PunctualLight> offSurfaces(const Tracer& tracer) {
+  std::vector<PunctualLight> lights = tracer.scene().lights;
+  for (PunctualLight& light : lights)
+    light.position =
+        tracer.clearOf(light.position, light.kind == LightKind::spot ? light.direction : Vec3(0));
+  return lights;
+}
+
+Bounds boundsOf(const Scene& scene, const Instance& instance) {
+  Bounds bounds;
+  for (const Vec3& p : scene.meshes[static_cast<size_t>(instance.mesh)].positions)
+    bounds.add(worldPoint(instance.toWorld, p));
+  // A flat box is thick enough for rays in its plane.
+  const float margin = 1e-4f * bounds.radius();
+  bounds.low -= margin, bounds.high += margin;
+  return bounds;
+}
+
+std::vector<Bounds> boundsOfPassing(const Scene& scene, const Shader& shader) {
+  constexpr size_t kMost = 16;  // more are one
+  std::vector<Bounds> each;
+  for (const Instance& instance : scene.instances)
+    if (shader.mayPassStraight(scene.meshes[static_cast<size_t>(instance.mesh)].material))
+      each.push_back(boundsOf(scene, instance));
+  if (each.size() <= kMost) return each;
+  Bounds all;
+  for (const Bounds& b : each) all.add(b.low), all.add(b.high);
+  return {all};
+}
+
+bool isLit(const Transport* begun) { return begun != nullptr && !begun->emitters.empty(); }
+
+}  // namespace
+
+Transport::Transport(const Tracer& t, const Settings& s, const Transport* begun)
+    : tracer(t),
+      scene(t.scene()),
+      settings(s),
+      shader(t.scene()),
+      emitters(t.scene(), s.environment),
+      streams(emitters, begun != nullptr ? &begun->emitters : nullptr),
+      lights(offSurfaces(t)),
+      needs(needsOf(t.scene(), s.environment)),
+      radius(isLit(begun) ? begun->radius : t.scene().bounds.radius()),
+      lampFlux(isLit(begun) ? begun->lampFlux : fluxOf(emitters)),
+      bound(s.bound / std::max(radius * radius, 1e-30f)),
+      farRounding(kRayRounding * 2 * t.scene().bounds.radius()),
+      targets(aimTargets(t.scene(), shader, isLit(begun) ? &begun->targets : nullptr)),
+      straightBounds(boundsOfPassing(t.scene(), shader)) {}
+
+float Transport::lightBound(uint32_t emitter) const {
+  if (!settings.compensate) return bound;  // the paper's: what is cut off stays away
+  const Emitter& e = emitters[emitter];
+  const float sides = e.doubleSided ? 2 : 1;
+  return std::max(bound, streams.probability(emitter) / (sides * e.area));
+}
+
+}  // namespace ninefold

@@ -1,0 +1,35 @@
+// layered_method.h: a method that answers a query: what is E at these points? Eye paths and their
+// layers are common (layer_receivers.h); this joins the two.
+//
+// Threads, owner, errors: as method.h says.
+#pragma once
+
+#include <vector>
+
+#include "common/gi/eye/layer_receivers.h"
+#include "common/gi/eye/receiver_samples.h"
+#include "common/gi/method/method.h"
+
+namespace ninefold {
+
+struct LayeredScratch : Scratch {
+  LayerReceivers layers;
+};
+
+class LayeredMethod : public GiMethod {
+ public:
+  using GiMethod::GiMethod;
+
+  void render(const View& view, const Task& task, const FrameLight& light, Scratch& scratch,
+              TileResult& out) const final;
+
+ protected:
+  // Adds E [W/m^2] to the receivers. pathVertices: D vertices from the eye up to these receivers,
+  // they included. caustic: if not null, the part that came by way of S is added there, one a
+  // receiver. `scratch`: one that makeScratch made.
+  virtual void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
+                     LayeredScratch& scratch, Receivers& receivers,
+                     std::vector<Irradiance>* caustic, RayCounts& rays) const = 0;
+};
+
+}  // namespace ninefold

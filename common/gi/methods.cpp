@@ -1,0 +1,19 @@
+#include "common/gi/methods.h"
+
+#include "common/base/error.h"
+#include "common/gi/radiosity/radiosity.h"
+#include "common/gi/reference/reference.h"
+
+namespace ninefold {
+
+std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* begun) {
+  switch (t.settings.method) {
+    case Method::instantRadiosity:
+      return std::make_unique<const Radiosity>(t, dynamic_cast<const Radiosity*>(begun));
+    case Method::pathTrace:
+      return std::make_unique<const Reference>(t);
+  }
+  fail("method {} has no computing half", static_cast<int>(t.settings.method));
+}
+
+}  // namespace ninefold

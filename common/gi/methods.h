@@ -1,0 +1,14 @@
+// methods.h: the one place that knows which computing half belongs to which method.
+//
+// Threads: pure function.   Errors: none.
+#pragma once
+
+#include "common/gi/method/method.h"
+
+namespace ninefold {
+
+// Of transport.settings.method. `begun`: the same method in the scene that a gesture began with, or
+// null.
+std::unique_ptr<const GiMethod> makeMethod(const Transport& transport, const GiMethod* begun);
+
+}  // namespace ninefold

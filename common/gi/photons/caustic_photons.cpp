@@ -1,0 +1,166 @@
+#include "common/gi/photons/caustic_photons.h"
+
+#include <bit>
+
+#include "common/gi/light/light_path.h"
+#include "common/gi/photons/photon_footprint.h"
+
+namespace ninefold {
+namespace {
+
+constexpr uint32_t kTurnDimension = 7;  // the padded group before has room
+constexpr uint32_t kWalkDimension = 8;  // after the joint four of the start and one padded group
+
+int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
+
+// Where photons come to lie. share: 1/number of photons sent out.
+struct Deposit {
+  const PhotonRadii& radii;
+  float share;
+  SortedPhotons& photons;
+};
+
+// Follows a photon through S vertices and stores it at the first D vertex if it was focused on it.
+void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media,
+                 int diffuseBefore, const LightSampler& sampler, uint32_t i, RayCounts& rays,
+                 Deposit& out) {
+  walkLightPath(
+      t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays, [&](const Arrival& a) {
+        const ShadingPoint& p = *a.point;
+        if (!a.focused || isBlack(p.bsdf.diffuse)) return false;
+        const Flux flux =
+            out.share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
+        if (isBlack(flux)) return false;
+        const Vec3 x = p.surface.position;
+        const size_t kind = out.radii.choose(flux);
+        const float footprint =
+            photonFootprint(t, p, out.radii.radius(kind), sampler.get1D(i, kTurnDimension), rays);
+        out.photons[kind].push_back({x, p.ng, flux / footprint, a.diffuseBefore});
+        return false;  // what scatters diffusely here is the VPLs' part
+      });
+}
+
+void photonsFromEmitters(const Transport& t, size_t stream, const FrameKey& frame, int k,
+                         int countOfFirst, const PhotonRadii& radii, RayCounts& rays,
+                         SortedPhotons& photons) {
+  const int count = t.streams.samples(stream, countOfFirst);
+  Deposit out{radii, 1 / static_cast<float>(count), photons};
+  const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), SampleUse::photon,
+                             frame.randomization, static_cast<uint32_t>(k), log2Ceil(count),
+                             t.settings.randomization);
+  for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+    const Particle start =
+        emitAimed(t, stream, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
+    tracePhoton(t, start, {}, 0, sampler, i, rays, out);
+  }
+}
+
+void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count,
+                     const std::vector<const Vpl*>& sources, const PhotonRadii& radii,
+                     RayCounts& rays, SortedPhotons& photons) {
+  Deposit out{radii, 1 / static_cast<float>(count), photons};
+  std::vector<double> flux;
+  flux.reserve(sources.size());
+  for (const Vpl* vpl : sources) flux.push_back(static_cast<double>(maxComponent(vpl->power)));
+  const std::vector<double> shares = partlyAlike(flux);
+  const Distribution byFlux(std::vector<float>(shares.begin(), shares.end()));
+  if (byFlux.empty()) return;
+  const LightSampler sampler(t.settings.seed, SampleUse::indirectPhoton, frame.randomization,
+                             static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
+  for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+    const Distribution::Choice choice = byFlux.choose(sampler.get1D(i, 0));
+    const Vpl& vpl = *sources[choice.index];
+    const LambertSource source{
+        vpl.position, vpl.normal, vpl.error,
+        kPi * t.shader.squaredIndex(vpl.media) / choice.probability * vpl.power};
+    const Particle start = emitAimed(t, source, sampler.get2D(i, 2), sampler.get1D(i, 1));
+    tracePhoton(t, start, vpl.media, vpl.diffuseCount, sampler, i, rays, out);
+  }
+}
+
+// Flux within r of sixteen receivers, planar.
+struct PacketFlux {
+  float r[kPacket]{}, g[kPacket]{}, b[kPacket]{};
+};
+
+// Adds a photon to the lanes of the receivers that accept it.
+void addPhoton(const Photon& photon, float r2, const Receivers& x, size_t first, size_t count,
+               PacketFlux& sum, size_t lane) {
+#pragma GCC ivdep
+  for (size_t i = 0; i < count; ++i) {
+    const float dx = photon.position.x - x.px[first + i], dy = photon.position.y - x.py[first + i],
+                dz = photon.position.z - x.pz[first + i];
+    const float cosine = photon.normal.x * x.gx[first + i] + photon.normal.y * x.gy[first + i] +
+                         photon.normal.z * x.gz[first + i];
+    const bool near = dx * dx + dy * dy + dz * dz <= r2;
+    const float one = near & (cosine > kPhotonNormalCosine) ? 1.0f : 0.0f;
+    sum.r[lane + i] += one * photon.flux.x;
+    sum.g[lane + i] += one * photon.flux.y;
+    sum.b[lane + i] += one * photon.flux.z;
+  }
+}
+
+// One query for all of them if they lie together, else one for each half.
+void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, size_t first,
+             size_t count, int pathVertices, PacketFlux& sum, size_t lane) {
+  Vec3 low = x.position(first), high = low;
+  for (size_t i = 1; i < count; ++i) {
+    low = glm::min(low, x.position(first + i));
+    high = glm::max(high, x.position(first + i));
+  }
+  const float r2 = grid.radius() * grid.radius();
+  const bool done = grid.near(low, high, [&](const Photon& photon) {
+    if (t.allows(photon.diffuseBefore + pathVertices))
+      addPhoton(photon, r2, x, first, count, sum, lane);
+  });
+  if (done) return;
+  const size_t half = count / 2;
+  addFlux(t, grid, x, first, half, pathVertices, sum, lane);
+  addFlux(t, grid, x, first + half, count - half, pathVertices, sum, lane + half);
+}
+
+}  // namespace
+
+CausticPhotons causticPhotons(const Transport& t, const FrameKey& frame, int k,
+                              std::span<const Vpl> vpls, RayCounts& rays) {
+  const Settings& s = t.settings;
+  if (s.caustics == Caustics::off || s.photons == 0 || !t.needs.caustics || t.emitters.empty())
+    return {};
+  // The split does not depend on what this set's walks happened to find: that would bias both
+  // halves. A single photon has no half: it becomes one of each.
+  const bool all = s.caustics == Caustics::all && t.allows(2);
+  const int fromVpls = all ? std::max(s.photons / 2, 1) : 0;
+  const PhotonRadii radii(t, frame.photonRadius);
+  SortedPhotons photons;
+  for (size_t stream = 0; stream < t.streams.count(); ++stream)
+    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), radii, rays,
+                        photons);
+  if (fromVpls > 0) {
+    std::vector<const Vpl*> sources;
+    for (const Vpl& vpl : vpls)
+      if (vpl.diffuseCount > 0 && !isBlack(vpl.power)) sources.push_back(&vpl);
+    photonsFromVpls(t, frame, k, fromVpls, sources, radii, rays, photons);
+  }
+  CausticPhotons grids;
+  for (size_t kind = 0; kind < kPhotonKinds; ++kind)
+    grids[kind] = PhotonGrid(std::move(photons[kind]), radii.radius(kind));
+  return grids;
+}
+
+void gatherPhotons(const Transport& t, const PhotonGrid& grid, int pathVertices,
+                   Receivers& receivers, std::vector<Irradiance>* caustic) {
+  if (grid.empty()) return;
+  const float scale = 1 / (kPi * grid.radius() * grid.radius());
+  for (size_t first = 0; first < receivers.size(); first += kPacket) {
+    PacketFlux sum;
+    const size_t count = std::min<size_t>(kPacket, receivers.size() - first);
+    addFlux(t, grid, receivers, first, count, pathVertices, sum, 0);
+    for (size_t lane = 0; lane < count; ++lane) {
+      const Irradiance e = scale * Vec3(sum.r[lane], sum.g[lane], sum.b[lane]);
+      receivers.addIrradiance(first + lane, e);
+      if (caustic != nullptr) (*caustic)[first + lane] += e;
+    }
+  }
+}
+
+}  // namespace ninefold

@@ -1,0 +1,27 @@
+// reference.h: the path tracer as a method: whole radiance as U of the diffuse layer, which no filter
+// touches. It has a pixel loop of its own and no light sets: its independence makes it a reference.
+//
+//   irradiance, caustic   E at the first hit, all of it or what came by way of S: pi times the radiance
+//                         that a white matte surface there would send. Paths of their own, and only if
+//                         asked for: nobody's picture changes.
+//   reflectance           with the caustic plane, for who shows its share of the picture
+//
+// Threads, owner, errors: as method.h says.
+#pragma once
+
+#include "common/gi/method/method.h"
+
+namespace ninefold {
+
+class Reference final : public GiMethod {
+ public:
+  using GiMethod::GiMethod;
+
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
+                                          const View& view) const override;
+  void render(const View& view, const Task& task, const FrameLight& light, Scratch& scratch,
+              TileResult& out) const override;
+  std::unique_ptr<Scratch> makeScratch() const override;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,61 @@
+// compensation.h: gives the bounded geometry term its lost energy back, without bias and without
+// fireflies.
+//
+//   E(x) lacks  integral over hits y of  L(y -> x) cos_s dw  max(G - b, 0) / G
+//   estimate    pi (W_e L_e(y) + W rho_y/pi E(y)),  W = max(G - b, 0) / G,  one direction w with
+//               density cos_s/pi
+//
+//   G, b, cos_s   as in vpl_gather.h; W_e with an emitter's own b
+//   E(y)          from VPLs and photons, of paths one D vertex longer, itself compensated (recursion)
+//
+// W is zero beyond t = sqrt(cos_x / b): the rays are short, and few of them hit anything. A hit is
+// followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided by it: as
+// often as it takes, for in a narrow gap all of the light comes this way. The number xi < q that
+// decides this is known before the ray is: as q <= W <= 1 - b t^2/cos_x, nothing farther than
+// sqrt((1-xi) cos_x / b) can be followed, and the ray ends there. What a hit emits is divided by the
+// probability 1 - b t^2/cos_x that the ray was long enough for it.
+// Where y has a glossy lobe (needs.h), a second part of the numbers below 1 - b t^2/cos_x chooses
+// it: an eye path goes on from there, and brings what it meets, and E at its end, times W. Light
+// that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray that
+// meets nothing, and other S lobes at y, return nothing.
+//
+// Source:  Kollig and Keller, "Illumination in the Presence of Weak Singularities", 2004.
+// Proved:  tests/gi (furnace in a corner and in a slit: exact with it, too dark without; agreement
+// with the path tracer). Threads: reentrant with one scratch a thread.   Errors: none; at most
+// kMaxVertices levels.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <vector>
+
+#include "common/base/counters.h"
+#include "common/gi/eye/receiver_samples.h"
+#include "common/gi/eye/receivers.h"
+#include "common/gi/light/transport.h"
+
+namespace ninefold {
+
+// What one level's rays met, and where its irradiance goes: `factor` times it to `receiver`.
+struct Bounces {
+  struct Parent {
+    size_t receiver;
+    Vec3 factor;
+  };
+  Receivers points;
+  std::vector<Parent> parents;
+
+  void clear() { points.clear(), parents.clear(); }
+};
+
+using CompensationScratch = std::deque<Bounces>;  // one level a bounce, as deep as it ever went
+
+// Adds E(y) to the receivers, whose paths have that many D vertices, compensated by this again.
+using IrradianceQuery = std::function<void(int pathVertices, Receivers& receivers)>;
+
+// Adds compensation to receivers.er/eg/eb. pathVertices as in layered_method.h.
+void compensate(const Transport& transport, const ReceiverSamples& samples, int pathVertices,
+                CompensationScratch& scratch, Receivers& receivers, RayCounts& rays,
+                const IrradianceQuery& irradiance);
+
+}  // namespace ninefold

@@ -1,0 +1,19 @@
+// direct_vpls.h: VPLs on the lamps: N samples of the emitters in proportion to power.
+//
+// Equal punctual ones are merged into one. In a gesture N is what it was when it began, and there
+// may be a second stream: light_streams.h.
+//
+// Source:  Keller 1997; Wald et al. 2002, section 4.   Proved: tests/gi (polygon light, point, spot, sun).
+// Threads: pure function.   Errors: none.
+#pragma once
+
+#include "common/gi/light/transport.h"
+#include "common/gi/vpl/vpl.h"
+
+namespace ninefold {
+
+// Adds those of set k.
+void addDirectVpls(const Transport& transport, const FrameKey& frame, int k,
+                   std::vector<Vpl>& vpls);
+
+}  // namespace ninefold

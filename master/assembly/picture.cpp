@@ -1,0 +1,87 @@
+#include "master/assembly/picture.h"
+
+#include "common/image/auto_exposure.h"
+#include "common/sampling/whole_tile.h"
+
+namespace ninefold {
+void gather(const GatheredFrame& frame, int tile, Patch& patch) {
+  const FrameShape& shape = frame.view.shape;
+  patch.reset(shape, tile);
+  uint8_t bright = 0, glowing = 0;
+  const auto forEachTask = [&](const auto& f) {
+    forEachAround(shape.grid, tile, 1, [&](int around) {
+      for (int phase = 0; phase < patch.phases(); ++phase) f(around, phase);
+    });
+  };
+  forEachTask([&](int around, int phase) {
+    bright |= frame.task(around, phase).bright();
+    glowing |= frame.task(around, phase).glowing();
+  });
+  patch.lighten(bright);
+  patch.setGlow(glowing);
+  forEachTask([&](int around, int phase) {
+    // Results have waited for each other in memory: the next one comes while this one is decoded.
+    if (around == tile && phase + 1 < patch.phases()) frame.task(around, phase + 1).prefetch();
+    const Patch::Overlap part = patch.overlap(phase, shape.grid.rect(around, phase));
+    frame.task(around, phase)
+        .copy({part.fromI, part.fromJ, part.to, part.width, part.height}, bright, glowing,
+              Patch::kSide, patch.phase(phase));
+  });
+}
+
+PictureMaker::PictureMaker(const Setup& setup)
+    : setup_(setup),
+      film_(setup.shape.grid.width(), setup.shape.grid.height(),
+            setup.aovMask != 0 || setup.view == PictureView::error, setup.twoRadii) {
+  if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
+  for (int i = 0; i < setup.workers; ++i)
+    desks_.push_back(std::make_unique<FilterDesk>(setup.surfaceTest));
+}
+
+void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) {
+  FilterDesk& desk = *desks_[static_cast<size_t>(worker)];
+  if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
+  gather(frame, tile, desk.patch);
+  desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
+  paint(setup_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
+        setup_.depthScale, nullptr, desk.beauty);
+  film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
+  if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
+}
+
+void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile) {
+  const TaskRect rect = pixelsOf(frame.view.shape.grid, tile);
+  frame.task(tile, 0).copyRadiance(desk.beauty);
+  film_.addTile(rect.i0, rect.j0, desk.beauty);
+}
+
+void PictureMaker::frameDone() {
+  film_.frameDone();
+  if (aovs_) aovs_->frameDone();
+}
+
+std::string PictureMaker::imageHash() const {
+  RgbImage mean;
+  film_.mean(mean);
+  return ninefold::imageHash(mean);
+}
+
+std::vector<Channel> PictureMaker::extraChannels() const {
+  if (!aovs_) return {};
+  std::vector<Channel> channels = aovs_->channels();
+  channels.push_back({"error.Y", film_.standardError()});
+  return channels;
+}
+
+void PictureMaker::write(const std::string& path, const Metadata& metadata) const {
+  RgbImage mean;
+  film_.mean(mean);
+  if (setup_.view == PictureView::error)
+    paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
+  float exposure = 0;
+  if (!isFalseColor(setup_.view))
+    exposure = setup_.exposure ? *setup_.exposure : autoExposure(mean);
+  writeImage(path, {mean, extraChannels(), metadata}, ToneMap(exposure));
+}
+
+}  // namespace ninefold

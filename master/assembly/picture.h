@@ -1,0 +1,58 @@
+// picture.h: from gathered results to the picture: discontinuity buffer, film, tone map, file.
+//
+// The image hash is of the film's mean, so it depends on the frames and their order alone.
+// Threads: finishTile for different tiles and workers at once; everything else between frames.
+// Memory: the film's sums and a patch for each worker; no allocation per frame after the first.
+// Errors: write throws Error that names the file.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/image/aov_film.h"
+#include "common/image/film.h"
+#include "common/image/image_file.h"
+#include "common/image/patch_filter.h"
+#include "master/assembly/assembly.h"
+#include "master/assembly/view.h"
+
+namespace ninefold {
+
+class PictureMaker {
+ public:
+  struct Setup {
+    FrameShape shape;
+    bool twoRadii = false;  // of photons, see film.h
+    uint8_t aovMask = 0;    // planes that become layers of the file
+    PictureView view = PictureView::beauty;
+    float depthScale = 1;  // [m], see view.h
+    SurfaceTest surfaceTest = SurfaceTest::surface;
+    std::optional<float> exposure;  // [EV]; none: auto_exposure.h
+    int workers = 1;
+  };
+  explicit PictureMaker(const Setup& setup);
+
+  // Puts a tile of the next frame onto the film; the results of it and of those around it are there.
+  void finishTile(int worker, const GatheredFrame& frame, int tile);
+  void frameDone();  // all tiles of a frame were finished
+
+  int64_t frames() const { return film_.frames(); }
+  double relativeError() const { return film_.relativeError(); }
+  std::string imageHash() const;
+  void write(const std::string& path, const Metadata& metadata) const;
+
+ private:
+  void addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile);
+  std::vector<Channel> extraChannels() const;
+
+  const Setup setup_;
+  std::vector<std::unique_ptr<FilterDesk>> desks_;
+  Film film_;
+  std::optional<AovFilm> aovs_;  // if extra layers are wanted
+};
+
+// Fills a patch with a tile of the frame and what lies around it.
+void gather(const GatheredFrame& frame, int tile, Patch& patch);
+
+}  // namespace ninefold

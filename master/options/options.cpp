@@ -1,0 +1,232 @@
+#include "master/options/options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "common/scene/camera_choice.h"
+#include "master/options/numbered_name.h"
+#include "master/options/options_flags.h"
+#include "proto/connection.h"
+#include "proto/tile_codec.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kMaxSide = 16384;
+constexpr uint64_t kMaxClients = 4096;
+constexpr uint64_t kMaxFrames = 1'000'000'000;
+constexpr double kMaxSeconds = 1e9;
+
+// One of the names, as its place in the list.
+template <size_t n>
+std::optional<size_t> choice(const RawOptions& raw, const char* flag,
+                             const std::array<const char*, n>& names) {
+  const auto text = raw.text(flag);
+  if (!text) return std::nullopt;
+  std::string list;
+  for (size_t i = 0; i < n; ++i) {
+    if (*text == names[i]) return i;
+    list += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
+  }
+  failUsage("--{} {}: must be {}", flag, *text, list);
+}
+
+template <typename T, typename Value>
+void assign(T& to, const std::optional<Value>& value) {
+  if (value) to = static_cast<T>(*value);
+}
+
+void applyPreset(Options& o) {
+  if (o.preset == Preset::final) {
+    o.settings.directVpls = 16, o.settings.indirectVpls = 72;
+    o.settings.photons = 10000;
+  }
+  if (o.preset == Preset::paper) {  // Wald et al. 2002: 22 VPLs, 1000 photons from the lights
+    o.settings.pathLength = 4;
+    o.settings.caustics = Caustics::direct;
+    o.settings.randomization = Randomization::exclusiveOr;
+    o.surfaceTest = SurfaceTest::paper;
+    o.converging = false;
+    o.settings.bound = 300, o.settings.vplRoulette = 0;
+    o.settings.compensate = o.settings.jitter = false;
+  }
+}
+
+void readSampling(const RawOptions& raw, Settings& s) {
+  if (const auto interleave = raw.text("interleave")) {
+    const auto [n, m] = parsePair("interleave", *interleave, 1, 16);
+    s.interleave = {.n = n, .m = m};
+  }
+  assign(s.method, choice(raw, "method", std::array{"instant-radiosity", "path-trace"}));
+  assign(s.directVpls, raw.whole("direct-vpls", 0, 65536));
+  assign(s.indirectVpls, raw.whole("indirect-vpls", 0, 65536));
+  assign(s.photons, raw.whole("photons", 0, 16777216));
+  assign(s.pathLength, raw.whole("path-length", 0, 1 << 20));
+  assign(s.specularDepth, raw.whole("specular-depth", 1, 1024));
+  assign(s.bound, raw.real("bound", 1e-6, 1e12));
+  assign(s.vplRoulette, raw.real("vpl-roulette", 0, double{kMaxVplRoulette}));
+  assign(s.photonRadius, raw.real("photon-radius", 1e-6, 1));
+  assign(s.caustics, choice(raw, "caustics", std::array{"off", "direct", "all"}));
+  assign(s.randomization, choice(raw, "randomization", std::array{"xor", "owen", "random"}));
+  if (const auto seed = raw.text("seed"))
+    s.seed = parseWhole("seed", *seed, 0, std::numeric_limits<uint64_t>::max());
+}
+
+std::optional<Radiance> readEnvironment(const RawOptions& raw) {
+  const auto text = raw.text("environment");
+  if (!text) return std::nullopt;
+  if (*text == "none") return Radiance(0);
+  std::vector<double> c = parseNumbers("environment", *text);
+  if (c.size() == 1) c = {c[0], c[0], c[0]};
+  if (c.size() != 3) failUsage("--environment {}: write none, R,G,B or one number", *text);
+  for (const double x : c) checkRange("environment", x, 0.0, 1e6);
+  return Radiance(static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2]));
+}
+
+void readPicture(const RawOptions& raw, Options& o) {
+  if (const auto size = raw.text("size"))
+    std::tie(o.settings.width, o.settings.height) = parsePair("size", *size, 1, kMaxSide);
+  o.camera = raw.text("camera").value_or("");
+  o.environment = readEnvironment(raw);
+  assign(o.surfaceTest, choice(raw, "filter", std::array{"none", "paper", "surface"}));
+  o.autoExposure = raw.text("exposure") == "auto";
+  if (!o.autoExposure)
+    if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
+      o.exposure = static_cast<float>(*ev);
+  o.aovs = raw.isOn("aovs");
+}
+
+void readCluster(const RawOptions& raw, int cores, Options& o) {
+  o.localClients = std::max(1, cores);
+  assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
+  assign(o.clientThreads, raw.whole("client-threads", 1, 1024));
+  assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
+  assign(o.patience, raw.real("patience", 0, kMaxSeconds));
+  o.keyFile = raw.text("key-file");
+  constexpr std::array kIsas{"auto", "avx2", "avx512"};
+  if (const auto isa = choice(raw, "isa", kIsas)) o.isa = kIsas[*isa];
+  o.listen = raw.text("listen").value_or(o.listen);
+  try {
+    if (!isLoopback(parseEndpoint(o.listen, "--listen").host) && !o.keyFile)
+      failUsage(
+          "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
+          "ninefold-master --new-key FILE",
+          o.listen);
+  } catch (const UsageError&) {
+    throw;
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
+// After the picture: its interleaving and extra layers matter.
+void readDelivery(const RawOptions& raw, Options& o) {
+  if (const auto at = choice(raw, "filter-at", std::array{"master", "clients"}))
+    o.filterAtClients = *at == 1;
+  const auto level = raw.text("wire-level");
+  if (level && *level != "auto")
+    o.wireLevel =
+        static_cast<int>(parseWhole("wire-level", *level, 0, uint64_t{Delivery::kHighestLevel}));
+  if (!o.filterAtClients) return;
+  if (o.aovs) failUsage("--aovs needs --filter-at master: clients send finished tiles only");
+  const int pixels = kTaskSide * kTaskSide * o.settings.interleave.sets();
+  if (pixels > kMaxTilePixels)
+    failUsage("--filter-at clients: --interleave {}x{} makes tiles of {} pixels, at most are {}",
+              o.settings.interleave.n, o.settings.interleave.m, pixels, kMaxTilePixels);
+}
+
+void readRun(const RawOptions& raw, Options& o) {
+  o.stop.frames = raw.whole("frames", 1, kMaxFrames);
+  o.stop.seconds = raw.real("seconds", 1e-3, kMaxSeconds);
+  o.stop.untilError = raw.real("until-error", 1e-9, 1);
+  if (!o.stop.frames && !o.stop.seconds && !o.stop.untilError) o.stop.frames = kDefaultFrames;
+}
+
+void readAnimation(const RawOptions& raw, Options& o) {
+  const auto text = raw.text("animate");
+  if (!text) return;
+  const std::vector<double> n = parseNumbers("animate", *text, ':');
+  const bool good = n.size() == 3 && n[0] >= 0 && n[1] >= n[0] && n[1] <= kLongestScript &&
+                    n[2] >= kSlowestRate && n[2] <= kFastestRate;
+  if (!good)
+    failUsage("--animate {}: write T0:T1:FPS, times 0 <= T0 <= T1 <= {} [s], FPS {} to {}", *text,
+              kLongestScript, kSlowestRate, kFastestRate);
+  o.animate = {n[0], n[1], n[2]};
+  if (o.script) failUsage("--animate and --script exclude each other: a script may say animation");
+  if (o.stop.seconds || o.stop.untilError)
+    failUsage("--animate goes with --frames N, the frames of each picture, and no other stop");
+}
+
+// In a window, or live without one.
+void readLive(const RawOptions& raw, Options& o) {
+  o.window = raw.isOn("window");
+  o.script = raw.text("script");
+  o.clip = raw.text("clip");
+  readAnimation(raw, o);
+  assign(o.frameTime, raw.real("frame-time", 1, 10000));
+  if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
+  if (const auto view = raw.text("view")) {
+    const auto known = viewNamed(*view);
+    if (!known) failUsage("--view {}: must be {}", *view, fmt::join(kViewNames, ", "));
+    o.view = *known;
+    if (o.view == PictureView::clients && !o.window)
+      failUsage("--view clients is for --window: who rendered what changes from frame to frame");
+    if (o.filterAtClients && !isLive(o) && !isLight(o.view))
+      failUsage("--view {} needs --filter-at master: it is made of what clients traced", *view);
+  }
+}
+
+void readFiles(const RawOptions& raw, Options& o) {
+  o.output = raw.text("output");
+  o.stats = raw.text("stats");
+  if (!o.output && !o.stats && !o.window)
+    failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
+  if (o.animate && !o.window && (!o.output || !isNumbered(*o.output)))
+    failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
+  if (!o.output) return;
+  const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
+  if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
+    failUsage("--output {}: the name must end in .exr, .png or .hdr", *o.output);
+  if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
+}
+
+}  // namespace
+
+const char* nameOf(Preset preset) {
+  constexpr std::array kNames{"interactive", "final", "paper"};
+  return kNames[static_cast<size_t>(preset)];
+}
+
+Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores) {
+  const RawOptions raw(argc, argv, variable);
+  Options o;
+  o.help = raw.isOn("help");
+  o.newKey = raw.text("new-key");
+  o.version = raw.isOn("version");
+  if (o.help || o.version || o.newKey) return o;
+
+  o.scene = raw.text("scene").value_or("");
+  if (o.scene.empty()) failUsage("no scene is given; see ninefold-master --help");
+  assign(o.preset, choice(raw, "preset", std::array{"interactive", "final", "paper"}));
+  applyPreset(o);
+  readPicture(raw, o);
+  readSampling(raw, o.settings);
+  readCluster(raw, cores, o);
+  readDelivery(raw, o);
+  readRun(raw, o);
+  readLive(raw, o);
+  readFiles(raw, o);
+  return o;
+}
+
+Settings makeSettings(const Options& options, const Scene& scene) {
+  Settings settings = options.settings;
+  settings.camera = chooseCamera(scene, options.camera);
+  settings.environment = options.environment.value_or(scene.environment);
+  return settings;
+}
+
+}  // namespace ninefold

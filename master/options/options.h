@@ -1,0 +1,92 @@
+// options.h: the command line of ninefold-master. Flags, then environment (NINEFOLD_*), then the
+// preset's defaults.
+//
+//   options_flags   which flags there are, the text of --help, raw values from flags and variables
+//   options         what they mean: checked values, presets, what this release does not have
+//   makeSettings    with a scene: the settings of a job
+//
+// Errors: UsageError with one line that names the flag; main ends with status 2.
+// Threads: pure functions.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "common/base/command_line.h"
+#include "common/image/surface_test.h"
+#include "common/scene/scene.h"
+#include "common/scene/settings.h"
+#include "master/assembly/view.h"
+#include "master/options/script.h"
+#include "master/options/stop_rule.h"
+#include "proto/messages.h"
+
+namespace ninefold {
+
+enum class Preset : uint8_t { interactive, final, paper };
+
+struct Options {
+  bool help = false;                  // print helpText() and end; nothing else counts
+  bool version = false;               // print the release and end; nothing else counts
+  std::optional<std::string> newKey;  // make this key file and end; nothing else counts
+
+  std::string scene;   // file
+  std::string camera;  // see scene/camera_choice.h; empty: the scene's first
+  Preset preset = Preset::interactive;
+  Settings settings;                    // camera and environment are the scene's: makeSettings
+  std::optional<Radiance> environment;  // nothing: the scene's
+  SurfaceTest surfaceTest = SurfaceTest::surface;
+  bool filterAtClients = false;
+  int wireLevel = Delivery::kAdaptive;
+  bool converging = true;  // radius and neighbours' weight shrink from frame to frame
+
+  int localClients = 1;  // 0 = only remote ones
+  int clientThreads = 1;
+  std::string listen = "127.0.0.1:0";  // ADDR:PORT
+  std::optional<std::string> keyFile;
+  int waitClients = 1;
+  std::string isa = "auto";  // for local clients: auto, avx2, avx512
+  double patience = 120;     // without a window, with clients that are all stuck [s]
+
+  bool window = false;
+  std::optional<std::string> script;      // file
+  std::optional<AnimationRange> animate;  // then stop.frames is for each picture
+  std::optional<std::string> clip;        // of the scene file's animations; nothing: the first
+  PictureView view = PictureView::beauty;
+  double frameTime = 100;  // target while something moves [ms]
+
+  StopRule stop;  // 64 frames if no flag says otherwise
+
+  std::optional<std::string> output;  // .exr, .png or .hdr
+  bool aovs = false;
+  std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0
+  bool autoExposure = false;      // instead: auto_exposure.h
+  std::optional<std::string> stats;
+};
+
+inline constexpr int64_t kDefaultFrames = 64;
+
+// Settings and scene may change from frame to frame.
+inline bool isLive(const Options& o) { return o.window || o.script || o.animate; }
+
+// Whether a picture's tiles come filtered, as far as the command line says.
+inline bool filtersAtClients(const Options& o, PictureView view) {
+  return o.filterAtClients && isLight(view);
+}
+
+// Whether a live run has no use for radiance, unless it sums frames up.
+inline bool wantsCodesOnly(const Options& o) { return !o.output || o.output->ends_with(".png"); }
+
+// `cores`: of this machine; one local client for each is the default.
+Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores);
+
+// The whole text of --help.
+std::string helpText();
+
+// Settings of the job: the options', with the scene's camera and light. Error: no such camera.
+Settings makeSettings(const Options& options, const Scene& scene);
+
+const char* nameOf(Preset preset);
+
+}  // namespace ninefold

@@ -1,0 +1,242 @@
+#include "master/options/options_flags.h"
+
+#include <boost/program_options.hpp>
+#include <sstream>
+
+#include "master/options/options.h"
+
+namespace ninefold {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr unsigned kHelpWidth = 100;
+constexpr const char* kScene = "scene";  // the word that belongs to no flag
+
+struct Flag {
+  const char* name;
+  const char* value;  // what stands for its value in the help; null: a switch
+  const char* help;
+};
+
+constexpr Flag kPicture[] = {
+    {"size", "WxH", "pixels, each 1 to 16384 (default 640x480)"},
+    {"camera", "NAME|INDEX|SPEC",
+     "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
+    {"environment", "none|COLOR",
+     "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; white 1, with a warning, "
+     "if the scene has no light at all)"},
+    {"exposure", "EV|auto",
+     "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
+     "what the scene says, else 0)"},
+    {"view", "NAME",
+     "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
+     "error, clients, objects or weights"},
+};
+constexpr Flag kMethod[] = {
+    {"preset", "NAME",
+     "interactive, final (more of everything) or paper (the paper's numbers, sampling and filter); "
+     "flags given beside it win (default interactive)"},
+    {"method", "NAME",
+     "how light is computed: instant-radiosity (default) or path-trace (the slow, unbiased "
+     "reference)"},
+    {"interleave", "NxM", "light sets side by side, each 1 to 16 (default 3x3)"},
+    {"direct-vpls", "N", "virtual lights on the lights, per set, 0 to 65536 (default 4; final 16)"},
+    {"indirect-vpls", "N",
+     "virtual lights that light has bounced to, mean per set, 0 to 65536 (default 18; final 72)"},
+    {"photons", "N", "caustic photons per set, 0 to 16777216 (default 1000; final 10000)"},
+    {"path-length", "N", "diffuse vertices of a path at most, 0 = no limit (default 0; paper 4)"},
+    {"specular-depth", "N", "mirrors and glass in a row at most, 1 to 1024 (default 32)"},
+    {"bound", "C", "bound of the geometry term b = C/R^2, above 0 (default 30; paper 300)"},
+    {"vpl-roulette", "F",
+     "skip virtual lights that add less than F times the mean, at random; 0 = none (default 4; "
+     "paper 0)"},
+    {"photon-radius", "F", "first photon radius as a fraction of R, up to 1 (default 0.02)"},
+    {"caustics", "off|direct|all",
+     "photons from nowhere, from the lights, or from lit surfaces too (default all; paper direct)"},
+    {"randomization", "owen|xor|random",
+     "of the sample points: nested scrambling or exclusive-or of a Sobol' sequence, or none of it: "
+     "pseudo-random points (default owen; paper xor)"},
+    {"filter", "surface|paper|none",
+     "neighbours that the discontinuity buffer averages: on one smooth surface, within the paper's "
+     "thresholds, or none (default surface; paper paper)"},
+    {"seed", "N", "of all randomness (default 1)"},
+};
+constexpr Flag kRun[] = {
+    {"frames", "N", "stop after N frames (default 64 if no other stop is given)"},
+    {"seconds", "S", "stop after S seconds"},
+    {"until-error", "E",
+     "stop when the relative standard error is below E; looked at after 16, 32, 64... frames"},
+    {"animate", "T0:T1:FPS",
+     "play the scene's animation from T0 to T1 [s] into --output out.####.exr, --frames N for each "
+     "picture; with --window over and over"},
+    {"clip", "NAME",
+     "which of the file's animations plays (default: the first; the log names them)"},
+    {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},
+    {"script", "FILE",
+     "replay the camera paths and edits of a JSON file (docs/script.md), in real time or, if it "
+     "says so and there is no --window, into --output out.####.png"},
+    {"frame-time", "MS",
+     "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
+    {"headless", nullptr, "no window (default)"},
+};
+constexpr Flag kCluster[] = {
+    {"local-clients", "N",
+     "client processes started on this machine, 0 = only remote ones (default: one per core)"},
+    {"client-threads", "N", "threads of each local client, 1 to 1024 (default 1)"},
+    {"listen", "ADDR:PORT",
+     "where clients connect; port 0 takes a free one and prints it; 0.0.0.0:4700 for a LAN "
+     "(default 127.0.0.1:0)"},
+    {"key-file", "FILE", "cluster key; needed to listen beyond this machine"},
+    {"new-key", "FILE", "make a cluster key and end"},
+    {"wait-clients", "N", "do not start before N clients are ready (default 1)"},
+    {"filter-at", "master|clients",
+     "who filters: clients then send finished tiles, a third of the bytes or, while something "
+     "moves in a window, a quarter, and trace a border twice (default master)"},
+    {"wire-level", "auto|N",
+     "lossless compression of results, zstd's levels 1 to 19, 0 = none; auto: what suits each "
+     "client's line (default auto)"},
+    {"patience", "S",
+     "when all clients are stuck, each in a task that does not end, wait for S seconds, then end "
+     "with what there is, unless in a window (default 120)"},
+    {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
+};
+constexpr Flag kFiles[] = {
+    {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
+    {"aovs", nullptr,
+     "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
+    {"stats", "FILE", "what happened, as JSON; - is standard output"},
+    {"help", nullptr, "print this and end, as -h does"},
+    {"version", nullptr, "print the release and end"},
+};
+
+template <size_t n>
+po::options_description group(const char* title, const Flag (&flags)[n]) {
+  po::options_description group(title, kHelpWidth);
+  for (const Flag& flag : flags) {
+    if (flag.value == nullptr)
+      group.add_options()(flag.name, flag.help);
+    else
+      group.add_options()(flag.name, po::value<std::string>()->value_name(flag.value), flag.help);
+  }
+  return group;
+}
+
+po::options_description allFlags() {
+  po::options_description all(kHelpWidth);
+  all.add(group("Picture", kPicture)).add(group("Method", kMethod)).add(group("Run", kRun));
+  all.add(group("Cluster", kCluster)).add(group("Files", kFiles));
+  return all;
+}
+
+// The only short flag: a number with a minus is a value.
+std::pair<std::string, std::string> readShortHelp(const std::string& word) {
+  return {word == "-h" ? "help" : "", ""};
+}
+
+po::variables_map parseFlags(int argc, const char* const* argv,
+                             const po::options_description& all) {
+  using namespace po::command_line_style;
+  po::options_description known;
+  known.add(all).add_options()(kScene, po::value<std::vector<std::string>>());
+  po::positional_options_description positional;
+  positional.add(kScene, -1);
+  po::variables_map values;
+  po::store(po::command_line_parser(argc, argv)
+                .options(known)
+                .positional(positional)
+                .extra_parser(readShortHelp)
+                .style(allow_long | long_allow_adjacent | long_allow_next)
+                .run(),
+            values);
+  return values;
+}
+
+// Without a value.
+bool isSwitch(const po::options_description& all, const std::string& flag) {
+  const po::option_description* known = all.find_nothrow(flag, false);
+  return known != nullptr && known->semantic()->max_tokens() == 0;
+}
+
+std::string flagValue(const std::string& flag, const po::variable_value& value) {
+  const auto& text = value.as<std::string>();
+  if (text.starts_with("--")) failUsage("--{} needs a value, not {}", flag, text);
+  return text;
+}
+
+std::string onlyScene(const std::vector<std::string>& words) {
+  for (const std::string& word : words)
+    if (word.starts_with('-')) failUsage("{} is no option; see ninefold-master --help", word);
+  if (words.size() > 1) failUsage("more than one scene is given: {} and {}", words[0], words[1]);
+  return words[0];
+}
+
+}  // namespace
+
+RawOptions::RawOptions(int argc, const char* const* argv, const Variable& variable) {
+  const po::options_description all = allFlags();
+  try {
+    const po::variables_map given = parseFlags(argc, argv, all);
+    for (const auto& [flag, value] : given)
+      if (flag != kScene) values_[flag] = isSwitch(all, flag) ? "1" : flagValue(flag, value);
+    if (given.contains(kScene))
+      values_[kScene] = onlyScene(given[kScene].as<std::vector<std::string>>());
+  } catch (const po::error& error) {
+    failUsage("{}; see ninefold-master --help", error.what());
+  }
+  for (const auto& option : all.options()) {
+    const std::string& flag = option->long_name();
+    if (flag == "help" || flag == "version" || flag == "new-key" || has(flag)) continue;
+    if (const auto value = variable(variableOfFlag(flag))) values_[flag] = *value;
+  }
+}
+
+std::optional<std::string> RawOptions::text(const std::string& flag) const {
+  const auto found = values_.find(flag);
+  return found == values_.end() ? std::nullopt : std::optional(found->second);
+}
+
+bool RawOptions::isOn(const std::string& flag) const {
+  const std::string value = text(flag).value_or("0");
+  if (value != "0" && value != "1")
+    failUsage("{} is {}: must be 0 or 1", variableOfFlag(flag), value);
+  return value == "1";
+}
+
+std::optional<int64_t> RawOptions::whole(const std::string& flag, uint64_t low,
+                                         uint64_t high) const {
+  const auto value = text(flag);
+  if (!value) return std::nullopt;
+  return static_cast<int64_t>(parseWhole(flag, *value, low, high));
+}
+
+std::optional<double> RawOptions::real(const std::string& flag, double low, double high) const {
+  const auto value = text(flag);
+  if (!value) return std::nullopt;
+  const std::vector<double> numbers = parseNumbers(flag, *value);
+  if (numbers.size() != 1) failUsage("--{} {}: must be one number", flag, *value);
+  return checkRange(flag, numbers[0], low, high);
+}
+
+std::string helpText() {
+  std::ostringstream text;
+  text
+      << "Usage: ninefold-master SCENE [options]\n"
+         "\n"
+         "Renders a scene (.gltf, .glb or .obj) with global illumination on a cluster of clients,\n"
+         "by default on the cores of this machine:\n"
+         "\n"
+         "  ninefold-master scenes/table_room.glb --frames 64 --output table_room.exr\n"
+         "\n"
+      << allFlags()
+      << "\n"
+         "Each flag but --help, --version and --new-key may also be given by the environment:\n"
+         "NINEFOLD_LOCAL_CLIENTS=4 for --local-clients 4, NINEFOLD_AOVS=1 for --aovs. Flags win.\n"
+         "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage,\n"
+         "128 + N ended by signal N, with the picture so far written: 130 Ctrl-C, 143 SIGTERM,\n"
+         "129 SIGHUP, 141 SIGPIPE.\n"
+         "SIGUSR1 asks what is under way: lines \"state: ...\" on stderr; nothing else changes.\n";
+  return text.str();
+}
+
+}  // namespace ninefold

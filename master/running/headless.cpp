@@ -1,0 +1,211 @@
+#include "master/running/headless.h"
+
+#include <unistd.h>
+
+#include <thread>
+
+#include "common/base/cpu_time.h"
+#include "common/base/log.h"
+#include "common/base/process.h"
+#include "common/base/standard_streams.h"
+#include "master/assembly/assembly.h"
+#include "master/assembly/picture.h"
+#include "master/options/stop_rule.h"
+#include "master/output/output_files.h"
+#include "master/output/progress.h"
+#include "master/output/run_record.h"
+#include "master/running/cluster_setup.h"
+#include "master/running/frame_plan.h"
+#include "master/running/invitation.h"
+#include "master/running/job.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
+
+class HeadlessRun {
+ public:
+  HeadlessRun(const Options& options, const Job& job, Listener::Keys keys);
+  ~HeadlessRun();
+
+  int run();
+
+ private:
+  ServerDuty duty();
+  std::optional<FrameOrder> nextFrame();
+  void gatherFrames();
+  bool isDone();
+  void tellProgress();
+  ProgressState progressState() const;
+  void writePicture() const;
+  void writeStatistics() const;
+  Duration elapsed() const;
+
+  const Options& options_;
+  const Job& job_;
+  const Listener::Keys keys_;
+  const StopRule rule_;
+  const int workers_;
+  FramePlan plan_;            // the network thread's
+  FrameOrder order_;          // of all frames, but for the key
+  std::atomic<bool> enough_;  // no more frames are opened
+  PictureMaker picture_;
+  RunRecord record_;
+  Progress progress_;
+  // In this order: the workers end before the cluster that they report to.
+  Cluster cluster_;
+  Assembly assembly_;
+};
+
+// Of all frames, but for key and weight.
+FrameOrder orderOf(const Job& job) {
+  FrameOrder order;
+  order.settings = job.settings;
+  order.extraMask = job.shape.extraMask;
+  order.delivery = job.delivery;
+  return order;
+}
+
+PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int workers) {
+  PictureMaker::Setup setup;
+  setup.shape = job.shape;
+  setup.twoRadii = options.converging && usesPhotons(job.needs, job.settings);
+  setup.aovMask = options.aovs ? job.shape.extraMask : 0;
+  setup.view = options.view;
+  setup.depthScale = kDepthShownWhite * job.sceneRadius;
+  setup.surfaceTest = options.surfaceTest;
+  if (!options.autoExposure) setup.exposure = job.exposure;
+  setup.workers = workers;
+  return setup;
+}
+
+HeadlessRun::HeadlessRun(const Options& options, const Job& job, Listener::Keys keys)
+    : options_(options),
+      job_(job),
+      keys_(std::move(keys)),
+      rule_(options.stop),
+      workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
+      order_(orderOf(job)),
+      enough_(false),
+      picture_(pictureSetup(options, job, workers_)),
+      progress_(::isatty(STDERR_FILENO) == 1, Clock::now()),
+      cluster_(clusterSetup(options, keys_), *job.offer, duty()),
+      assembly_(
+          workers_,
+          [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
+            cluster_.decoded(std::move(tile), malformed);
+          },
+          [this](int worker, const GatheredFrame& frame, int tile) {
+            picture_.finishTile(worker, frame, tile);
+          }) {}
+
+HeadlessRun::~HeadlessRun() {
+  cluster_.stop("the master ends");
+  cluster_.join();
+}
+
+ServerDuty HeadlessRun::duty() {
+  return {[this] { return nextFrame(); },
+          [this](ReceivedTile& tile) { return assembly_.take(tile); }};
+}
+
+// On the network thread.
+std::optional<FrameOrder> HeadlessRun::nextFrame() {
+  const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
+  if (enough_ || allOpened || !assembly_.hasRoom()) return std::nullopt;
+  FrameOrder order = order_;
+  order.key = plan_.next();
+  order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
+  assembly_.open({order.key, job_.shape, order.settings.camera, order.neighbourWeight});
+  return order;
+}
+
+int HeadlessRun::run() {
+  invite(options_, cluster_.endpoint());
+  cluster_.start();
+  gatherFrames();
+  cluster_.stop("the picture is done");
+  if (picture_.frames() > 0) writePicture();
+  cluster_.join();
+  if (picture_.frames() > 0 || cluster_.failure()) writeStatistics();
+  if (const auto failure = cluster_.failure()) fail("{}", *failure);
+  if (picture_.frames() == 0) warn("stopped before any frame was complete: nothing is written");
+  return cluster_.signal() == 0 ? 0 : 128 + cluster_.signal();
+}
+
+void HeadlessRun::gatherFrames() {
+  while (!isDone()) {
+    tellProgress();
+    if (const auto frame = assembly_.next(Clock::now() + kLook)) {
+      picture_.frameDone();
+      record_.frameDone(*frame, processCpuTime());
+      assembly_.release(*frame);
+      cluster_.wake();  // there may be room for another
+    }
+  }
+  enough_ = true;
+  const std::string end = progress_.finish(progressState(), Clock::now());
+  sayToPeople(end);
+}
+
+bool HeadlessRun::isDone() {
+  const bool metRule = rule_.isMet(picture_.frames(), elapsed(), picture_.relativeError());
+  return metRule || cluster_.signal() != 0 || cluster_.failure();
+}
+
+Duration HeadlessRun::elapsed() const {
+  const std::optional<Time> begin = cluster_.firstDispatch();
+  return begin ? Clock::now() - *begin : Duration{0};
+}
+
+void HeadlessRun::tellProgress() {
+  if (const auto text = progress_.update(progressState(), Clock::now())) sayToPeople(*text);
+}
+
+ProgressState HeadlessRun::progressState() const {
+  const double fraction = rule_.fraction(picture_.frames(), elapsed(), picture_.relativeError());
+  return {fraction, picture_.frames(), rule_.frames, cluster_.summary()};
+}
+
+void HeadlessRun::writePicture() const {
+  if (!options_.output) return;
+  picture_.write(*options_.output, {{"release", releaseName()},
+                                    {"scene", options_.scene},
+                                    {"scene_hash", job_.sceneHash},
+                                    {"camera", job_.settings.camera.name},
+                                    {"preset", nameOf(options_.preset)},
+                                    {"seed", fmt::format("{}", job_.settings.seed)},
+                                    {"frames", fmt::format("{}", picture_.frames())},
+                                    {"image_hash", picture_.imageHash()}});
+  log("{} frame(s) in {}", picture_.frames(), *options_.output);
+}
+
+void HeadlessRun::writeStatistics() const {
+  if (!options_.stats) return;
+  RunStats stats = record_.stats(cluster_.server(), assembly_.busy(), workers_);
+  stats.stalls = cluster_.stalls();
+  stats.frames = picture_.frames();
+  stats.relativeError = picture_.relativeError();
+  stats.imageHash = picture_.imageHash();
+  stats.needs = job_.needs;
+  stats.preset = nameOf(options_.preset);
+  stats.settings = job_.settings;
+  stats.surfaceTest = options_.surfaceTest;
+  writeStats(*options_.stats, toJson(stats));
+}
+
+}  // namespace
+
+int runHeadless(const Options& options) {
+  // What can be told at once comes before a scene is read, which may take long.
+  checkGuests(options);
+  checkFiles(options);
+  Listener::Keys keys = loadKeys(options);
+  const Job job = makeJob(options);
+  HeadlessRun run(options, job, std::move(keys));
+  return run.run();
+}
+
+}  // namespace ninefold

@@ -1,0 +1,27 @@
+// invitation.h: the lines that say where the master listens, and what to type on other machines.
+// Errors: checkGuests throws UsageError if too few clients could ever join.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "master/options/options.h"
+#include "proto/connection.h"
+
+namespace ninefold {
+
+// Whether the clients that the run waits for can come at all.
+void checkGuests(const Options& options);
+
+// Where others reach a master that listens on all interfaces (0.0.0.0, or :: for both kinds): the
+// addresses of those that are up, without loopback and without IPv6 addresses that count on one
+// link only.
+std::vector<std::string> addressesBehind(const std::string& anyAddress);
+
+// `addresses`: as of addressesBehind, if `at` is on all interfaces.
+std::vector<std::string> invitation(const Options& options, const Endpoint& at,
+                                    const std::vector<std::string>& addresses);
+
+void invite(const Options& options, const Endpoint& at);
+
+}  // namespace ninefold

@@ -1,0 +1,32 @@
+// latency_log.h: what a person would feel of a session: for each frame that was seen, how long its
+// newest change took to get there. Written as docs/script.md describes. Value.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "master/running/live_run.h"
+
+namespace ninefold {
+
+class LatencyLog {
+ public:
+  explicit LatencyLog(Time start) : start_(start) {}
+  void add(const Shown& shown);
+  std::string json(const std::string& scene, const ServerTally& tally) const;
+
+ private:
+  struct Entry {
+    uint32_t frame;
+    double time, latency;  // [s]; latency < 0: the frame shows no change
+    double took;           // from opening to the last tile [s]
+    bool moving;
+    Delivery::Form form;
+    int width, height;
+    double light;
+  };
+  Time start_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,165 @@
+#include "master/running/live_plan.h"
+
+#include <utility>
+
+#include "common/image/layers.h"
+
+namespace ninefold {
+LivePlan::LivePlan(const Setup& setup, Time now)
+    : setup_(setup),
+      state_(setup.state),
+      quality_(setup.target),
+      atRest_(setup.delivery),
+      inMotion_(setup.delivery),
+      plan_(planOfRest()),
+      changed_(now),
+      firstUnshown_(now) {
+  latest_.settings = state_.settings;
+  latest_.extraMask = state_.extraMask;
+  latest_.scene = scene_ = state_.scene;
+  latest_.delivery = setup.delivery;
+}
+
+FramePlan LivePlan::planOfRest() const {
+  const Settings& s = state_.settings;
+  return {s.photonRadius * setup_.sceneRadius, s.interleave.sets(), setup_.converging};
+}
+
+std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
+  if (!moving_ && setup_.motion && state.hasLightOf(state_)) {
+    const bool isSeenAsBefore = state.isSeenAs(state_);
+    state_ = state;
+    if (isSeenAsBefore) return std::nullopt;
+    urgent_ = true;
+    return supersede();
+  }
+  if (state == state_) return std::nullopt;
+  Settings asSeenFromHere = state.settings;
+  asSeenFromHere.camera = state_.settings.camera;
+  asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
+  if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
+  state_ = state;
+  changed_ = now;
+  if (!dirty_) firstUnshown_ = now;
+  dirty_ = true;
+  if (!setup_.motion) {
+    plan_ = planOfRest();
+    open_.clear();
+    return nextFrame_;
+  }
+  if (moving_) return std::nullopt;
+  moving_ = true;
+  quality_.begin();
+  return supersede();
+}
+
+// The plan goes on with the frames that are given up.
+std::optional<uint32_t> LivePlan::supersede() {
+  if (open_.empty()) return std::nullopt;
+  plan_ = open_.begin()->second.before;
+  open_.clear();
+  return nextFrame_;
+}
+
+uint32_t LivePlan::giveUp() {
+  open_.clear();
+  dirty_ = moving_;
+  plan_ = planOfRest();
+  return nextFrame_;
+}
+
+std::optional<LiveFrame> LivePlan::next(Time now) {
+  if (moving_) return nextInMotion(now);
+  if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;
+  LiveFrame frame = open(now);
+  frame.rested = plan_.opened();
+  // Else the last picture of the motion, or of another look, stays for long.
+  frame.order.urgent = std::exchange(urgent_, false) || frame.rested == 0;
+  const FramePlan before = plan_;
+  const FrameKey key = plan_.next();
+  frame.neighbourWeight = plan_.neighbourWeight(key.frame);
+  hold(frame, key, before);
+  return frame;
+}
+
+void LivePlan::hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before) {
+  frame.order.key = key;
+  frame.order.key.frame = nextFrame_++;
+  open_.emplace(frame.order.key.frame, Open{frame, before});
+}
+
+std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
+  if (!dirty_) {
+    if (now - changed_ < kSettle || !open_.empty()) return std::nullopt;
+    moving_ = false;
+    plan_ = planOfRest();
+    return next(now);
+  }
+  if (open_.size() >= kInMotion) return std::nullopt;
+  LiveFrame frame = open(now);
+  frame.moving = frame.order.urgent = true;
+  frame.quality = quality_.current();
+  frame.changed = firstUnshown_;
+  hold(frame, planOfRest().next(), plan_);  // the first frame's random bits
+  dirty_ = false;
+  return frame;
+}
+
+// All of a frame but its key. A new job begins whenever anything about it differs from the last.
+LiveFrame LivePlan::open(Time now) {
+  FrameOrder order = latest_;
+  order.settings = settingsAt(moving_ ? quality_.current() : Quality{});
+  order.extraMask = planes();
+  order.moving = moving_;
+  order.delivery = moving_ ? inMotion_ : atRest_;
+  if (order.extraMask != 0)
+    order.delivery.form = Delivery::Form::layers, order.delivery.exposure = 0;
+  if (state_.scene != scene_ || (unsettled_ && !moving_)) {
+    scene_ = state_.scene;
+    ++order.scene;
+    unsettled_ = moving_;
+  }
+  if (!(order.settings == latest_.settings) || order.scene != latest_.scene ||
+      !(order.delivery == latest_.delivery))
+    ++order.job;
+  latest_ = order;
+  LiveFrame frame;
+  frame.order = order;
+  frame.changed = changed_, frame.opened = now, frame.world = world_;
+  return frame;
+}
+
+uint8_t LivePlan::planes() const {
+  const bool picks = moving_ ? state_.picks : setup_.picks && plan_.opened() == 0;
+  return static_cast<uint8_t>(state_.extraMask | (picks ? kPickPlanes : 0));
+}
+
+Settings LivePlan::settingsAt(const Quality& quality) const {
+  const double size = MotionQuality::kSizes[static_cast<size_t>(quality.size)];
+  const double light = MotionQuality::kLights[static_cast<size_t>(quality.light)];
+  Settings s = state_.settings;
+  s.width = scaled(s.width, size), s.height = scaled(s.height, size);
+  s.directVpls = scaled(s.directVpls, light);
+  s.indirectVpls = scaled(s.indirectVpls, light);
+  s.photons = scaled(s.photons, light);
+  if (!moving_) return s;
+  // Light from lit surfaces through glass comes back at rest.
+  if (s.caustics == Caustics::all) s.caustics = Caustics::direct;
+  // One film position a pixel makes no smooth edge: at random in the pixel, edges look torn and are
+  // further from the truth (tests/pipeline/walk_test.cpp).
+  s.jitter = false;
+  return s;
+}
+
+std::optional<LiveFrame> LivePlan::completed(uint32_t frame, Time now) {
+  const auto found = open_.find(frame);
+  if (found == open_.end()) return std::nullopt;
+  const LiveFrame done = found->second.frame;
+  open_.erase(found);
+  // All of the time since it was opened, the end of the frame before included. Frames that nobody
+  // waits for share the cluster with others: their time tells nothing.
+  if (done.order.urgent) quality_.took(done.quality, now - done.opened);
+  return done;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,128 @@
+// live_plan.h: which frames a session wants whose picture changes while it is looked at: changes and
+// the time go in, frames come out. Pure.
+//
+//   rest     frames of full quality, one after another, as FramePlan says; the film sums them up,
+//            for ever or as many as a still is to have. If somebody may click, the first of them
+//            carries pick planes, which hold for all
+//   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
+//            at motion_quality's step, with the random bits of the first frame, so that nothing
+//            flickers, through the middle of each pixel, caustics from lights alone; at most kInMotion
+//            of them are open. An edited scene is announced as moving, and once more when it rests:
+//            sample streams are frozen in between (gi/transport.h)
+//
+// The newest state wins: what changed while a frame was rendered is in the next one, and changes that
+// no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
+// motion the open frame is finished, else a hand that never rests would never see one.
+//
+// What only is looked at in another way (LiveState::look, its planes) rests on: open frames are
+// opened anew, with the new look, and the film keeps all that are complete. Whether pick planes are
+// wanted in motion is no change of the picture at all.
+//
+// Threads: plain value, one owner. Errors: none. Proved: tests/master/live_plan_test.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+
+#include "master/running/frame_plan.h"
+#include "master/running/motion_quality.h"
+#include "master/scheduling/frame_order.h"
+
+namespace ninefold {
+
+// What a session shows: settings (the camera among them) and the planes wanted beside beauty.
+struct LiveState {
+  Settings settings;
+  uint8_t extraMask = 0;
+  uint32_t scene = 0;  // edits made so far
+  uint32_t look = 0;   // what the picture is made to show of it
+  bool picks = false;  // frames in motion carry pick planes
+  bool operator==(const LiveState&) const = default;
+
+  // Whether frames of both are estimates of the same light.
+  bool hasLightOf(const LiveState& other) const {
+    return settings == other.settings && scene == other.scene;
+  }
+  bool isSeenAs(const LiveState& other) const {
+    return hasLightOf(other) && extraMask == other.extraMask && look == other.look;
+  }
+};
+
+struct LiveFrame {
+  FrameOrder order;
+  bool moving = false;
+  uint32_t world = 0;         // counts changes of anything but the camera and the size
+  int64_t rested = 0;         // frames at rest before this one: 0 begins the film anew
+  float neighbourWeight = 1;  // of the filter
+  Quality quality;
+  Time changed{}, opened{};  // changed: when what it shows first for became known
+};
+
+class LivePlan {
+ public:
+  static constexpr Duration kSettle = milliseconds(250);
+  static constexpr size_t kInMotion = 2;
+
+  struct Setup {
+    LiveState state;
+    Metres sceneRadius = 0;  // frozen: a photon radius must not change while a thing is dragged
+    bool converging = true;
+    Duration target = milliseconds(100);
+    bool motion = true;  // false: every state is shown as at rest, however long that takes
+    std::optional<int64_t> frames;  // of a state at rest; nothing: without end
+    Delivery delivery;              // of the first job
+    bool picks = false;             // somebody may click
+  };
+  LivePlan(const Setup& setup, Time now);
+
+  const LiveState& state() const { return state_; }
+  // Nothing happens if it is what is shown already. Gives back the first frame that is still wanted
+  // if open ones are not.
+  std::optional<uint32_t> change(const LiveState& state, Time now);
+  // The open frames cannot be rendered any more: others are to show the same. The first of those.
+  uint32_t giveUp();
+  void setTarget(Duration target) { quality_.setTarget(target); }
+  // Of frames that open from now on. No change of the picture. Frames with planes come as layers.
+  void setDelivery(const Delivery& atRest, const Delivery& inMotion) {
+    atRest_ = atRest, inMotion_ = inMotion;
+  }
+
+  // The next frame to open; nothing while none is wanted.
+  std::optional<LiveFrame> next(Time now);
+  // A frame is complete. Nothing if it was superseded.
+  std::optional<LiveFrame> completed(uint32_t frame, Time now);
+
+  bool isMoving() const { return moving_; }
+  const MotionQuality& quality() const { return quality_; }
+
+ private:
+  struct Open {
+    LiveFrame frame;
+    FramePlan before;  // the plan without it and those after it
+  };
+  std::optional<uint32_t> supersede();
+  LiveFrame open(Time now);
+  uint8_t planes() const;
+  void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
+  FramePlan planOfRest() const;
+  Settings settingsAt(const Quality& quality) const;
+  std::optional<LiveFrame> nextInMotion(Time now);
+
+  Setup setup_;
+  LiveState state_;
+  MotionQuality quality_;
+  Delivery atRest_, inMotion_;
+  FramePlan plan_;
+  bool moving_ = false, dirty_ = false;
+  bool urgent_ = false;  // somebody waits for the next frame at rest
+  uint32_t world_ = 0;
+  uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
+  bool unsettled_ = false;  // it was announced as moving
+  Time changed_{};          // the latest change
+  Time firstUnshown_{};     // the first change that no frame shows yet
+  uint32_t nextFrame_ = 0;
+  FrameOrder latest_;  // whose job is current
+  std::map<uint32_t, Open> open_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,292 @@
+#include "master/running/live_run.h"
+
+#include "common/base/log.h"
+#include "master/running/cluster_setup.h"
+#include "master/running/invitation.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kLook = milliseconds(20);  // how late the end may be noticed
+
+LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace pace) {
+  LivePlan::Setup setup;
+  setup.state.settings = job.settings;
+  setup.sceneRadius = job.sceneRadius;
+  setup.converging = options.converging;
+  setup.target = pace.target;
+  setup.motion = pace.motion;
+  setup.frames = pace.frames;
+  setup.delivery = job.delivery;
+  setup.picks = pace.person;
+  return setup;
+}
+
+}  // namespace
+
+LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
+                 OnPicture onPicture)
+    : options_(options),
+      job_(job),
+      workers_(std::max(1, static_cast<int>(std::thread::hardware_concurrency()))),
+      onPicture_(std::move(onPicture)),
+      picture_({options.surfaceTest, workers_, kDepthShownWhite * job.sceneRadius, pace.motion,
+                pace.person}),
+      plan_(planSetup(options, job, pace), Clock::now()),
+      wanted_(job.settings),
+      needs_(job.needs),
+      view_(options.view),
+      pace_(pace),
+      cluster_(clusterSetup(options, keys), *job.offer,
+               {[this] { return nextFrame(); }, [this](ReceivedTile& tile) { return take(tile); },
+                [this] { return giveUp(); }}),
+      assembly_(
+          workers_,
+          [this](ReceivedTile&& tile, const std::optional<std::string>& malformed) {
+            cluster_.decoded(std::move(tile), malformed);
+          },
+          [this](int worker, const GatheredFrame& frame, int tile) {
+            finishTile(worker, frame, tile);
+          }) {
+  setDelivery();
+  invite(options, cluster_.endpoint());
+}
+
+LiveRun::~LiveRun() {
+  ending_ = true;
+  if (thread_.joinable()) thread_.join();
+  cluster_.stop("the master ends");
+  cluster_.join();
+}
+
+void LiveRun::start() {
+  cluster_.start();
+  thread_ = std::thread([this] { gatherFrames(); });
+}
+
+void LiveRun::stop(const std::string& reason) {
+  ending_ = true;
+  cluster_.stop(reason);
+}
+
+void LiveRun::change(const std::function<void()>& apply) {
+  std::optional<uint32_t> firstWanted;
+  {
+    const std::lock_guard lock(mutex_);
+    apply();
+    setDelivery();
+    const LiveState next = newest();
+    if (next == plan_.state()) return;
+    firstWanted = plan_.change(next, Clock::now());
+    if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
+  }
+  if (!firstWanted) return cluster_.wake();
+  assembly_.supersede(*firstWanted);
+  cluster_.supersede(*firstWanted);
+}
+
+void LiveRun::setSettings(const Settings& settings) {
+  change([&] {
+    const Camera camera = wanted_.camera;
+    wanted_ = settings;
+    wanted_.camera = camera;
+  });
+}
+
+void LiveRun::setCamera(const Camera& camera) {
+  change([&] { wanted_.camera = camera; });
+}
+
+void LiveRun::setView(PictureView view) {
+  change([&] { view_ = view; });
+}
+
+void LiveRun::wantPicks(bool on) {
+  change([&] { picks_ = on; });
+}
+
+void LiveRun::edit(const SceneEdit& edit) {
+  const std::lock_guard editing(editing_);
+  merge(all_, edit);
+  std::optional<Needs> needs;  // found before others have to wait
+  if (!edit.materials.empty()) needs = needsOf(edited(*job_.scene, all_), settings().environment);
+  change([&] {
+    merge(unsent_, edit);
+    ++edits_;
+    if (needs) needs_ = *needs;
+  });
+}
+
+void LiveRun::setTarget(Duration target) {
+  const std::lock_guard lock(mutex_);
+  plan_.setTarget(target);
+}
+
+void LiveRun::setExposure(float exposure) {
+  const std::lock_guard lock(mutex_);
+  pace_.exposure = exposure;
+  setDelivery();
+}
+
+LiveState LiveRun::newest() const {
+  LiveState state;
+  state.settings = settingsFor(view_, wanted_);
+  state.extraMask = planesOf(view_);
+  state.scene = edits_;
+  state.look = static_cast<uint32_t>(view_);
+  state.picks = picks_;
+  return state;
+}
+
+LiveState LiveRun::state() const {
+  const std::lock_guard lock(mutex_);
+  return plan_.state();
+}
+
+Settings LiveRun::settings() const {
+  const std::lock_guard lock(mutex_);
+  return wanted_;
+}
+
+Needs LiveRun::needs() const {
+  const std::lock_guard lock(mutex_);
+  return needs_;
+}
+
+bool LiveRun::isMoving() const {
+  const std::lock_guard lock(mutex_);
+  return plan_.isMoving();
+}
+
+std::shared_ptr<const Shown> LiveRun::shown() const {
+  const std::lock_guard lock(mutex_);
+  return shown_;
+}
+
+LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
+  const bool twoRadii = options_.converging && usesPhotons(needs_, frame.order.settings);
+  LiveLook look{view_, pace_.exposure, twoRadii};
+  if (look.exposure && isFalseColor(view_)) look.exposure = 0;
+  const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
+  if (!isSeen) look.exposure.reset();
+  return look;
+}
+
+// Needs the lock. Summed up are frames that there is to be a mean of.
+Delivery LiveRun::delivery(bool summedUp) const {
+  using Form = Delivery::Form;
+  Delivery d = job_.delivery;
+  const int pixels = kTaskSide * kTaskSide * wanted_.interleave.sets();
+  const bool whole = filtersAtClients(options_, view_) && pixels <= kMaxTilePixels;
+  d.form = !whole                                           ? Form::layers
+           : !summedUp && pace_.codesOnly && pace_.exposure ? Form::display
+                                                            : Form::radiance;
+  if (d.form == Form::display) d.exposure = *pace_.exposure;
+  return d;
+}
+
+void LiveRun::setDelivery() { plan_.setDelivery(delivery(pace_.frames != 1), delivery(false)); }
+
+FrameShape LiveRun::shapeOf(const FrameOrder& order) const {
+  switch (order.delivery.form) {
+    case Delivery::Form::radiance:
+      return {order.grid(), kRadianceMask, 0};
+    case Delivery::Form::display:
+      return {order.grid(), kDisplayMask, 0};
+    default:
+      return {order.grid(), layerMaskOf(needs_, order.settings.method), order.extraMask};
+  }
+}
+
+// On the network thread.
+std::optional<FrameOrder> LiveRun::nextFrame() {
+  const std::lock_guard lock(mutex_);
+  if (ending_ || !assembly_.hasRoom()) return std::nullopt;
+  std::optional<LiveFrame> frame = plan_.next(Clock::now());
+  if (!frame) return std::nullopt;
+  FrameOrder& order = frame->order;
+  order.edit = std::exchange(unsent_, {});
+  order.neighbourWeight = frame->neighbourWeight;
+  FrameView view;
+  view.key = order.key;
+  view.shape = shapeOf(order);
+  view.camera = order.settings.camera;
+  view.neighbourWeight = frame->neighbourWeight;
+  open_[order.key.frame] = std::make_shared<Open>(
+      Open{*frame, plan_.state(), lookAt(*frame),
+           std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});
+  assembly_.open(view);
+  return order;
+}
+
+// On the network thread.
+bool LiveRun::take(ReceivedTile& tile) {
+  {
+    const std::lock_guard lock(mutex_);
+    const auto open = open_.find(tile.result.frame);
+    if (open != open_.end()) {
+      const auto sets = static_cast<size_t>(open->second->frame.order.settings.interleave.sets());
+      open->second->owners.at(tile.result.tile * sets + tile.result.phase) = tile.client;
+    }
+  }
+  return assembly_.take(tile);
+}
+
+// On the network thread.
+uint32_t LiveRun::giveUp() {
+  uint32_t firstWanted = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    firstWanted = plan_.giveUp();
+    open_.clear();
+  }
+  assembly_.supersede(firstWanted);
+  return firstWanted;
+}
+
+// On a worker's thread.
+void LiveRun::finishTile(int worker, const GatheredFrame& frame, int tile) {
+  std::shared_ptr<Open> open;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = open_.find(frame.view.key.frame);
+    if (found == open_.end()) return;  // superseded meanwhile
+    open = found->second;
+  }
+  picture_.finishTile(worker, frame, open->frame, open->look, open->owners, tile);
+}
+
+void LiveRun::gatherFrames() {
+  while (!ending_) {
+    const auto frame = assembly_.next(Clock::now() + kLook);
+    if (!frame) continue;
+    std::shared_ptr<const Open> done;
+    {
+      const std::lock_guard lock(mutex_);
+      if (plan_.completed(frame->key.frame, frame->finished)) done = open_.at(frame->key.frame);
+    }
+    if (done) {
+      picture_.frameDone();
+      publish(*done, frame->finished);
+    }
+    assembly_.release(*frame);
+    cluster_.wake();
+    if (done) onPicture_(shown());
+  }
+}
+
+void LiveRun::publish(const Open& done, Time completed) {
+  auto shown = std::make_shared<Shown>();
+  shown->image = picture_.image();
+  shown->frame = done.frame;
+  shown->state = done.state, shown->view = done.look.view;
+  shown->completed = completed;
+  shown->frames = picture_.frames();
+  shown->relativeError = picture_.relativeError();
+  shown->rays = cluster_.tally().rays;
+  const std::lock_guard lock(mutex_);
+  open_.erase(open_.begin(), open_.upper_bound(done.frame.order.key.frame));
+  shown_ = std::move(shown);
+}
+
+}  // namespace ninefold

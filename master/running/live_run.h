@@ -1,0 +1,127 @@
+// live_run.h: a session with a cluster whose picture changes while it is looked at: the same clients,
+// scheduler and assembly as a headless run's, fed by a LivePlan.
+//
+//   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
+//   picture thread: sums frames up, publishes what is to be seen
+//
+// If clients filter, they do so for views of light (isLight), in tiles that are not too large;
+// other frames, and those with pick planes, come as layers. A frame that is not summed up (in
+// motion, or a still of one frame) comes as codes if nobody wants its radiance. What clients have
+// filtered has no E any more, so that light is not used again in it (irradiance_history.h).
+//
+// Threads: as said. Owner: the session; ends all its threads when destroyed.
+// Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run later.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "master/assembly/assembly.h"
+#include "master/running/job.h"
+#include "master/running/live_picture.h"
+#include "master/running/live_plan.h"
+#include "master/serving/cluster.h"
+
+namespace ninefold {
+
+// What is to be seen after a frame; constant once published.
+struct Shown {
+  std::shared_ptr<const LiveImage> image;
+  LiveFrame frame;
+  LiveState state;  // full size and light, whatever the frame had
+  PictureView view = PictureView::beauty;
+  Time completed{};
+  int64_t frames = 0;  // that the image is the mean of
+  double relativeError = 0;
+  RayCounts rays;  // of the run so far
+};
+
+class LiveRun {
+ public:
+  // `onPicture`: called on the picture's thread after each frame.
+  struct Pace {
+    Duration target = milliseconds(100);  // of frames in motion
+    bool motion = true;                   // false: every state is rendered as if it rested
+    std::optional<float> exposure = {};   // [EV]: somebody looks at codes; none: at radiance only
+    bool codesOnly = false;               // and at nothing else, unless frames are summed up
+    std::optional<int64_t> frames = {};   // of a picture at rest, at most
+    bool person = false;                  // somebody may click, and look at its error, at any time
+  };
+  using OnPicture = std::function<void(const std::shared_ptr<const Shown>&)>;
+  LiveRun(const Options& options, Job& job, const Listener::Keys& keys, Pace pace,
+          OnPicture onPicture);
+  ~LiveRun();
+
+  void start();
+
+  // The newest state wins.
+  void setSettings(const Settings& settings);
+  void setCamera(const Camera& camera);
+  void setView(PictureView view);
+  void wantPicks(bool on);           // in motion, too, from now on
+  void setTarget(Duration target);   // of frames in motion
+  void setExposure(float exposure);  // [EV] of the codes of frames from now on
+  // Needs checkEdit.
+  void edit(const SceneEdit& edit);
+
+  LiveState state() const;    // the newest
+  Settings settings() const;  // as wanted at rest
+  Needs needs() const;        // of the scene as it is now
+  bool isMoving() const;
+  std::shared_ptr<const Shown> shown() const;  // null before the first frame
+  const Cluster& cluster() const { return cluster_; }
+  void stop(const std::string& reason);
+
+ private:
+  struct Open {
+    LiveFrame frame;
+    LiveState state;
+    LiveLook look;
+    std::vector<uint32_t> owners;  // by task
+  };
+  std::optional<FrameOrder> nextFrame();
+  bool take(ReceivedTile& tile);
+  uint32_t giveUp();
+  void finishTile(int worker, const GatheredFrame& frame, int tile);
+  void gatherFrames();
+  void change(const std::function<void()>& apply);
+  LiveState newest() const;
+  LiveLook lookAt(const LiveFrame& frame) const;
+  Delivery delivery(bool summedUp) const;
+  FrameShape shapeOf(const FrameOrder& order) const;
+  void setDelivery();
+  void publish(const Open& done, Time completed);
+
+  const Options& options_;
+  Job& job_;
+  const int workers_;
+  const OnPicture onPicture_;
+  LivePicture picture_;
+
+  std::mutex editing_;  // edits come one after another
+  SceneEdit all_;       // guarded by editing_
+
+  mutable std::mutex mutex_;  // guards all up to shown_; taken after editing_
+  LivePlan plan_;
+  Settings wanted_;
+  Needs needs_;
+  SceneEdit unsent_;
+  uint32_t edits_ = 0;
+  PictureView view_ = PictureView::beauty;
+  bool picks_ = false;
+  Pace pace_;
+  std::map<uint32_t, std::shared_ptr<Open>> open_;
+  std::shared_ptr<const Shown> shown_;
+
+  std::atomic<bool> ending_ = false;
+  // In this order: the workers end before the cluster that they report to.
+  Cluster cluster_;
+  Assembly assembly_;
+  std::thread thread_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,166 @@
+#include "master/running/script_run.h"
+
+#include <condition_variable>
+#include <deque>
+#include <thread>
+
+#include "common/base/log.h"
+#include "common/image/auto_exposure.h"
+#include "common/image/image_file.h"
+#include "master/options/numbered_name.h"
+#include "master/output/output_files.h"
+#include "master/output/stats.h"
+#include "master/running/cluster_setup.h"
+#include "master/running/invitation.h"
+#include "master/running/latency_log.h"
+#include "master/running/live_run.h"
+#include "master/running/script_player.h"
+
+namespace ninefold {
+namespace {
+
+constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
+constexpr Duration kStep = milliseconds(4);   // between two looks at the script
+
+// Codes are made as for a window, so that latencies are those that a person at one would feel.
+// An exposure that is not known yet is made of radiance.
+LiveRun::Pace paceOf(const Options& options, const Job& job, const Script& script) {
+  LiveRun::Pace pace{fromSeconds(1e-3 * options.frameTime), !script.rate};
+  pace.codesOnly = wantsCodesOnly(options) && !options.autoExposure;
+  if (pace.codesOnly) pace.exposure = job.exposure;
+  if (script.rate) pace.frames = script.frames;
+  return pace;
+}
+
+class ScriptRun {
+ public:
+  explicit ScriptRun(const Options& options)
+      : options_(options),
+        job_(makeJob(options)),
+        player_(*scriptOf(options, *job_.scene), job_.scene, job_.settings.camera),
+        log_(Clock::now()),
+        live_(options, job_, loadKeys(options), paceOf(options, job_, script()),
+              [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
+
+  int run() {
+    if (script().rate && (!options_.output || !isNumbered(*options_.output)))
+      fail("a script with a rate needs --output out.####.png for its pictures");
+    live_.setView(options_.view);
+    moveTo(0);
+    live_.start();
+    script().rate ? renderPictures() : playInRealTime();
+    live_.stop("the script is done");
+    if (const auto failure = live_.cluster().failure()) fail("{}", *failure);
+    return live_.cluster().signal() == 0 ? 0 : 128 + live_.cluster().signal();
+  }
+
+ private:
+  // On the picture's thread.
+  void take(const std::shared_ptr<const Shown>& shown) {
+    const std::lock_guard lock(mutex_);
+    log_.add(*shown);
+    latest_ = shown;
+    if (!shown->frame.moving && shown->frames == script().frames) still_ = shown;
+    arrived_.notify_all();
+  }
+
+  const Script& script() const { return player_.script(); }
+  bool isOver() const { return live_.cluster().signal() != 0 || live_.cluster().failure(); }
+
+  void moveTo(double time) {
+    const ScriptPlayer::Step step = player_.moveTo(time);
+    if (step.camera) live_.setCamera(*step.camera);
+    if (!step.edit.empty()) live_.edit(step.edit);
+  }
+
+  // Waits until `is` holds of a picture, or the run is over. Null if it is over.
+  template <typename Condition>
+  std::shared_ptr<const Shown> waitFor(const std::shared_ptr<const Shown>& of, Condition is) {
+    std::unique_lock lock(mutex_);
+    while (!isOver()) {
+      if (of != nullptr && is(*of)) return of;
+      arrived_.wait_for(lock, kLook);
+    }
+    return nullptr;
+  }
+
+  void renderPictures() {
+    for (int i = 0; i < script().pictures() && !isOver(); ++i) {
+      moveTo(i / *script().rate);
+      const LiveState wanted = live_.state();
+      const auto shown = waitFor(still_, [&](const Shown& s) { return s.state == wanted; });
+      if (shown == nullptr) return;
+      const std::string path = numbered(*options_.output, i);
+      write(path, *shown);
+      log("picture {} of {} in {}", i + 1, script().pictures(), path);
+    }
+  }
+
+  void playInRealTime() {
+    waitFor(latest_, [](const Shown&) { return true; });  // until clients have the scene
+    const Time start = Clock::now();
+    {
+      const std::lock_guard lock(mutex_);
+      log_ = LatencyLog(start);
+    }
+    for (double now = 0; now <= script().seconds && !isOver();
+         now = seconds(Clock::now() - start)) {
+      moveTo(now);
+      std::this_thread::sleep_for(kStep);
+    }
+    moveTo(script().seconds);
+    const LiveState last = live_.state();
+    waitFor(latest_, [&](const Shown& s) {
+      return s.state == last && !s.frame.moving && s.frames >= script().frames;
+    });
+    writeLatest();
+  }
+
+  // What there is, if the script was ended before its time.
+  void writeLatest() {
+    const std::lock_guard lock(mutex_);
+    if (latest_ == nullptr)
+      return warn("stopped before any picture was complete: nothing is written");
+    if (options_.output) write(*options_.output, *latest_);
+    if (options_.stats)
+      writeStats(*options_.stats, log_.json(options_.scene, live_.cluster().tally()));
+  }
+
+  void write(const std::string& path, const Shown& shown) {
+    if (path.ends_with(".png") && options_.autoExposure)
+      writeExposed(path, shown);
+    else if (path.ends_with(".png"))
+      writePng(path, shown.image->display);
+    else
+      writeImage(path, {shown.image->radiance, {}, {}});
+  }
+
+  // By the first picture for all, so that nothing flickers.
+  void writeExposed(const std::string& path, const Shown& shown) {
+    if (!exposure_) exposure_ = isFalseColor(shown.view) ? 0 : autoExposure(shown.image->radiance);
+    DisplayImage codes;
+    ToneMap(*exposure_).apply(shown.image->radiance, codes);
+    writePng(path, codes);
+  }
+
+  const Options& options_;
+  std::optional<float> exposure_;  // of options_.autoExposure
+  Job job_;
+  ScriptPlayer player_;
+  std::mutex mutex_;
+  std::condition_variable arrived_;
+  LatencyLog log_;                               // guarded by mutex_
+  std::shared_ptr<const Shown> latest_, still_;  // guarded by mutex_
+  LiveRun live_;
+};
+
+}  // namespace
+
+int runScript(const Options& options) {
+  checkGuests(options);
+  checkFiles(options);
+  ScriptRun run(options);
+  return run.run();
+}
+
+}  // namespace ninefold

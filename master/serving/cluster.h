@@ -1,0 +1,107 @@
+// cluster.h: the network thread with all that lives in it: event loop, server, local clients,
+// signals, and the ticking of their deadlines.
+//
+// Threads: the constructor listens, start() begins the thread; everything else from any thread, but
+// the server's tally and clients only after join(). Owner: main; ends and joins when destroyed.
+// Errors: the constructor throws Error (cannot listen). What ends the run later is told by
+// failure().
+//
+// SIGUSR1 asks what is under way: lines of the log that begin with "state:". The network thread alone takes it;
+// where main does not, as it should, nobody is ended by asking before that thread runs, or after.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "master/scheduling/stall_watch.h"
+#include "master/serving/local_clients.h"
+#include "master/serving/server.h"
+
+namespace ninefold {
+
+struct ClusterSetup {
+  ServerSetup server;
+  LocalClients::Plan local;    // without the master's address, which only listening tells
+  bool remoteMayJoin = false;  // a cluster key exists
+  std::optional<Duration> patience = {};  // with clients that are all stuck; none: without end
+};
+
+class Cluster {
+ public:
+  Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty);
+  ~Cluster();
+
+  const Endpoint& endpoint() const { return server_.endpoint(); }
+  void start();
+
+  // No frame before `firstWanted` is wanted any more.
+  void supersede(uint32_t firstWanted);
+  // There may be a frame to open that was not there before.
+  void wake();
+
+  // A tile was placed, or could not be.
+  void decoded(ReceivedTile&& tile, const std::optional<std::string>& malformed);
+
+  // The first of endingSignals(), 0 if none came. A second SIGINT or SIGTERM ends the program at
+  // once.
+  int signal() const { return signal_; }
+  // Why the run cannot go on, if it cannot.
+  std::optional<std::string> failure() const;
+  // What the clients are doing, for people: "2 ready, 1 syncing 63%".
+  std::string summary() const;
+  std::optional<Time> firstDispatch() const;
+  // As of the last tick.
+  std::vector<ClientInfo> clients() const;
+  ServerTally tally() const;
+
+  // Begins to end: goodbye to all, no process left within a second. Does not wait.
+  void stop(const std::string& reason);
+  void join();
+
+  // After join().
+  const Server& server() const { return server_; }
+  uint64_t stalls() const { return stall_.stalls(); }
+
+ private:
+  void run();
+  void tick();
+  void watchSignals();
+  void tellState() const;
+  bool isOver(Time now) const;
+  void fail(const std::string& line);
+  void watchForStall(Time now);
+  void failWithoutClients();
+  LocalClients::Work workOf(const std::string& name) const;
+  std::string describeClients() const;  // needs the lock
+
+  EventLoop loop_;
+  const bool remoteMayJoin_;
+  Server server_;
+  LocalClients local_;
+  StallWatch stall_;
+  std::unique_ptr<EventLoop::Timer> timer_;
+  std::optional<Time> endBy_;  // set by stop
+  std::atomic<int> signal_ = 0;
+  int asked_ = 0;  // to end, by people; the loop's thread
+
+  mutable std::mutex mutex_;
+  std::optional<std::string> failure_;  // guarded by mutex_
+  std::string summary_;                 // guarded by mutex_
+  std::optional<Time> firstDispatch_;   // guarded by mutex_
+  std::vector<ClientInfo> clients_;     // guarded by mutex_
+  ServerTally tally_;                   // guarded by mutex_
+  struct Decoded {
+    ReceivedTile tile;
+    std::optional<std::string> malformed;
+  };
+  std::vector<Decoded> decoded_;  // guarded by mutex_; what the loop has not seen yet
+
+  std::thread thread_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,51 @@
+#include "master/serving/job_offer.h"
+
+#include <algorithm>
+
+#include "common/base/error.h"
+
+namespace ninefold {
+
+JobOffer::JobOffer(std::vector<Blob> blobs, const Settings& settings, const Delivery& delivery)
+    : blobs_(std::move(blobs)), settings_(settings), delivery_(delivery) {
+  for (const Blob& blob : blobs_) byHash_[blob.info.hash] = &blob;
+}
+
+void JobOffer::setJob(uint32_t version, const Settings& settings, const Delivery& delivery) {
+  NINEFOLD_CHECK(version > job_);
+  job_ = version;
+  settings_ = settings;
+  delivery_ = delivery;
+}
+
+msg::Edit JobOffer::setEdit(uint32_t version, const SceneEdit& edit, bool moving) {
+  NINEFOLD_CHECK(version > version_);
+  version_ = version;
+  edits_.add(edit, moving);
+  return {version, edit, moving};
+}
+
+std::vector<msg::Edit> JobOffer::allEdits() const {
+  std::vector<msg::Edit> edits;
+  if (!edits_.settled.empty()) edits.push_back({version_, edits_.settled, false});
+  if (!edits_.moving.empty()) edits.push_back({version_, edits_.moving, true});
+  return edits;
+}
+
+msg::SceneOffer JobOffer::sceneOffer() const {
+  msg::SceneOffer offer{kScene, {}};
+  for (const Blob& blob : blobs_) offer.blobs.push_back(blob.info);
+  return offer;
+}
+
+msg::BlobChunk JobOffer::piece(const msg::BlobRequest& request) const {
+  const auto found = byHash_.find(request.hash);
+  if (found == byHash_.end() || request.offset >= found->second->compressed.size())
+    fail("asked for a piece of the scene that does not exist");
+  const ByteView all = found->second->compressed;
+  const auto offset = static_cast<size_t>(request.offset);
+  const ByteView piece = all.subspan(offset, std::min(kBlobChunkBytes, all.size() - offset));
+  return {request.hash, request.offset, all.size(), Bytes(piece.begin(), piece.end())};
+}
+
+}  // namespace ninefold

@@ -1,0 +1,156 @@
+// server.h: the master's network thread: it accepts clients, runs their sessions, asks the
+// scheduler who gets what, and passes results on. It decodes nothing and never waits.
+//
+//   listener -> sessions -> scheduler -> tasks out          results -> Duty::take -> ... ->
+//   decoded()
+//
+// Threads: everything in the loop's thread, but for the constructor and what is said below.
+// Owner: main; refers to the loop, the offer and the duty, which outlive it.
+// Errors: the constructor throws Error (address in use, ...). Clients' errors end their connection,
+// with one line in the log, and nothing else.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/image/patch.h"
+#include "master/assembly/received_tile.h"
+#include "master/scheduling/frame_order.h"
+#include "master/scheduling/scheduler.h"
+#include "master/serving/admission.h"
+#include "master/serving/client_session.h"
+#include "master/serving/job_offer.h"
+#include "proto/connection.h"
+
+namespace ninefold {
+
+struct ServerSetup {
+  Endpoint listen;
+  Listener::Keys keys;
+  int waitClients = 1;  // no frame before that many are ready
+};
+
+// What the server is there for; called in the loop's thread, must not wait.
+struct ServerDuty {
+  // The next frame to render; nothing when there is none or no room for it now.
+  std::function<std::optional<FrameOrder>()> nextFrame;
+  // Takes a tile that is wanted, answered by decoded(); false when there is no room.
+  std::function<bool(ReceivedTile&)> take;
+  // Nobody is left who can do the open frames, only newcomers who have missed their job. Gives back
+  // the first frame that is wanted instead. Null: all frames are of one job.
+  std::function<uint32_t()> giveUp = nullptr;
+};
+
+// What the server counts; a value.
+struct ServerTally {
+  SchedulerCounts tasks;
+  RayCounts rays;  // of accepted results
+  uint64_t malformed = 0;
+  uint64_t replaced = 0;  // values that were not finite, or negative, and became 0
+  uint64_t bytesReceived = 0;
+  std::optional<Time> firstDispatch, lastCompletion;
+  Duration cpuAtDispatch{0};  // what the process had used at the first dispatch
+  bool reproducible = true;
+};
+
+// One client, present or lost, for people and stats.
+struct ClientInfo {
+  ClientId id = 0;
+  std::string name, isa, peer;
+  ClientStatus status;
+  std::optional<ClientReport> work;  // once it was ready
+  bool isStuck() const { return work && work->stuck; }
+};
+
+class Server {
+ public:
+  Server(EventLoop& loop, ServerSetup setup, JobOffer& offer, ServerDuty duty);
+  ~Server();
+
+  const Endpoint& endpoint() const { return listener_->endpoint(); }
+
+  // Deadlines, heartbeats and work that is due. Every few tens of milliseconds.
+  void tick(Time now);
+  // A tile that was taken is placed in its frame; `malformed`: or could not be, for this reason.
+  void decoded(const ReceivedTile& tile, const std::optional<std::string>& malformed, Time now);
+  // No frame before `firstWanted` is wanted any more.
+  void supersede(uint32_t firstWanted, Time now);
+  // Says goodbye to all clients and accepts no more.
+  void close(const std::string& reason);
+
+  ServerTally tally() const;
+  std::vector<ClientInfo> clients(Time now) const;
+  // What the latest client of that name did; nothing before it was ready.
+  std::optional<ClientReport> workOf(const std::string& name, Time now) const;
+  // All clients are stuck, and none is on its way.
+  bool nothingMoves() const;
+  // Who is stuck where: "client 1 in frame 3, tile 5, set 2, client 2 in ..."; the first few.
+  std::string stuckTasks(Time now) const;
+  // What is under way and what each client waits for, line by line.
+  std::vector<std::string> explain(Time now) const;
+  // When the latest result came, or client became ready.
+  Time lastMove() const { return lastMove_; }
+  int readyClients() const { return scheduler_.clients(); }
+  bool isConnected() const;  // to anybody
+  const Scheduler& scheduler() const { return scheduler_; }
+
+ private:
+  struct Peer {
+    std::unique_ptr<ClientSession> session;
+    std::shared_ptr<Connection> connection;  // null once it is over
+    uint64_t bytesReceived = 0;              // of a connection that is over
+    bool wasReady = false;
+  };
+  using Handle = std::pair<const ClientId, Peer>;
+
+  void accept(std::shared_ptr<Connection> connection);
+  void closed(ClientId id, const std::string& reason);
+  bool isClosing() const { return listener_ == nullptr; }
+  template <typename Event>
+  void withPeer(ClientId id, Event event);  // event(session), then what follows from it
+  void carryOut(Handle& peer, Time now);
+  void on(Handle& peer, todo::Send&& a, Time now);
+  void on(Handle& peer, todo::Warn&& a, Time now);
+  void on(Handle& peer, todo::Join&& a, Time now);
+  void on(Handle& peer, todo::Heard&& a, Time now);
+  void on(Handle& peer, todo::RoundTrip&& a, Time now);
+  void on(Handle& peer, todo::TakeResult&& a, Time now);
+  void on(Handle& peer, todo::Finish&& a, Time now);
+  void lost(Handle& peer, const std::string& reason, Time now);
+
+  void dispatchSoon();
+  void dispatch(Time now);
+  void letJoin(Time now);
+  void giveUpOpenFrames(Time now);
+  void tell(const StuckNote& note) const;
+  std::string explainClient(ClientId id, const ClientSession& session, Time now) const;
+  void count(const ReceivedTile& tile);
+  void announce(const FrameOrder& order);
+  void openFrames(Time now);
+  void sendTasks(const std::vector<Assignment>& assignments);
+
+  EventLoop& loop_;
+  const ServerSetup setup_;
+  JobOffer& offer_;
+  const ServerDuty duty_;
+  Admission admission_;
+  Scheduler scheduler_;
+  std::map<ClientId, Peer> peers_;          // all of the run
+  std::map<uint32_t, FrameOrder> open_;     // frames
+  std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
+  ClientId nextId_ = 1;
+  bool started_ = false;  // waitClients were ready once
+  std::optional<Time> lastDispatch_;
+  Time lastMove_{};
+  uint64_t spoilt_ = 0, spoiltTold_ = 0;  // tiles with values that were replaced
+  ServerTally tally_;
+  bool dispatchWaits_ = false;                                    // in the loop
+  const std::shared_ptr<char> alive_ = std::make_shared<char>();  // for what waits in the loop
+  std::unique_ptr<Listener> listener_;                            // null once the server closes
+};
+
+}  // namespace ninefold
