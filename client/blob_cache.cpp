@@ -9,9 +9,10 @@
 #include <cerrno>
 #include <cstdlib>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
 #include "common/base/log.h"
-#include "common/base/process.h"
+#include "common/base/read_up_to.h"
 #include "common/base/written_file.h"
 #include "proto/scene_blobs.h"
 
@@ -41,17 +42,13 @@ std::vector<Entry> entriesOf(const fs::path& folder) {
 
 // The whole file, or nothing if it is not there, not a regular file, or larger than `maxBytes`.
 std::optional<Bytes> readWhole(const fs::path& path, uint64_t maxBytes) {
-  const UniqueFd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
   struct stat status {};
   if (!fd || ::fstat(fd.get(), &status) != 0 || !S_ISREG(status.st_mode) ||
       static_cast<uint64_t>(status.st_size) > maxBytes)
     return std::nullopt;
   Bytes bytes(static_cast<size_t>(status.st_size));
-  for (size_t have = 0; have < bytes.size();) {
-    const ssize_t n = ::read(fd.get(), bytes.data() + have, bytes.size() - have);
-    if (n <= 0) return std::nullopt;
-    have += static_cast<size_t>(n);
-  }
+  if (readUpTo(fd.get(), bytes) < bytes.size()) return std::nullopt;
   ::futimens(fd.get(), nullptr);  // used now
   return bytes;
 }

@@ -31,7 +31,8 @@ constexpr Flag kFlags[] = {
      "private folder that keeps scenes, or none (default $XDG_CACHE_HOME/ninefold or "
      "~/.cache/ninefold)"},
     {"isa", "NAME", "instruction set: auto, avx2 or avx512 (default auto)"},
-    {"record", "FILE", "keep all results in FILE, for ninefold-replay-client"},
+    {"record", "FILE",
+     "keep tasks and results in FILE, for ninefold-replay-client and ninefold-replay-task"},
 };
 
 // What the master says to the clients that it starts itself; not for people.

@@ -137,6 +137,7 @@ void Program::startConnection(std::shared_ptr<Connection> connection) {
   Connection::Events events;
   events.onMessage = [this, ours](Message&& message) {
     if (connection_.get() != ours) return;
+    if (recorder_) recorder_->heard(message);
     session_.received(std::move(message), now());
     carryOut();
   };

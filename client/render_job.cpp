@@ -101,7 +101,9 @@ std::string RenderJob::describe(const FrameKey& frame, const msg::TaskItem& item
   const TracedScene& scene = *light_->scene;
   return fmt::format("frame {}, tile {}, set {} (again{}: {})", frame.frame, item.tile, set,
                      scene.scene == scene.asFetched ? "" : ", but for edits of the scene",
-                     replayLine(*scene.scene, settings_, frame.frame));
+                     replayLine(*scene.scene, settings_, frame, static_cast<int>(item.tile),
+                                static_cast<int>(item.phase)) +
+                         (delivery_.wholeTiles() ? " --filter-at clients" : ""));
 }
 
 void RenderJob::trace(const Task& task, Desk& desk, Work& work, Time (*now)()) {

@@ -40,6 +40,14 @@ struct TracedScene {
         tracer(before.tracer, *scene, movedInstances(*asFetched, all)),
         begun(std::move(itBegan)) {}
 
+  // What an edit makes of `before`. `all`: edits of the scene as it was fetched, this one included;
+  // `moving`: a gesture goes on.
+  static std::shared_ptr<const TracedScene> after(const std::shared_ptr<const TracedScene>& before,
+                                                  const SceneEdit& all, bool moving) {
+    const auto settled = before->begun ? before->begun : before;
+    return std::make_shared<TracedScene>(*before, all, moving ? settled : nullptr);
+  }
+
   const std::shared_ptr<const Scene> asFetched, scene;
   const Tracer tracer;
   const std::shared_ptr<const TracedScene> begun;  // null at rest
@@ -68,14 +76,11 @@ class RenderJob {
   std::string describe(const FrameKey& frame, const msg::TaskItem& item) const;
 
  private:
-  struct Desk {  // of one thread
+  struct Desk : FilterDesk {  // of one thread
     Desk(const Renderer& renderer, SurfaceTest test)
-        : scratch(renderer.makeScratch()), filter(test) {}
+        : FilterDesk(test), scratch(renderer.makeScratch()) {}
     std::unique_ptr<Scratch> scratch;
     TileResult tile;
-    Patch patch;
-    PatchFilter filter;
-    RgbImage beauty;
     TileEncoder encoder;
   };
   struct Work {          // of one task so far

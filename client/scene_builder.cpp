@@ -94,8 +94,7 @@ void SceneBuilder::answer(const act::BuildScene& question) {
 void SceneBuilder::answer(const act::EditScene& question) {
   checkEdit(*scene_->asFetched, question.edit);
   merge(edits_, question.edit);
-  const auto settled = scene_->begun ? scene_->begun : scene_;
-  scene_ = std::make_shared<TracedScene>(*scene_, edits_, question.moving ? settled : nullptr);
+  scene_ = TracedScene::after(scene_, edits_, question.moving);
 }
 
 void SceneBuilder::answer(const act::RestoreScene&) {

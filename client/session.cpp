@@ -47,9 +47,10 @@ void Session::received(Message&& message, Time now) {
 void Session::on(msg::Welcome&& m, Time now) {
   if (state_ != State::greeting) fail("a second Welcome");
   if (m.release != options_.hello.release)
-    return end(1,
-               fmt::format("the master at {} runs release {}, this client is {}: use one release",
-                           options_.master, m.release, options_.hello.release));
+    return end(
+        1, fmt::format("the master at {} runs Ninefold {}, this client is {}: build both from one "
+                       "commit, or copy the programs of one",
+                       options_.master, m.release, options_.hello.release));
   state_ = State::syncing;
   lastOnline_ = now;
   push(act::Tell{fmt::format("joined {} as client {}", options_.master, m.clientId)});

@@ -1,6 +1,9 @@
 // ninefold-master: renders a scene on a cluster of clients.
+#include <signal.h>
+
 #include <thread>
 
+#include "common/base/process.h"
 #include "common/base/program.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
@@ -35,6 +38,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ninefold;
+  takeSignal(SIGUSR1, false);  // who asks too early or too late waits (cluster.h)
   return runProgram("ninefold-master", [&] {
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     return run(parseOptions(argc, argv, processVariable, cores));

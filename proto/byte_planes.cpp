@@ -62,7 +62,8 @@ void addDifferences(std::span<uint8_t> plane, size_t width) {
 }  // namespace
 
 void writePlane(std::span<const uint8_t> plane, size_t width, bool mayDiffer, Bytes& out) {
-  NINEFOLD_CHECK(!plane.empty() && plane.size() % width == 0);
+  NINEFOLD_CHECK(!plane.empty());
+  NINEFOLD_CHECK(plane.size() % width == 0);
   ByteWriter writer(out);
   const uint8_t first = plane.front();
   if (std::all_of(plane.begin(), plane.end(), [=](uint8_t b) { return b == first; })) {

@@ -10,6 +10,7 @@
 #include <cerrno>
 
 #include "common/base/descriptor.h"
+#include "common/base/read_up_to.h"
 #include "common/base/written_file.h"
 
 namespace ninefold {
@@ -27,19 +28,6 @@ bool writeAll(int fd, ByteView bytes) {
     bytes = bytes.subspan(static_cast<size_t>(put));
   }
   return true;
-}
-
-// Reads until `into` is full or the data ends; how many bytes that were. -1 on errors.
-ssize_t readUpTo(int fd, std::span<std::byte> into) {
-  size_t have = 0;
-  while (have < into.size()) {
-    const ssize_t got = ::read(fd, into.data() + have, into.size() - have);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) return -1;
-    if (got == 0) break;
-    have += static_cast<size_t>(got);
-  }
-  return static_cast<ssize_t>(have);
 }
 
 void checkKeyFile(int fd, const std::filesystem::path& file) {
@@ -83,7 +71,7 @@ Key Key::load(const std::filesystem::path& file) {
   if (!in) fail("key file {}: {}; make one with --new-key", file.string(), systemText());
   checkKeyFile(in.get(), file);
   Key key;
-  if (readUpTo(in.get(), key.bytes_) != static_cast<ssize_t>(kBytes))
+  if (readUpTo(in.get(), key.bytes_) != kBytes)
     fail("key file {}: cannot be read to its end", file.string());
   return key;
 }
@@ -93,8 +81,7 @@ Key Key::receive(int descriptor) {
   Key key;
   pollfd ready{in.get(), POLLIN, 0};
   // The launcher has put the whole key into the pipe before it passes it on: one wait is enough.
-  if (!in || ::poll(&ready, 1, kReceiveDeadlineMs) != 1 ||
-      readUpTo(in.get(), key.bytes_) != static_cast<ssize_t>(kBytes))
+  if (!in || ::poll(&ready, 1, kReceiveDeadlineMs) != 1 || readUpTo(in.get(), key.bytes_) != kBytes)
     fail("no key came over descriptor {}; local clients are started by ninefold-master",
          descriptor);
   return key;

@@ -27,12 +27,9 @@
 #include "proto/bytes.h"
 #include "proto/framing.h"
 #include "proto/sha256.h"
+#include "proto/wire_version.h"
 
 namespace ninefold {
-
-// Raised whenever the meaning of any message changes. One cluster runs one release: there is no
-// range.
-inline constexpr uint32_t kProtocol = 2;
 
 // Limits on what a message may carry; senders keep to them, receivers enforce them.
 inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable text

@@ -93,7 +93,8 @@ pb::Progress header(const msg::Progress& m) {
 }
 
 pb::Tasks header(const msg::Tasks& m) {
-  NINEFOLD_CHECK(!m.items.empty() && m.items.size() <= kMaxTasksPerMessage);
+  NINEFOLD_CHECK(!m.items.empty());
+  NINEFOLD_CHECK(m.items.size() <= kMaxTasksPerMessage);
   pb::Tasks out;
   out.set_job_version(m.jobVersion);
   toWire(m.frame, *out.mutable_frame());
@@ -147,8 +148,9 @@ pb::Pong header(const msg::Pong& m) {
 }
 
 pb::Edit header(const msg::Edit& m) {
-  NINEFOLD_CHECK(m.edit.objects.size() <= kMaxEdits && m.edit.lights.size() <= kMaxEdits &&
-                 m.edit.materials.size() <= kMaxEdits);
+  NINEFOLD_CHECK(m.edit.objects.size() <= kMaxEdits);
+  NINEFOLD_CHECK(m.edit.lights.size() <= kMaxEdits);
+  NINEFOLD_CHECK(m.edit.materials.size() <= kMaxEdits);
   pb::Edit out;
   out.set_version(m.version), out.set_moving(m.moving);
   toWire(m.edit, out);
@@ -180,7 +182,8 @@ Frame encodeMessage(Message&& message) {
       },
       message);
   const FrameLimit limit = messageLimit(frame.type);
-  NINEFOLD_CHECK(frame.header.size() <= limit.header && frame.payload.size() <= limit.payload);
+  NINEFOLD_CHECK(frame.header.size() <= limit.header);
+  NINEFOLD_CHECK(frame.payload.size() <= limit.payload);
   return frame;
 }
 

@@ -13,6 +13,18 @@ Recorder::Recorder(const std::filesystem::path& file, const msg::Hello& hello)
 
 void Recorder::add(const msg::Result& result) { write(result); }
 
+void Recorder::heard(const Message& message) {
+  switch (typeOf(message)) {
+    case MessageType::sceneOffer:
+    case MessageType::edit:
+    case MessageType::configure:
+    case MessageType::tasks:
+      return write(message);
+    default:
+      break;
+  }
+}
+
 void Recorder::write(Message message) {
   const Frame frame = encodeMessage(std::move(message));
   const auto head = frameHead(frame);
@@ -27,22 +39,29 @@ void Recorder::finish() {
   if (const auto file = std::move(file_)) file->publish();
 }
 
-std::vector<msg::Result> readRecording(const std::filesystem::path& file) {
+std::vector<Message> readRecording(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) fail("recording {}: cannot read it", file.string());
   FrameParser parser(messageLimit);
-  std::vector<msg::Result> results;
+  std::vector<Message> messages;
   while (true) {
     const std::span<std::byte> space = parser.space();
     stream.read(reinterpret_cast<char*>(space.data()), static_cast<std::streamsize>(space.size()));
     const auto got = static_cast<size_t>(stream.gcount());
     if (got == 0) break;
     if (std::optional<Frame> frame = parser.filled(got)) {
-      Message message = decodeMessage(std::move(*frame), Peer::client);
-      if (auto* result = std::get_if<msg::Result>(&message)) results.push_back(std::move(*result));
+      const bool isClients = maySend(Peer::client, static_cast<MessageType>(frame->type));
+      const Peer sender = isClients ? Peer::client : Peer::master;
+      messages.push_back(decodeMessage(std::move(*frame), sender));
     }
   }
-  // The last result may be cut short: the disk was full.
+  return messages;
+}
+
+std::vector<msg::Result> readResults(const std::filesystem::path& file) {
+  std::vector<msg::Result> results;
+  for (Message& message : readRecording(file))
+    if (auto* result = std::get_if<msg::Result>(&message)) results.push_back(std::move(*result));
   if (results.empty()) fail("recording {}: holds no result", file.string());
   return results;
 }

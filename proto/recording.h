@@ -1,6 +1,8 @@
-// recording.h: results of a client kept in a file, to be sent again by a replay client.
+// recording.h: a client's work kept in a file: to be sent again by a replay client, or done again, task by
+// task.
 //
-//   recording := the frames that a client sends: Hello, then a Result for each task (PROTOCOL.md)
+//   recording := frames (PROTOCOL.md): the client's Hello, then in the order in which they came the master's
+//                SceneOffer, Edit, Configure and Tasks, and the client's Result for each task
 //
 // The file is whole or as it was before (written_file.h). Errors: throw Error that names the file.
 // Threads: a Recorder from any thread; the rest pure.
@@ -20,6 +22,8 @@ class Recorder {
  public:
   Recorder(const std::filesystem::path& file, const msg::Hello& hello);
   void add(const msg::Result& result);
+  // A message of the master's: kept if it says what tasks there are and how they are done.
+  void heard(const Message& message);
   // The file is there from now on; what comes later is left out.
   void finish();
 
@@ -30,6 +34,8 @@ class Recorder {
   std::unique_ptr<WrittenFile> file_;  // guarded by mutex_; null once finished
 };
 
-std::vector<msg::Result> readRecording(const std::filesystem::path& file);
+// In the file's order. The last message may be cut short, as when a disk was full: it is left out.
+std::vector<Message> readRecording(const std::filesystem::path& file);
+std::vector<msg::Result> readResults(const std::filesystem::path& file);
 
 }  // namespace ninefold

@@ -121,7 +121,7 @@ class ReadArchive {
   ByteReader& in_;
 };
 
-// --- the layouts; changing one changes kProtocol (messages.h) ---
+// --- the layouts; changing one changes kProtocol (wire_version.h) ---
 
 template <typename T, typename U>
 concept Of = std::is_same_v<std::remove_const_t<T>, U>;

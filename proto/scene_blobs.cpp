@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/scene/reader.h"
+#include "common/scene/texel_ranges.h"
 #include "proto/compression.h"
 #include "proto/scene_archive.h"
 
@@ -118,6 +119,7 @@ Scene unpackScene(const std::vector<BlobInfo>& manifest, const std::vector<Bytes
   }
   scene.images = std::move(images), scene.meshes = std::move(meshes);
   validate(scene);
+  keepTexelRanges(scene);
   return scene;
 }
 

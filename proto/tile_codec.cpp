@@ -2,6 +2,7 @@
 
 #include <zstd.h>
 
+#include "common/base/prefetch.h"
 #include "proto/messages.h"
 #include "proto/tile_fields.h"
 #include "proto/tile_names.h"
@@ -217,8 +218,7 @@ void UnpackedTile::copy(const Part& part, uint8_t layers, uint8_t glowing, int s
 }
 
 void UnpackedTile::prefetch() const {
-  constexpr size_t kLine = 64;
-  for (size_t i = 0; i < bytes_.size(); i += kLine) __builtin_prefetch(bytes_.data() + i, 0, 2);
+  ninefold::prefetch<Soon::isRead>(bytes_.data(), bytes_.size());
 }
 
 void UnpackedTile::copyRadiance(RgbImage& out) const {

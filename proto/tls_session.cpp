@@ -48,7 +48,8 @@ TlsSession::TlsSession(std::shared_ptr<const TlsContext> context)
   impl_->use = shared.use;
   impl_->ssl.reset(SSL_new(shared.ctx.get()));
   BIO* pipe = BIO_new(shared.pipe.get());
-  NINEFOLD_CHECK(impl_->ssl != nullptr && pipe != nullptr);
+  NINEFOLD_CHECK(impl_->ssl != nullptr);
+  NINEFOLD_CHECK(pipe != nullptr);
   BIO_set_data(pipe, impl_.get());
   BIO_set_init(pipe, 1);
   SSL* ssl = impl_->ssl.get();

@@ -22,8 +22,8 @@
 #include <random>
 
 #include "common/base/clock.h"
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
-#include "common/base/process.h"
 #include "tools/command.h"
 
 namespace ninefold {
@@ -40,11 +40,11 @@ struct Options {
 };
 
 // A TUN device named nfrelay in a namespace of `ip netns`.
-UniqueFd openTun(const std::string& space) {
-  const UniqueFd name(::open(("/run/netns/" + space).c_str(), O_RDONLY | O_CLOEXEC));
+Descriptor openTun(const std::string& space) {
+  const Descriptor name(::open(("/run/netns/" + space).c_str(), O_RDONLY | O_CLOEXEC));
   if (!name || ::setns(name.get(), CLONE_NEWNET) != 0)
     fail("cannot enter network namespace {}: {}", space, std::strerror(errno));
-  UniqueFd tun(::open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC));
+  Descriptor tun(::open("/dev/net/tun", O_RDWR | O_NONBLOCK | O_CLOEXEC));
   ifreq request{};
   request.ifr_flags = IFF_TUN | IFF_NO_PI;
   std::strncpy(request.ifr_name, "nfrelay", IFNAMSIZ - 1);
@@ -119,7 +119,7 @@ int relay(const Options& o) {
     cutFrom = parseNumbers("cut", o.cut.substr(0, colon)).front();
     cutFor = parseNumbers("cut", o.cut.substr(colon + 1)).front();
   }
-  const UniqueFd a = openTun(o.a), b = openTun(o.b);
+  const Descriptor a = openTun(o.a), b = openTun(o.b);
   Direction there(a.get(), b.get(), o, 1), back(b.get(), a.get(), o, 2);
   writeOutput("ready\n");
   const Time start = Clock::now();

@@ -34,7 +34,7 @@ class Recorded {
  public:
   explicit Recorded(const std::string& file) {
     std::map<uint32_t, size_t> numbers;
-    for (msg::Result& result : readRecording(file)) {
+    for (msg::Result& result : readResults(file)) {
       const size_t number = numbers.emplace(result.frame, numbers.size()).first->second;
       if (number == frames_.size()) frames_.emplace_back();
       frames_[number].emplace(TaskPlace(result.tile, result.phase), std::move(result));

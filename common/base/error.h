@@ -3,7 +3,8 @@
 // Error   a file, flag, peer or message is bad. Its text is one line: what, where, what to do about it.
 //         Whoever owns the conversation (main, a connection) catches it and reports it; a peer's Error
 //         ends that peer's connection, never the program.
-// CHECK   our own assumption is broken: prints the expression and place, then aborts.
+// CHECK   our own assumption is broken: prints the expression, its values and the place, then aborts
+//         (check.h).
 // Threads: all functions may be called from any thread.
 #pragma once
 
@@ -11,6 +12,8 @@
 
 #include <stdexcept>
 #include <string>
+
+#include "common/base/check.h"
 
 namespace ninefold {
 
@@ -24,10 +27,5 @@ template <typename... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
   throw Error(fmt::format(format, std::forward<Args>(args)...));
 }
-
-[[noreturn]] void checkFailed(const char* expression, const char* file, int line);
-
-#define NINEFOLD_CHECK(expression) \
-  ((expression) ? void(0) : ::ninefold::checkFailed(#expression, __FILE__, __LINE__))
 
 }  // namespace ninefold

@@ -38,20 +38,15 @@ std::string describeStatus(int status) {
 
 }  // namespace
 
-void UniqueFd::reset(int fd) {
-  if (fd_ >= 0) ::close(fd_);
-  fd_ = fd;
-}
-
 Pipe makePipe() {
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe: {}", ::strerror(errno));
-  return {UniqueFd(ends[0]), UniqueFd(ends[1])};
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
 ChildProcess ChildProcess::start(const std::filesystem::path& program,
                                  const std::vector<std::string>& arguments,
-                                 const UniqueFd& inherited) {
+                                 const Descriptor& inherited) {
   std::string name = program.string();
   std::vector<std::string> texts = arguments;
   std::vector<char*> argv{name.data()};
@@ -89,6 +84,13 @@ std::vector<int> endingSignals() {
   ::sigaction(SIGHUP, nullptr, &hangUp);
   if (hangUp.sa_handler != SIG_IGN) signals.push_back(SIGHUP);
   return signals;
+}
+
+void takeSignal(int signal, bool take) {
+  sigset_t one;
+  sigemptyset(&one);
+  sigaddset(&one, signal);
+  ::pthread_sigmask(take ? SIG_UNBLOCK : SIG_BLOCK, &one, nullptr);
 }
 
 std::filesystem::path programBesideUs(const std::string& name) {

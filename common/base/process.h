@@ -1,10 +1,10 @@
 // process.h: programs that we start and end, and descriptors that they inherit.
 //
-// UniqueFd       owns a file descriptor.
-// ChildProcess   owns a running program: ends and reaps it when destroyed, so that none is left
-// behind. Threads: one thread owns a ChildProcess; the kernel's parent-death signal counts for the
-// thread that called start, so that thread lives as long as its children.   Errors: Error with the
-// system's reason.
+// ChildProcess   owns a running program: ends and reaps it when destroyed, so that none is left behind.
+//
+// Threads: one thread owns a ChildProcess; the kernel's parent-death signal counts for the thread that
+// called start, so that thread lives as long as its children.
+// Errors: Error with the system's reason.
 #pragma once
 
 #include <sys/types.h>
@@ -15,30 +15,12 @@
 #include <utility>
 #include <vector>
 
+#include "common/base/descriptor.h"
+
 namespace ninefold {
 
-class UniqueFd {
- public:
-  UniqueFd() = default;
-  explicit UniqueFd(int fd) : fd_(fd) {}
-  UniqueFd(UniqueFd&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  UniqueFd& operator=(UniqueFd&& other) noexcept {
-    reset(std::exchange(other.fd_, -1));
-    return *this;
-  }
-  ~UniqueFd() { reset(); }
-
-  int get() const { return fd_; }
-  int release() { return std::exchange(fd_, -1); }
-  void reset(int fd = -1);
-  explicit operator bool() const { return fd_ >= 0; }
-
- private:
-  int fd_ = -1;
-};
-
 struct Pipe {
-  UniqueFd readEnd, writeEnd;
+  Descriptor readEnd, writeEnd;
 };
 
 // A pipe of which no child inherits an end, unless it is handed over on purpose.
@@ -49,7 +31,7 @@ class ChildProcess {
   // Starts `program`. The child sees `inherited` as descriptor kInheritedDescriptor and, besides
   // standard input, output and error, nothing else of ours.
   static ChildProcess start(const std::filesystem::path& program,
-                            const std::vector<std::string>& arguments, const UniqueFd& inherited);
+                            const std::vector<std::string>& arguments, const Descriptor& inherited);
   ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, 0)) {}
   ChildProcess& operator=(ChildProcess&& other) noexcept {
     std::swap(pid_, other.pid_);
@@ -74,6 +56,9 @@ class ChildProcess {
 // The signals that ask a program to end well: Ctrl-C, SIGTERM, a closed terminal (unless whoever
 // started us had it ignored, as nohup does), a pipe without a reader.
 std::vector<int> endingSignals();
+
+// Whether this thread, and those that it starts, take the signal. While no thread does, it waits.
+void takeSignal(int signal, bool take);
 
 inline constexpr int kInheritedDescriptor = 3;
 

@@ -2,8 +2,6 @@
 
 namespace ninefold {
 
-std::string releaseName() { return NINEFOLD_RELEASE; }
-
 std::string versionText(std::string_view program) {
   return std::string(program) + " " + releaseName() + "\n";
 }

@@ -1,4 +1,7 @@
-// release.h: the version of all programs of a cluster; others are refused at the handshake.
+// release.h: what all programs of a cluster must have been built from; others are refused at the handshake.
+//
+// The project's version, the commit, and a digest of what differs from it: cmake/release.cmake, which
+// writes releaseName() at each build.
 #pragma once
 
 #include <string>
@@ -6,9 +9,10 @@
 
 namespace ninefold {
 
+// "0.1.0+1f0c25aa9b3e"
 std::string releaseName();
 
-// What --version prints: "ninefold-master 0.1.0".
+// What --version prints: "ninefold-master 0.1.0+1f0c25aa9b3e".
 std::string versionText(std::string_view program);
 
 }  // namespace ninefold

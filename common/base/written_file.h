@@ -19,7 +19,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "common/base/process.h"
+#include "common/base/descriptor.h"
 
 namespace ninefold {
 
@@ -49,7 +49,7 @@ class WrittenFile {
   const std::filesystem::path name_, target_;
   const bool mayReplace_;
   std::filesystem::path beside_;  // empty: nothing is there
-  UniqueFd fd_;
+  Descriptor fd_;
   uint64_t size_ = 0;
   int failure_ = 0;  // errno of the first write that failed
 };

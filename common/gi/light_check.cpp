@@ -38,27 +38,32 @@ std::string oddPlane(const TileResult& tile) {
 }
 
 void checkNone(const std::string& odd, const std::string& where, const Scene& scene,
-               const Settings& settings, uint32_t frame) {
+               const Settings& settings, const Task& task) {
   if (odd.empty()) return;
-  const std::string line = fmt::format("that light is a number ({}, {}; {})", odd, where,
-                                       replayLine(scene, settings, frame));
-  checkFailed(line.c_str(), __FILE__, __LINE__);
+  const std::string line =
+      fmt::format("that light is a number ({}, {}; {})", odd, where,
+                  replayLine(scene, settings, task.frame, task.tile, task.phase));
+  checkFailed(line.c_str(), {}, __FILE__, __LINE__);
 }
 
 }  // namespace
 
 void checkLight(const TileResult& tile, const Task& task, const Scene& scene,
                 const Settings& settings) {
-  const uint32_t frame = task.frame.frame;
   checkNone(oddPlane(tile),
-            fmt::format("frame {}, tile {}, phase {}", frame, task.tile, task.phase), scene,
-            settings, frame);
+            fmt::format("frame {}, tile {}, phase {}", task.frame.frame, task.tile, task.phase),
+            scene, settings, task);
 }
 
 void checkLight(const FrameLight& light, const FrameKey& frame, int set, const Scene& scene,
                 const Settings& settings) {
+  // Any task of the set makes it again.
+  Task task{.frame = frame};
+  const int sets = settings.interleave.sets();
+  while (task.phase + 1 < sets && lightSetOfPhase(task.phase, frame.rotation, sets) != set)
+    ++task.phase;
   checkNone(light.oddValue(), fmt::format("frame {}, set {}", frame.frame, set), scene, settings,
-            frame.frame);
+            task);
 }
 
 }  // namespace ninefold

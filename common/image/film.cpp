@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "common/base/prefetch.h"
 
 namespace ninefold {
 namespace {
@@ -20,10 +21,6 @@ void addRow(const float* values, size_t n, int64_t count, double* mean) {
 
 // Rows of a tile are far apart in the film, where no processor looks ahead by itself.
 constexpr int kRowsAhead = 2;
-void prefetch(const double* mean, size_t n) {
-  constexpr size_t kLine = 64 / sizeof *mean;
-  for (size_t i = 0; i < n; i += kLine) __builtin_prefetch(mean + i, 1);
-}
 
 }  // namespace
 
@@ -59,7 +56,8 @@ void Film::add(const RgbImage& frame) {
 }
 
 void Film::addTile(int x0, int y0, const RgbImage& tile) {
-  NINEFOLD_CHECK(x0 + tile.width <= width_ && y0 + tile.height <= height_);
+  NINEFOLD_CHECK(x0 + tile.width <= width_);
+  NINEFOLD_CHECK(y0 + tile.height <= height_);
   const int64_t count = frames_ + 1;
   const auto width = static_cast<size_t>(tile.width);
   for (int y = 0; y < tile.height; ++y) {
@@ -67,7 +65,8 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
     const size_t from = tile.at(0, y);
     if (y + kRowsAhead < tile.height)
       for (const auto* means : {&r_, &g_, &b_})
-        prefetch(means->data() + to + pixelCount(width_, kRowsAhead), width);
+        prefetch<Soon::isWritten>(means->data() + to + pixelCount(width_, kRowsAhead),
+                                  width * sizeof(double));
     addRow(&tile.pixels.r[from], width, count, &r_[to]);
     addRow(&tile.pixels.g[from], width, count, &g_[to]);
     addRow(&tile.pixels.b[from], width, count, &b_[to]);
@@ -78,7 +77,8 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
 // To each pixel, and to the sums of the blocks, row by row within each block. A row's blocks take
 // turns: an addition has to wait for the one before it to the same sum.
 void Film::addLuminance(int x0, int y0, const RgbImage& tile) {
-  NINEFOLD_CHECK(x0 % kErrorBlock == 0 && y0 % kErrorBlock == 0);
+  NINEFOLD_CHECK(x0 % kErrorBlock == 0);
+  NINEFOLD_CHECK(y0 % kErrorBlock == 0);
   std::vector<float> row(static_cast<size_t>(tile.width));
   for (int y = 0; y < tile.height; ++y) {
     double* sum = &blockMeans_[pixelCount(blockColumns_, (y0 + y) / kErrorBlock) +
@@ -113,7 +113,8 @@ void Film::mean(RgbImage& out) const {
 }
 
 void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
-  NINEFOLD_CHECK(out.width == width_ && out.height == height_);
+  NINEFOLD_CHECK(out.width == width_);
+  NINEFOLD_CHECK(out.height == height_);
   for (int y = tile.j0; y < tile.j0 + tile.height; ++y) {
     const size_t begin = out.at(tile.i0, y), end = begin + static_cast<size_t>(tile.width);
     for (size_t i = begin; i < end; ++i) out.pixels.r[i] = static_cast<float>(r_[i]);

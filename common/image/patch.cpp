@@ -48,7 +48,8 @@ bool isBlack(const LayerPlanes& layer) {
 
 void Patch::reset(const FrameShape& frame, int tile) {
   const TileGrid& grid = frame.grid;
-  NINEFOLD_CHECK(tile >= 0 && tile < grid.tiles());
+  NINEFOLD_CHECK(tile >= 0);
+  NINEFOLD_CHECK(tile < grid.tiles());
   const auto sets = static_cast<size_t>(grid.interleave().sets());
   const bool samePlanes = phases_.size() == sets && frame.layerMask == frame_.layerMask &&
                           frame.extraMask == frame_.extraMask;

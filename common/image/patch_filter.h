@@ -38,4 +38,12 @@ class PatchFilter {
   std::vector<RgbPlane> radiance_;    // of the phases of one row
 };
 
+// One thread's memory for the tiles that it filters.
+struct FilterDesk {
+  explicit FilterDesk(SurfaceTest test) : filter(test) {}
+  Patch patch;
+  PatchFilter filter;
+  RgbImage beauty;
+};
+
 }  // namespace ninefold

@@ -11,7 +11,8 @@ namespace ninefold {
 
 Distribution::Distribution(const std::vector<float>& weights) {
   for (const float w : weights) {
-    NINEFOLD_CHECK(std::isfinite(w) && w >= 0);
+    NINEFOLD_CHECK(std::isfinite(w));
+    NINEFOLD_CHECK(w >= 0);
     total_ += w;
   }
   if (total_ == 0) return;

@@ -54,7 +54,7 @@ Radiance TriangleRadiance::mean(const Mesh& mesh, uint32_t triangle) const {
   Radiance sum(0);
   const auto add = [&](int i, int j) {
     const TexturePlace at = placeAt(mesh, triangle, Vec2(i, j) / (3.0f * kParts));
-    sum += emitters_->radianceOf(mesh.material, at);
+    sum += emittedRadiance(*scene_, mesh.material, at);
   };
   for (int i = 0; i < kParts; ++i)
     for (int j = 0; i + j < kParts; ++j) {

@@ -23,15 +23,13 @@ class TriangleRadiance {
         0;  // a hundredth of the brightest that it may have between them; 0 = surely black
   };
 
-  TriangleRadiance(const Emitters& emitters, const Scene& scene)
-      : emitters_(&emitters), scene_(&scene) {}
+  explicit TriangleRadiance(const Scene& scene) : scene_(&scene) {}
   Value of(const Mesh& mesh, uint32_t triangle);
 
  private:
   Radiance mean(const Mesh& mesh, uint32_t triangle) const;
   float peak(const Material& material, const Mesh& mesh, uint32_t triangle);
 
-  const Emitters* emitters_;
   const Scene* scene_;
   std::map<int, TexturePeaks> peaks_;  // by image
 };

@@ -101,12 +101,49 @@ std::vector<float> choiceWeights(const std::vector<Emitter>& emitters,
   return weights;
 }
 
+bool isPower(float power) { return power > 0 && std::isfinite(power); }
+
+// Those of an instance that may shine, with their power, until `take` wants no more.
+template <typename Take>
+bool forEachTriangle(const Scene& scene, uint32_t instance, TriangleRadiance& radiance, Take take) {
+  const Instance& i = scene.instances[instance];
+  const Mesh& mesh = scene.meshes[static_cast<size_t>(i.mesh)];
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  if (isBlack(material.emission)) return true;
+  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+    Emitter e = triangleEmitter(mesh, i.toWorld, t);
+    const TriangleRadiance::Value L = radiance.of(mesh, t);
+    const float measure = kPi * e.area * (material.doubleSided ? 2.0f : 1.0f);
+    e.instance = instance, e.doubleSided = material.doubleSided, e.flux = measure * L.mean;
+    if (!take(e, std::max(maxComponent(e.flux), measure * L.least))) return false;
+  }
+  return true;
+}
+
 }  // namespace
+
+Radiance emittedRadiance(const Scene& scene, int material, const TexturePlace& at) {
+  const Material& m = scene.materials[static_cast<size_t>(material)];
+  if (isBlack(m.emission)) return Radiance(0);
+  const Radiance L = coverage(scene, m, at) * m.emission;
+  return m.emissionMap ? L * Vec3(lookUp(scene, m.emissionMap, at.uv0, at.uv1)) : L;
+}
+
+bool Emitters::anyIn(const Scene& scene) {
+  const float R = scene.bounds.radius();
+  for (const PunctualLight& light : scene.lights)
+    if (isPower(maxComponent(punctualFlux(light, R)))) return true;
+  TriangleRadiance radiance(scene);
+  const auto isDark = [](const Emitter&, float power) { return !isPower(power); };
+  for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    if (!forEachTriangle(scene, i, radiance, isDark)) return true;
+  return false;
+}
 
 Emitters::Emitters(const Scene& scene, Radiance environment)
     : scene_(&scene), environment_(environment) {
   std::vector<float> power;
-  TriangleRadiance radiance(*this, scene);
+  TriangleRadiance radiance(scene);
   Places places;
   firstOfInstance_.reserve(scene.instances.size() + 1);
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
@@ -129,30 +166,23 @@ Emitters::Emitters(const Scene& scene, Radiance environment)
 
 void Emitters::addTriangles(uint32_t instance, TriangleRadiance& radiance, Places& places,
                             std::vector<float>& power) {
-  const Instance& i = scene_->instances[instance];
-  const Mesh& mesh = scene_->meshes[static_cast<size_t>(i.mesh)];
-  const Material& material = scene_->materials[static_cast<size_t>(mesh.material)];
-  if (isBlack(material.emission)) return;
-  for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-    Emitter e = triangleEmitter(mesh, i.toWorld, t);
-    const TriangleRadiance::Value L = radiance.of(mesh, t);
-    const float measure = kPi * e.area * (material.doubleSided ? 2.0f : 1.0f);
-    e.instance = instance, e.doubleSided = material.doubleSided, e.flux = measure * L.mean;
-    if (const auto before = places.find(hashOfPlace(e));
-        before != places.end() && isTwice(e, emitters_[before->second])) {
-      doubles_[{instance, t}] = before->second;
-      continue;
+  forEachTriangle(*scene_, instance, radiance, [&](const Emitter& e, float itsPower) {
+    const uint64_t place = hashOfPlace(e);
+    const auto before = places.find(place);
+    if (before != places.end() && isTwice(e, emitters_[before->second])) {
+      doubles_[{instance, e.triangle}] = before->second;
+    } else if (isPower(itsPower)) {
+      append(e, itsPower, power);
+      places.try_emplace(place, static_cast<uint32_t>(emitters_.size() - 1));
     }
-    if (append(e, std::max(maxComponent(e.flux), measure * L.least), power))
-      places.try_emplace(hashOfPlace(e), static_cast<uint32_t>(emitters_.size() - 1));
-  }
+    return true;
+  });
 }
 
-bool Emitters::append(const Emitter& emitter, float itsPower, std::vector<float>& power) {
-  if (!(itsPower > 0) || !std::isfinite(itsPower)) return false;
+void Emitters::append(const Emitter& emitter, float itsPower, std::vector<float>& power) {
+  if (!isPower(itsPower)) return;
   emitters_.push_back(emitter);
   power.push_back(itsPower);
-  return true;
 }
 
 EmitterPoint Emitters::pointAt(uint32_t emitter, Vec2 b) const {
@@ -174,13 +204,6 @@ int Emitters::find(uint32_t instance, uint32_t triangle) const {
     return static_cast<int>(found - emitters_.begin());
   const auto twice = doubles_.find({instance, triangle});
   return twice == doubles_.end() ? -1 : static_cast<int>(twice->second);
-}
-
-Radiance Emitters::radianceOf(int material, const TexturePlace& at) const {
-  const Material& m = scene_->materials[static_cast<size_t>(material)];
-  if (isBlack(m.emission)) return Radiance(0);
-  const Radiance L = coverage(*scene_, m, at) * m.emission;
-  return m.emissionMap ? L * Vec3(lookUp(*scene_, m.emissionMap, at.uv0, at.uv1)) : L;
 }
 
 Intensity Emitters::intensity(const PunctualLight& light, Vec3 direction) {

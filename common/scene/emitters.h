@@ -54,10 +54,17 @@ struct TexturePlace {
   float alpha = 1;  // of the vertices' colours
 };
 
+// Radiance that an emissive triangle sends from a place, one side. The surface's own opacity (alpha mask,
+// blending) is in it.
+Radiance emittedRadiance(const Scene& scene, int material, const TexturePlace& at);
+
 class Emitters {
  public:
   // `environment` replaces the scene's own. R = scene.bounds.radius().
   Emitters(const Scene& scene, Radiance environment);
+
+  // Whether there would be any emitter with flux, without an environment.
+  static bool anyIn(const Scene& scene);
 
   bool empty() const { return emitters_.empty(); }  // no emitter with flux
   size_t size() const { return emitters_.size(); }
@@ -68,9 +75,9 @@ class Emitters {
   EmitterPoint pointAt(uint32_t emitter, Vec2 barycentrics) const;  // barycentrics of b and c
   // Entry of an emissive triangle, or -1.
   int find(uint32_t instance, uint32_t triangle) const;
-  // Radiance that an emissive triangle sends from a place, one side. The surface's own opacity
-  // (alpha mask, blending) is in it.
-  Radiance radianceOf(int material, const TexturePlace& at) const;
+  Radiance radianceOf(int material, const TexturePlace& at) const {
+    return emittedRadiance(*scene_, material, at);
+  }
   // I(omega) of a punctual light towards unit `direction` (from the light) [W/sr].
   static Intensity intensity(const PunctualLight& light, Vec3 direction);
 
@@ -78,7 +85,7 @@ class Emitters {
   using Places = std::unordered_map<uint64_t, uint32_t>;  // entries by a hash of their corners
   void addTriangles(uint32_t instance, TriangleRadiance& radiance, Places& places,
                     std::vector<float>& power);
-  bool append(const Emitter& emitter, float itsPower, std::vector<float>& power);  // if it has any
+  void append(const Emitter& emitter, float itsPower, std::vector<float>& power);
 
   const Scene* scene_;
   std::vector<Emitter> emitters_;          // triangles first, by instance, then by triangle

@@ -1,6 +1,7 @@
 #include "common/scene/needs.h"
 
 #include "common/image/layers.h"
+#include "common/scene/texel_ranges.h"
 
 namespace ninefold {
 namespace {
@@ -15,13 +16,8 @@ Range channelRange(const Scene& scene, const TextureUse& use, int channel) {
   const TextureImage& image = scene.images[static_cast<size_t>(use.image)];
   const int stored = image.channels >= 3 ? channel : (channel == 3 ? 1 : 0);
   if (stored >= image.channels) return {};  // alpha of an image that has none
-  uint8_t low = 255, high = 0;
-  const auto step = static_cast<size_t>(image.channels);
-  for (size_t i = static_cast<size_t>(stored); i < image.texels.size(); i += step) {
-    low = std::min(low, image.texels[i]);
-    high = std::max(high, image.texels[i]);
-  }
-  return {static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f};
+  const ChannelRange range = texelRanges(image)[static_cast<size_t>(stored)];
+  return {static_cast<float>(range.low) / 255.0f, static_cast<float>(range.high) / 255.0f};
 }
 
 float largestMetallic(const Scene& scene, const Material& m) {

@@ -40,8 +40,7 @@ bool transmits(const Material& material);
 
 // True if the opaque reflection lobe of a material is folded into D: its smallest perceptual
 // roughness over the texture is at least 0.6 for dielectrics (metallic < 0.5 everywhere), 0.85 for
-// metals; or its specular factor is 0 and it is no metal at all. Looks at all texels: ask once per
-// material.
+// metals; or its specular factor is 0 and it is no metal at all.
 bool foldsIntoDiffuse(const Scene& scene, const Material& material);
 
 // True if light passes straight through the material between equal media: blended, or a thin wall.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
 #include "common/scene/camera_choice.h"
 #include "common/scene/settings_table.h"
 
@@ -16,13 +18,22 @@ std::string flagOf(const Setting<T>& row, const T& value) {
 
 std::string flagOf(const Setting<Camera>&, const Camera&) { return ""; }
 
+// By its number, if it is one of the scene's: that is exact.
+std::string cameraOf(const Scene& scene, const Camera& camera) {
+  const auto found = std::ranges::find(scene.cameras, camera);
+  if (found == scene.cameras.end()) return specOf(scene, camera);
+  return std::to_string(found - scene.cameras.begin());
+}
+
 }  // namespace
 
-std::string replayLine(const Scene& scene, const Settings& s, uint32_t frame) {
+std::string replayLine(const Scene& scene, const Settings& s, const FrameKey& frame, int tile,
+                       int phase) {
   std::string line = fmt::format(
-      "ninefold-master SCENE --local-clients 1 --output again.exr --frames {} --size {}x{} "
-      "--camera {}",
-      uint64_t{frame} + 1, s.width, s.height, specOf(scene, s.camera));
+      "ninefold-replay-task SCENE --frame {}:{}:{}:{:.9g} --tile {} --phase {} --size {}x{} "
+      "--camera {}{}",
+      frame.frame, frame.randomization, frame.rotation, frame.photonRadius, tile, phase, s.width,
+      s.height, cameraOf(scene, s.camera), s.compensate ? "" : " --preset paper");
   forEachSetting([&](const auto& row) {
     if (row.isUsedBy(s.method)) line += flagOf(row, s.*row.member);
   });

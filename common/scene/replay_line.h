@@ -1,8 +1,8 @@
-// replay_line.h: the command that makes a picture again, for whoever looks for what went wrong in
-// it.
+// replay_line.h: the command that does a task again, alone, for whoever looks for what went wrong in it.
 //
-// The scene's file is named SCENE: clients do not know it. Headless frames are numbered from 0. The
-// flags are those of ninefold-master; jitter and compensation are left as the presets have them.
+// The scene's file is named SCENE: clients do not know it. The flags besides the task are those of
+// ninefold-master; jitter and compensation are those of the preset that is named, if the settings are of one.
+// A camera that is not one of the scene's is told as numbers, and may differ in its last bits.
 // Threads: pure.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace ninefold {
 
-// Up to and with this frame.
-std::string replayLine(const Scene& scene, const Settings& settings, uint32_t frame);
+std::string replayLine(const Scene& scene, const Settings& settings, const FrameKey& frame,
+                       int tile, int phase);
 
 }  // namespace ninefold

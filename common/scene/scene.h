@@ -9,6 +9,7 @@
 // Threads: plain data, shared read-only.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -23,12 +24,19 @@
 
 namespace ninefold {
 
+// Smallest and largest value of a channel of an image's texels.
+struct ChannelRange {
+  uint8_t low = 255, high = 0;
+};
+using TexelRanges = std::array<ChannelRange, 4>;
+
 // 8-bit texels, rows top to bottom. srgb: R, G, B decode by the sRGB curve, A stays linear.
 struct TextureImage {
   std::string name;
   int width = 0, height = 0, channels = 4;  // channels 1..4
   bool srgb = false;
-  std::vector<uint8_t> texels;  // width * height * channels
+  std::vector<uint8_t> texels;             // width * height * channels
+  std::optional<TexelRanges> ranges = {};  // of a finished scene, see texel_ranges.h
 };
 
 enum class Wrap : uint8_t { repeat, clamp, mirror };

@@ -4,6 +4,7 @@
 #include "common/base/log.h"
 #include "common/scene/emitters.h"
 #include "common/scene/reader.h"
+#include "common/scene/texel_ranges.h"
 #include "common/scene/world.h"
 
 namespace ninefold {
@@ -83,7 +84,8 @@ Scene finishScene(SceneDraft draft) {
         eye.z);
   }
   validate(scene);
-  if (Emitters(scene, Radiance(0)).empty()) {
+  keepTexelRanges(scene);
+  if (!Emitters::anyIn(scene)) {
     warn("no light in the file: a white environment of radiance 1 lights it");
     scene.environment = Radiance(1);
   }

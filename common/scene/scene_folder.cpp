@@ -11,6 +11,7 @@
 
 #include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/base/read_up_to.h"
 #include "common/scene/text_lines.h"
 
 namespace ninefold {
@@ -46,14 +47,9 @@ std::vector<unsigned char> readRegularFile(const fs::path& file, uint64_t limit)
     fail("'{}' has {} bytes, more than the {} allowed: split or simplify the scene", file.string(),
          size, limit);
   std::vector<unsigned char> bytes(size);
-  size_t got = 0;
-  while (got < bytes.size()) {
-    const ssize_t n = ::read(fd.get(), bytes.data() + got, bytes.size() - got);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0)
-      fail("'{}' ended after {} of {} bytes: it changed or is damaged", file.string(), got, size);
-    got += static_cast<size_t>(n);
-  }
+  const size_t got = readUpTo(fd.get(), std::as_writable_bytes(std::span(bytes)));
+  if (got < size)
+    fail("'{}' ended after {} of {} bytes: it changed or is damaged", file.string(), got, size);
   return bytes;
 }
 

@@ -35,11 +35,11 @@ PictureMaker::PictureMaker(const Setup& setup)
             setup.aovMask != 0 || setup.view == PictureView::error, setup.twoRadii) {
   if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
-    desks_.push_back(std::make_unique<Desk>(setup.surfaceTest));
+    desks_.push_back(std::make_unique<FilterDesk>(setup.surfaceTest));
 }
 
 void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) {
-  Desk& desk = *desks_[static_cast<size_t>(worker)];
+  FilterDesk& desk = *desks_[static_cast<size_t>(worker)];
   if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
@@ -49,7 +49,7 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
   if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
 }
 
-void PictureMaker::addFiltered(Desk& desk, const GatheredFrame& frame, int tile) {
+void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile) {
   const TaskRect rect = pixelsOf(frame.view.shape.grid, tile);
   frame.task(tile, 0).copyRadiance(desk.beauty);
   film_.addTile(rect.i0, rect.j0, desk.beauty);

@@ -43,17 +43,11 @@ class PictureMaker {
   void write(const std::string& path, const Metadata& metadata) const;
 
  private:
-  struct Desk {  // of one worker
-    explicit Desk(SurfaceTest test) : filter(test) {}
-    Patch patch;
-    PatchFilter filter;
-    RgbImage beauty;
-  };
-  void addFiltered(Desk& desk, const GatheredFrame& frame, int tile);
+  void addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile);
   std::vector<Channel> extraChannels() const;
 
   const Setup setup_;
-  std::vector<std::unique_ptr<Desk>> desks_;
+  std::vector<std::unique_ptr<FilterDesk>> desks_;
   Film film_;
   std::optional<AovFilm> aovs_;  // if extra layers are wanted
 };

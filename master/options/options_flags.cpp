@@ -243,7 +243,8 @@ std::string helpText() {
          "NINEFOLD_LOCAL_CLIENTS=4 for --local-clients 4, NINEFOLD_AOVS=1 for --aovs. Flags win.\n"
          "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage,\n"
          "128 + N ended by signal N, with the picture so far written: 130 Ctrl-C, 143 SIGTERM,\n"
-         "129 SIGHUP, 141 SIGPIPE.\n";
+         "129 SIGHUP, 141 SIGPIPE.\n"
+         "SIGUSR1 asks what is under way: lines \"state: ...\" on stderr; nothing else changes.\n";
   return text.str();
 }
 

@@ -16,7 +16,7 @@ bool hasPicks(const FrameShape& shape) { return (shape.extraMask & kPickPlanes) 
 
 LivePicture::LivePicture(const Setup& setup) : setup_(setup) {
   for (int i = 0; i < setup.workers; ++i) {
-    desks_.push_back(std::make_unique<Desk>(setup.test));
+    desks_.push_back(std::make_unique<FilterDesk>(setup.test));
     desks_.back()->filter.keepIrradiance(setup.reuses);
   }
 }
@@ -70,7 +70,7 @@ void LivePicture::takeImage(const FrameShape& shape, bool isFirst) {
 void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
                              const LiveLook& look, const std::vector<uint32_t>& owners, int tile) {
   begin(frame, plan, look);
-  Desk& desk = *desks_[static_cast<size_t>(worker)];
+  FilterDesk& desk = *desks_[static_cast<size_t>(worker)];
   const FrameShape& shape = frame.view.shape;
   const TaskRect rect = pixelsOf(shape.grid, tile);
   if (shape.layerMask == kDisplayMask)
@@ -87,7 +87,8 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
   if (look_.exposure) toneMap(rect);
 }
 
-void LivePicture::finishLayers(Desk& desk, const GatheredFrame& frame, bool moving, int tile) {
+void LivePicture::finishLayers(FilterDesk& desk, const GatheredFrame& frame, bool moving,
+                               int tile) {
   const FrameView& view = frame.view;
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty);
@@ -95,8 +96,8 @@ void LivePicture::finishLayers(Desk& desk, const GatheredFrame& frame, bool movi
   if (hasPicks(view.shape)) keepPickPlanes(desk.patch);
 }
 
-void LivePicture::paintTile(Desk& desk, const FrameView& view, const std::vector<uint32_t>& owners,
-                            int tile) {
+void LivePicture::paintTile(FilterDesk& desk, const FrameView& view,
+                            const std::vector<uint32_t>& owners, int tile) {
   const auto firstTask = static_cast<size_t>(view.shape.grid.interleave().sets() * tile);
   paint(look_.view, desk.patch, desk.filter, view.neighbourWeight, view.key.rotation,
         setup_.depthScale, &owners[firstTask], desk.beauty);

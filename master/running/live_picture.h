@@ -53,18 +53,13 @@ class LivePicture {
   double relativeError() const;
 
  private:
-  struct Desk {  // of one worker
-    explicit Desk(SurfaceTest test) : filter(test) {}
-    Patch patch;
-    PatchFilter filter;
-    RgbImage beauty;
-  };
   void begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look);
   void beginRest(const TileGrid& grid, bool isFirst);
   void takeImage(const FrameShape& shape, bool isFirst);
   const RestFilm& shownFilm() const { return isPainted(look_.view) ? painted_ : light_; }
-  void finishLayers(Desk& desk, const GatheredFrame& frame, bool moving, int tile);
-  void paintTile(Desk& desk, const FrameView& view, const std::vector<uint32_t>& owners, int tile);
+  void finishLayers(FilterDesk& desk, const GatheredFrame& frame, bool moving, int tile);
+  void paintTile(FilterDesk& desk, const FrameView& view, const std::vector<uint32_t>& owners,
+                 int tile);
   void showMean(const TaskRect& tile);
   void copyTile(const TaskRect& tile, const RgbImage& beauty);
   void toneMap(const TaskRect& tile);
@@ -74,7 +69,7 @@ class LivePicture {
   IrradianceHistory history_;
   uint32_t world_ = 0;   // LiveFrame::world of the frame that history_ has seen
   bool traced_ = false;  // history_ sees the frame: clients have not filtered it
-  std::vector<std::unique_ptr<Desk>> desks_;
+  std::vector<std::unique_ptr<FilterDesk>> desks_;
   std::mutex begin_;
   std::optional<uint32_t> current_;  // the frame whose tiles come; guarded by begin_
   LiveLook look_;

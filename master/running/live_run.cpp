@@ -96,11 +96,14 @@ void LiveRun::wantPicks(bool on) {
 }
 
 void LiveRun::edit(const SceneEdit& edit) {
+  const std::lock_guard editing(editing_);
+  merge(all_, edit);
+  std::optional<Needs> needs;  // found before others have to wait
+  if (!edit.materials.empty()) needs = needsOf(edited(*job_.scene, all_), settings().environment);
   change([&] {
-    merge(all_, edit);
     merge(unsent_, edit);
     ++edits_;
-    if (!edit.materials.empty()) needs_ = needsOf(edited(*job_.scene, all_), wanted_.environment);
+    if (needs) needs_ = *needs;
   });
 }
 

@@ -100,11 +100,14 @@ class LiveRun {
   const OnPicture onPicture_;
   LivePicture picture_;
 
-  mutable std::mutex mutex_;  // guards all up to shown_
+  std::mutex editing_;  // edits come one after another
+  SceneEdit all_;       // guarded by editing_
+
+  mutable std::mutex mutex_;  // guards all up to shown_; taken after editing_
   LivePlan plan_;
   Settings wanted_;
   Needs needs_;
-  SceneEdit all_, unsent_;
+  SceneEdit unsent_;
   uint32_t edits_ = 0;
   PictureView view_ = PictureView::beauty;
   bool picks_ = false;

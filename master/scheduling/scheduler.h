@@ -90,6 +90,10 @@ class Scheduler {
   std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
   // Why a task is where it is, in words.
   std::string explain(const TaskId& task, Time now) const;
+  // The open frames, each with the task that has been under way for longest; what a client is at, and
+  // waits for.
+  std::vector<std::string> explainFrames(Time now) const;
+  std::string explainClient(ClientId client, Time now) const;
   // Aborts if the books do not balance. For tests: O(clients + tasks).
   void checkInvariants() const;
 

@@ -190,7 +190,8 @@ void SchedulerFrame::checkInvariants() const {
     NINEFOLD_CHECK((s == TaskState::active) == (active > 0));
     NINEFOLD_CHECK(holders(task).empty() || s == TaskState::active || s == TaskState::waiting);
   }
-  NINEFOLD_CHECK(left == left_ && left_ > 0);
+  NINEFOLD_CHECK(left == left_);
+  NINEFOLD_CHECK(left_ > 0);
   NINEFOLD_CHECK(waiting == waiting_);
   NINEFOLD_CHECK(single == stragglers_.size());
   for (size_t set = 0; set < queues_.size(); ++set)

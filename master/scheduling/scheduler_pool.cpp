@@ -72,7 +72,8 @@ void SchedulerPool::checkInvariants() const {
     const SchedulerClient& client = member.client;
     const int bound = SchedulerClient::kMaxPerThread * client.threads();
     NINEFOLD_CHECK(member.credit == client.credit());
-    NINEFOLD_CHECK(client.inFlight() <= bound && client.low() <= client.high());
+    NINEFOLD_CHECK(client.inFlight() <= bound);
+    NINEFOLD_CHECK(client.low() <= client.high());
     NINEFOLD_CHECK(client.high() <= bound);
     credit += member.credit;
     ready += member.credit > 0;
@@ -85,7 +86,8 @@ void SchedulerPool::checkInvariants() const {
     NINEFOLD_CHECK(!member.deadline || member.deadline == client.deadline());
   }
   NINEFOLD_CHECK(credit == freeCredit_);
-  NINEFOLD_CHECK(ready == ready_.size() && watched == silence_.size());
+  NINEFOLD_CHECK(ready == ready_.size());
+  NINEFOLD_CHECK(watched == silence_.size());
   NINEFOLD_CHECK(timed == deadlines_.size());
 }
 

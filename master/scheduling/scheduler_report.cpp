@@ -72,7 +72,8 @@ void Scheduler::checkInvariants() const {
     for (int task = 0; task < frame.tasks(); ++task)
       for (const TaskHolder& holder : frame.holders(task)) {
         const SchedulerClient* client = pool_.find(holder.client);
-        NINEFOLD_CHECK(client != nullptr && client->holds(frame.idOf(task)));
+        NINEFOLD_CHECK(client != nullptr);
+        NINEFOLD_CHECK(client->holds(frame.idOf(task)));
         NINEFOLD_CHECK(holder.active == (client->trust() != Trust::suspect));
         ++claims;
       }

@@ -7,9 +7,9 @@ namespace ninefold {
 Admission::Verdict Admission::judge(const msg::Hello& hello, const std::string& peer) {
   if (hello.protocol != kProtocol || hello.release != releaseName())
     return {
-        fmt::format("the master runs Ninefold {} (protocol {}), client {} runs {} (protocol {}): "
-                    "use one release",
-                    releaseName(), kProtocol, hello.name, hello.release, hello.protocol),
+        fmt::format("the master runs Ninefold {} (protocol {}), the client {} (protocol {}): build "
+                    "both from one commit, or copy the programs of one",
+                    releaseName(), kProtocol, hello.release, hello.protocol),
         {}};
   if (!first_) first_ = hello;
   if (hello.probeClass == first_->probeClass) return {};

@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "common/base/log.h"
+#include "common/base/process.h"
 
 namespace ninefold {
 namespace {
@@ -51,9 +52,17 @@ void Cluster::watchSignals() {
     // Local clients follow: the kernel kills them with us.
     if (isAsked && ++asked_ > 1) std::_Exit(128 + signal);
   });
+  loop_.onSignal({SIGUSR1}, [this](int) { tellState(); });
+}
+
+void Cluster::tellState() const {
+  const Time now = Clock::now();
+  log("state: {}", describeClients());
+  for (const std::string& line : server_.explain(now)) log("state: {}", line);
 }
 
 void Cluster::run() {
+  takeSignal(SIGUSR1, true);
   try {
     local_.start(Clock::now());
     tick();

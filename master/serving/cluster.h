@@ -5,6 +5,9 @@
 // the server's tally and clients only after join(). Owner: main; ends and joins when destroyed.
 // Errors: the constructor throws Error (cannot listen). What ends the run later is told by
 // failure().
+//
+// SIGUSR1 asks what is under way: lines of the log that begin with "state:". The network thread alone takes it;
+// where main does not, as it should, nobody is ended by asking before that thread runs, or after.
 #pragma once
 
 #include <atomic>
@@ -68,6 +71,7 @@ class Cluster {
   void run();
   void tick();
   void watchSignals();
+  void tellState() const;
   bool isOver(Time now) const;
   void fail(const std::string& line);
   void watchForStall(Time now);

@@ -37,7 +37,7 @@ void LocalClients::start(Time now) {
 }
 
 void LocalClients::startOne(Slot& slot, Time now) {
-  const UniqueFd key(keyPipe(*plan_.key));
+  const Descriptor key(keyPipe(*plan_.key));
   std::vector<std::string> arguments = plan_.arguments;
   arguments.push_back("--name=" + slot.name());
   arguments.push_back(fmt::format("--key-descriptor={}", kInheritedDescriptor));

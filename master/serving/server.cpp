@@ -331,6 +331,36 @@ std::string Server::stuckTasks(Time now) const {
   return text;
 }
 
+std::vector<std::string> Server::explain(Time now) const {
+  std::vector<std::string> lines = scheduler_.explainFrames(now);
+  if (!started_)
+    lines.push_back(fmt::format("no frame yet: {} of {} clients are ready (--wait-clients)",
+                                scheduler_.clients(), setup_.waitClients));
+  else if (lines.empty())
+    lines.emplace_back("no frame is open: none is wanted, or there is no room for one");
+  for (const auto& [id, peer] : peers_)
+    if (!peer.session->over())
+      lines.push_back(fmt::format("client {}, {}: {}", id, describe(*peer.session),
+                                  explainClient(id, *peer.session, now)));
+  return lines;
+}
+
+std::string Server::explainClient(ClientId id, const ClientSession& session, Time now) const {
+  switch (session.status().state) {
+    case ClientState::connecting:
+      return "has not introduced itself";
+    case ClientState::syncing:
+      return fmt::format("has {:.0f} % of the scene", 100 * session.status().synced);
+    case ClientState::building:
+      return "builds the scene";
+    default:
+      break;
+  }
+  if (joining_.contains(id))
+    return "is ready and waits: open frames are of a job that it has missed";
+  return scheduler_.explainClient(id, now);
+}
+
 bool Server::isConnected() const {
   return std::ranges::any_of(peers_, [](const auto& p) { return p.second.connection != nullptr; });
 }

@@ -90,6 +90,8 @@ class Server {
   bool nothingMoves() const;
   // Who is stuck where: "client 1 in frame 3, tile 5, set 2, client 2 in ..."; the first few.
   std::string stuckTasks(Time now) const;
+  // What is under way and what each client waits for, line by line.
+  std::vector<std::string> explain(Time now) const;
   // When the latest result came, or client became ready.
   Time lastMove() const { return lastMove_; }
   int readyClients() const { return scheduler_.clients(); }
@@ -125,6 +127,7 @@ class Server {
   void letJoin(Time now);
   void giveUpOpenFrames(Time now);
   void tell(const StuckNote& note) const;
+  std::string explainClient(ClientId id, const ClientSession& session, Time now) const;
   void count(const ReceivedTile& tile);
   void announce(const FrameOrder& order);
   void openFrames(Time now);

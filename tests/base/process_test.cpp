@@ -20,7 +20,7 @@ std::string waitForEnd(ChildProcess& child) {
   }
 }
 
-std::string readAll(const UniqueFd& fd) {
+std::string readAll(const Descriptor& fd) {
   std::string text;
   char buffer[256];
   for (ssize_t n; (n = ::read(fd.get(), buffer, sizeof buffer)) > 0;)
@@ -30,7 +30,7 @@ std::string readAll(const UniqueFd& fd) {
 
 TEST(ChildProcess, SeesTheInheritedDescriptorAndNoOtherOfOurs) {
   Pipe answer = makePipe();
-  const UniqueFd openForUsOnly(::dup(STDIN_FILENO));  // without close-on-exec, on purpose
+  const Descriptor openForUsOnly(::dup(STDIN_FILENO));  // without close-on-exec, on purpose
   ASSERT_TRUE(openForUsOnly);
   auto child =
       ChildProcess::start("/bin/sh", {"-c", "ls /proc/self/fd | wc -l >&3"}, answer.writeEnd);

@@ -33,7 +33,7 @@ int statusOf(const std::function<int()>& action) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-void becomes(int stream, const UniqueFd& other) { ::dup2(other.get(), stream); }
+void becomes(int stream, const Descriptor& other) { ::dup2(other.get(), stream); }
 
 TEST(StandardStreams, ALineWithoutAReaderKillsNothing) {
   EXPECT_EQ(statusOf([] {
@@ -77,7 +77,7 @@ TEST(StandardStreams, ALineForAFullPipeIsNotWaitedFor) {
 
 TEST(StandardStreams, AFullDiskLosesALineAndFailsAResult) {
   EXPECT_EQ(statusOf([] {
-              const UniqueFd full(::open("/dev/full", O_WRONLY));
+              const Descriptor full(::open("/dev/full", O_WRONLY));
               becomes(STDERR_FILENO, full);
               becomes(STDOUT_FILENO, full);
               sayToPeople("lost\n");

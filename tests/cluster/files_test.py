@@ -207,6 +207,9 @@ class Files(ClusterTest):
         self.assertEqual(self.parts(), [])
 
 
+RELEASE = r"^{} \d+\.\d+\.\d+(\+[0-9a-f]{{12}}(-dirty\.[0-9a-f]{{8}})?)?\n$"
+
+
 class Usage(ClusterTest):
     PROGRAMS = sorted(p for p in BIN.glob("ninefold-*") if os.access(p, os.X_OK))
 
@@ -218,7 +221,7 @@ class Usage(ClusterTest):
     def test_every_program_tells_its_version_its_flags_and_its_exit_status(self):
         self.assertIn(BIN / "ninefold-master", self.PROGRAMS)
         for program in self.PROGRAMS:
-            self.assertRegex(self.said(program, "--version"), rf"^{program.name} \d+\.\d+\.\d+\n$")
+            self.assertRegex(self.said(program, "--version"), RELEASE.format(program.name))
             text = self.said(program, "--help")
             self.assertEqual(self.said(program, "-h"), text)
             self.assertRegex(text, r"Exit status: 0 [^\0]*1 a failure[^\0]*2 wrong usage", program)

@@ -1,5 +1,6 @@
 // replay.cpp: runs a fuzz target without libFuzzer: a fixed, seeded number of mutations of its
-// seeds, or the files named on the command line (to look at what libFuzzer found).
+// seeds, or the files named on the command line (to look at what libFuzzer found). NINEFOLD_TEST_SEED=17 runs
+// mutation 17 alone.
 //
 //   fuzz_<name> [FILE...]
 //
@@ -20,9 +21,11 @@ using Input = std::vector<uint8_t>;
 
 constexpr int kMutations = 2000;
 volatile std::sig_atomic_t current = 0;
+const char* program = "";
 
 void onFailure(int signal) {
-  std::fprintf(stderr, "input %d failed\n", static_cast<int>(current));
+  const int input = current;
+  std::fprintf(stderr, "input %d failed; again: NINEFOLD_TEST_SEED=%d %s\n", input, input, program);
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -125,8 +128,11 @@ int main(int argc, char** argv) {
   if (argc > 1) return replayFiles(argc - 1, argv + 1);
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
     std::signal(signal, onFailure);
+  program = argv[0];
+  const char* asked = std::getenv("NINEFOLD_TEST_SEED");
+  const int first = asked != nullptr ? std::atoi(asked) : 0;
   Mutator mutate(ninefoldFuzzSeeds());
-  for (int i = 0; i < kMutations; ++i) {
+  for (int i = first; i < (asked != nullptr ? first + 1 : kMutations); ++i) {
     current = i;
     const Input input = mutate(i);
     LLVMFuzzerTestOneInput(input.data(), input.size());

@@ -64,7 +64,7 @@ TEST(RestartPolicy, ThreeHangsInARowAreEnoughUnlessAResultCameBetween) {
 
 TEST(LocalClients, GetTheKeyByTheirDescriptor) {
   std::string file = testing::TempDir() + "ninefold-key-bytes-XXXXXX";
-  ASSERT_GE(UniqueFd(::mkstemp(file.data())).get(), 0);
+  ASSERT_GE(Descriptor(::mkstemp(file.data())).get(), 0);
   LocalClients clients(shell("wc -c <&3 >" + file + "; exec sleep 1000", 1));
   clients.start(Time(seconds(100)));
   int bytes = 0;

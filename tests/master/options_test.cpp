@@ -51,12 +51,14 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
   s.bound = 12.345f, s.vplRoulette = 1.25f, s.photonRadius = 0.0123f;
   s.caustics = Caustics::direct, s.randomization = Randomization::exclusiveOr;
   s.environment = Vec3(0.1f, 0.25f, 1e-3f);
-  const std::string line = replayLine(scene, s, 6);
-  const std::string program = "ninefold-master ";
-  ASSERT_TRUE(line.starts_with(program));
-  const Options o = parse(line.substr(program.size()), {}, false);
+  const FrameKey frame{6, 7, 8, 0.25f};
+  const std::string program = "ninefold-replay-task SCENE --frame 6:7:8:0.25 --tile 3 --phase 2 ";
+  const auto parseLine = [&](const std::string& line) {
+    EXPECT_TRUE(line.starts_with(program)) << line;
+    return parse(line.substr(program.size()) + " SCENE", {}, false);
+  };
+  const Options o = parseLine(replayLine(scene, s, frame, 3, 2));
   EXPECT_EQ(o.scene, "SCENE");
-  EXPECT_EQ(o.stop.frames, 7) << "frames are numbered from 0";
   Settings again = makeSettings(o, scene);
   EXPECT_LT(glm::length(again.camera.eye - s.camera.eye), 1e-5f);
   EXPECT_LT(glm::length(again.camera.forward - s.camera.forward), 1e-5f);
@@ -67,8 +69,8 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
   // What a method has no use for is not named.
   for (const MethodFacts& facts : allMethods()) {
     s.method = facts.method;
-    const std::string words = replayLine(scene, s, 0).substr(program.size());
-    const Settings same = makeSettings(parse(words, {}, false), scene);
+    const std::string words = replayLine(scene, s, frame, 3, 2);
+    const Settings same = makeSettings(parseLine(words), scene);
     forEachSetting([&](const auto& row) {
       const bool isNamed = words.find(fmt::format("--{} ", row.name)) != std::string::npos;
       if (row.value == nullptr) return;
@@ -77,6 +79,11 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
       EXPECT_EQ(same.*row.member, s.*row.member) << facts.name << ": " << words;
     });
   }
+
+  s.camera = scene.cameras[0];
+  s.method = Method::instantRadiosity, s.compensate = s.jitter = false;
+  EXPECT_EQ(makeSettings(parseLine(replayLine(scene, s, frame, 3, 2)), scene), s)
+      << "to the bit, with a camera of the scene's; without compensation by the paper's preset";
 }
 
 // Range, default and what presets make of it come from where they are used.

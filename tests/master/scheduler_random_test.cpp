@@ -2,6 +2,7 @@
 #include <random>
 
 #include "tests/master/scheduler_bench.h"
+#include "tests/seeds.h"
 
 namespace ninefold {
 namespace {
@@ -116,9 +117,9 @@ class RandomLife {
 };
 
 TEST(SchedulerRandom, TheBooksBalanceWhateverHappens) {
-  for (const uint32_t seed : {1u, 2u, 3u}) {
-    SCOPED_TRACE(seed);
-    RandomLife(seed).play(10'000);
+  for (const uint64_t seed : seedsFrom(1, 3)) {
+    const Repeatable repeatable(seed);
+    RandomLife(static_cast<uint32_t>(seed)).play(10'000);
   }
 }
 

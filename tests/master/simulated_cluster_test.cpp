@@ -7,6 +7,8 @@
 
 #include <random>
 
+#include "tests/seeds.h"
+
 namespace ninefold {
 namespace {
 
@@ -182,9 +184,9 @@ TEST(SimulatedCluster, ViewChangesCancelAndTheNewestFramesStillComplete) {
 }
 
 TEST(SimulatedCluster, SurvivesRandomFailures) {
-  for (const uint32_t seed : {1u, 2u, 3u, 4u}) {
-    SCOPED_TRACE(seed);
-    std::mt19937 random(seed);
+  for (const uint64_t seed : seedsFrom(1, 4)) {
+    const Repeatable repeatable(seed);
+    std::mt19937 random(static_cast<uint32_t>(seed));
     const auto uniform = [&](double a, double b) {
       return std::uniform_real_distribution<double>(a, b)(random);
     };

@@ -23,9 +23,35 @@ TEST(Recording, IsWholeOnceItIsFinishedAndTheOldOneUntilThen) {
   recorder.finish();
   recorder.add(result(3));  // a worker that has not heard of the end
   recorder.finish();
-  const std::vector<msg::Result> results = readRecording(file);
+  const std::vector<msg::Result> results = readResults(file);
   ASSERT_EQ(results.size(), 3u);
   EXPECT_EQ(results[2].frame, 2u);
+}
+
+TEST(Recording, HoldsWhatTheMasterAskedForInItsOrder) {
+  const TempFolder folder;
+  msg::Hello hello;
+  hello.name = "north";
+  msg::Edit edit;
+  edit.version = 2;
+  Recorder recorder(folder.path() / "r", hello);
+  const msg::Tasks tasks{.jobVersion = 4, .frame = {3, 2, 1, 0.5f}, .items = {{7, 8, 0}}};
+  for (const Message& message :
+       {Message(msg::SceneOffer{1, {BlobInfo{.rawBytes = 9}}}), Message(msg::Ping{5}),
+        Message(edit), Message(msg::Configure{1, 4, Settings{}}), Message(tasks),
+        Message(msg::Cancel{})})
+    recorder.heard(message);
+  recorder.add(result(3));
+  recorder.finish();
+  const std::vector<Message> messages = readRecording(folder.path() / "r");
+  ASSERT_EQ(messages.size(), 6u) << "heartbeats and the like are of no use";
+  EXPECT_EQ(std::get<msg::Hello>(messages[0]).name, "north");
+  EXPECT_EQ(std::get<msg::SceneOffer>(messages[1]).blobs.at(0).rawBytes, 9u);
+  EXPECT_EQ(std::get<msg::Edit>(messages[2]).version, 2u);
+  EXPECT_EQ(std::get<msg::Configure>(messages[3]).jobVersion, 4u);
+  EXPECT_EQ(std::get<msg::Tasks>(messages[4]).items, tasks.items);
+  EXPECT_EQ(std::get<msg::Tasks>(messages[4]).frame.photonRadius, 0.5f);
+  EXPECT_EQ(std::get<msg::Result>(messages[5]).frame, 3u);
 }
 
 TEST(Recording, AFileThatCannotBeIsRefusedBeforeAnythingIsRendered) {

@@ -85,6 +85,7 @@ TEST(SceneBlobs, ASceneComesBackBitForBit) {
   for (size_t i = 0; i < blobs.size(); ++i) EXPECT_EQ(again[i].info, blobs[i].info) << i;
 
   EXPECT_EQ(scene.images[0].texels, someScene().images[0].texels);
+  EXPECT_TRUE(scene.images[0].ranges.has_value()) << "a client looks at texels once";
   EXPECT_EQ(scene.materials[0].baseColorMap.wrapS, Wrap::mirror);
   EXPECT_EQ(scene.materials[1].attenuationDistance, std::numeric_limits<float>::infinity());
   EXPECT_EQ(scene.meshes[1].positions, someScene().meshes[1].positions);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/sampling/sampler.h"
+#include "tests/seeds.h"
 
 namespace ninefold {
 namespace {
@@ -20,7 +21,8 @@ std::vector<float> randomWeights(uint32_t n, uint64_t seed) {
 }
 
 TEST(Distribution, ChoosesInProportionAndNeverAZeroWeight) {
-  for (uint64_t seed = 0; seed < 20; ++seed) {
+  for (const uint64_t seed : seedsFrom(0, 19)) {
+    const Repeatable repeatable(seed);
     const std::vector<float> weights = randomWeights(17, seed);
     const Distribution d(weights);
     constexpr uint32_t kGrid = 1u << 16;

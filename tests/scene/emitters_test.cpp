@@ -188,6 +188,28 @@ TEST(Emitters, MaskedTexelsDoNotShine) {
   EXPECT_EQ(emitters.radianceOf(0, {Vec2(0.8f, 0), Vec2(0)}), Vec3(0));
 }
 
+// One is asked for before the table is made: the answer is that of the table.
+TEST(Emitters, AreAnyIfTheTableHasOne) {
+  const auto agrees = [](const Scene& scene, bool expected) {
+    EXPECT_EQ(Emitters::anyIn(scene), expected);
+    EXPECT_EQ(!Emitters(scene, Radiance(0)).empty(), expected);
+  };
+  agrees(simpleScene(), false);
+  agrees(glowing(Vec3(0, 0, 0.1f)), true);
+  agrees(halfLit(), true);
+  Scene black = halfLit();
+  std::fill(black.images[0].texels.begin(), black.images[0].texels.end(), uint8_t{0});
+  agrees(black, false);
+  Scene flat = glowing(Vec3(1));
+  for (Vec3& p : flat.meshes[0].positions) p.x = 0;
+  agrees(flat, false);
+  Scene lamp = simpleScene();
+  lamp.lights.resize(1);
+  agrees(lamp, true);
+  lamp.lights[0].intensity = Vec3(0);
+  agrees(lamp, false);
+}
+
 // A lamp that is in the file twice is seen once, so it counts once; the side that it shows is part of
 // it, the corner at which its triangles start is not.
 TEST(Emitters, WhatIsThereTwiceShinesOnce) {

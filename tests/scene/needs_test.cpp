@@ -2,6 +2,7 @@
 
 #include "common/image/layers.h"
 #include "common/scene/needs.h"
+#include "common/scene/texel_ranges.h"
 #include "tests/scene/one_line_error.h"
 #include "tests/scene/simple_scene.h"
 
@@ -44,6 +45,26 @@ TEST(Needs, FoldingLooksAtTheSmoothestTexel) {
   scene.images.push_back({"map", 2, 1, 3, false, {0, 255, 0, 0, 200, 0}});
   EXPECT_TRUE(foldsIntoDiffuse(scene, m));
   scene.images[0].texels[4] = 100;
+  EXPECT_FALSE(foldsIntoDiffuse(scene, m));
+}
+
+// Kept once, the ranges answer: nobody looks at the texels again, which edits do not change.
+TEST(Needs, OfAFinishedSceneComeFromRangesThatWereKept) {
+  Scene scene = simpleScene();
+  scene.images.push_back({"map", 2, 1, 3, false, {9, 255, 0, 7, 200, 0}});
+  keepTexelRanges(scene);
+  ASSERT_TRUE(scene.images[0].ranges.has_value());
+  const TexelRanges& ranges = *scene.images[0].ranges;
+  EXPECT_EQ(ranges[0].low, 7);
+  EXPECT_EQ(ranges[0].high, 9);
+  EXPECT_EQ(ranges[1].low, 200);
+  EXPECT_EQ(ranges[1].high, 255);
+  Material m = matte();
+  m.metallicRoughnessMap.image = 0;
+  EXPECT_TRUE(foldsIntoDiffuse(scene, m));
+  scene.images[0].texels[4] = 100;
+  EXPECT_TRUE(foldsIntoDiffuse(scene, m)) << "the texels were asked";
+  keepTexelRanges(scene);
   EXPECT_FALSE(foldsIntoDiffuse(scene, m));
 }
 

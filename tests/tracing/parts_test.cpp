@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
-#include <cstring>
 #include <memory>
+#include <string>
 
 #include "common/tracing/tracer.h"
+#include "tests/seeds.h"
 #include "tests/tracing/make_scene.h"
 
 namespace ninefold {
@@ -18,12 +18,12 @@ namespace {
 
 constexpr unsigned kPatience = 60;  // [s]; the longest test here takes less than one
 
-// Ends the process, with a line that names the seed, if it outlives kPatience.
+// Ends the process, with the command that repeats the seed, if it outlives kPatience.
 class Watchdog {
  public:
   Watchdog() {
     std::signal(SIGALRM, [](int) {
-      (void)!write(STDERR_FILENO, line_, std::strlen(line_));
+      (void)!write(STDERR_FILENO, line_.data(), line_.size());
       _exit(1);
     });
     alarm(kPatience);
@@ -31,12 +31,11 @@ class Watchdog {
   ~Watchdog() { alarm(0); }
 
   static void watch(uint64_t seed) {
-    std::snprintf(line_, sizeof line_, "a ray query does not return; seed %d\n",
-                  static_cast<int>(seed));
+    line_ = "a ray query does not return; again: " + Repeatable::commandFor(seed) + "\n";
   }
 
  private:
-  static inline char line_[64];
+  static inline std::string line_;
 };
 
 // Instances of random triangles, a box about them, and one in three seen through a mask.
@@ -121,8 +120,8 @@ TEST_P(PartsOnIsa, AreTracedAsOneSceneHoweverMuchOfItHasMoved) {
   const Watchdog watchdog;
   if (GetParam() == Isa::avx512 && !__builtin_cpu_supports("avx512vl"))
     GTEST_SKIP() << "no AVX-512 here";
-  for (uint64_t seed = 1; seed <= 60; ++seed) {
-    SCOPED_TRACE(seed);
+  for (const uint64_t seed : seedsFrom(1, 60)) {
+    const Repeatable repeatable(seed);
     Watchdog::watch(seed);
     Dice dice(seed);
     const int count = 2 + dice.below(24);
