@@ -26,7 +26,7 @@ static_assert(membersOf<Settings>() == std::tuple_size_v<decltype(kSettings)>,
 
 // Ranges are of real numbers; their ends become floats as values do.
 template <typename T, typename Row>
-void check(const char* what, T value, const Row& row) {
+void checkNumber(const char* what, T value, const Row& row) {
   if (value >= static_cast<T>(row.low) && value <= static_cast<T>(row.high)) return;
   const char* space = row.unit[0] == '\0' ? "" : " ";
   fail("{} is {}, must be {} to {}{}{}", what, value, row.low, row.high, space, row.unit);
@@ -69,17 +69,17 @@ std::string textOf(Interleave value) { return fmt::format("{}x{}", value.n, valu
 
 std::string textOf(Radiance value) { return fmt::format("{},{},{}", value.x, value.y, value.z); }
 
-void checkRange(const Setting<int>& row, int value) { check(row.name, value, row); }
+void checkRange(const Setting<int>& row, int value) { checkNumber(row.name, value, row); }
 
-void checkRange(const Setting<float>& row, float value) { check(row.name, value, row); }
+void checkRange(const Setting<float>& row, float value) { checkNumber(row.name, value, row); }
 
 void checkRange(const Setting<Interleave>& row, Interleave value) {
-  check("interleave columns", value.n, row);
-  check("interleave rows", value.m, row);
+  checkNumber("interleave columns", value.n, row);
+  checkNumber("interleave rows", value.m, row);
 }
 
 void checkRange(const Setting<Radiance>& row, Radiance value) {
-  for (int i = 0; i < 3; ++i) check(row.name, value[i], row);
+  for (int i = 0; i < 3; ++i) checkNumber(row.name, value[i], row);
 }
 
 void checkRange(const Setting<Camera>&, const Camera& camera) {
