@@ -5,10 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "common/gi/radiosity/light_set.h"
-#include "common/sampling/sampler.h"
-#include "common/scene/methods.h"
 #include "common/gi/renderer.h"
 #include "common/gi/vpl/indirect_vpls.h"
+#include "common/sampling/sampler.h"
+#include "common/scene/methods.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"
 
