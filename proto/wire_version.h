@@ -2,7 +2,7 @@
 //
 // A cluster is one release, so that another number is another release, too; the number says to people which
 // of both is older. tests/proto/wire_version_test.cpp compares what is spoken with the digests here:
-//   messages   the text of messages.proto without comments and spaces
+//   messages   the text of messages.proto without comments and spaces, and the names of all settings
 //   tiles      stored tiles of all layers and planes, of radiance and of a display's codes
 //   scenes     the raw blobs of a scene with one of everything
 //
@@ -17,7 +17,7 @@ namespace ninefold {
 // Raised whenever the meaning of any message, the tiles' or the scenes' format changes.
 inline constexpr uint32_t kProtocol = 3;
 
-inline constexpr std::string_view kMessagesDigest = "9cfa9002f505b67f";
+inline constexpr std::string_view kMessagesDigest = "c4c5aa85cd86288c";
 inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
 inline constexpr std::string_view kScenesDigest = "fde0a0c2619dbf8c";
 

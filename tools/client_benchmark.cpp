@@ -25,8 +25,8 @@ namespace po = boost::program_options;
 
 struct Options {
   std::string scene, size = "640x480", isa = "auto";
-  int frames = 4, directVpls = 4, indirectVpls = 18, photons = 1000, level = 1;
-  float vplRoulette = Settings{}.vplRoulette;
+  int frames = 4, level = 1;
+  Settings settings;
   bool noCompensation = false, json = false;
 };
 
@@ -43,15 +43,24 @@ struct Cost {
   double whole() const { return sets + tiles + encoding; }
 };
 
+// As the master's flags of the same names.
+void checkSettings(const Settings& s) {
+  const auto check = [&](const auto& row) {
+    checkRange(row.name, static_cast<double>(s.*row.member), row.low, row.high);
+  };
+  check(settingOf(&Settings::directVpls));
+  check(settingOf(&Settings::indirectVpls));
+  check(settingOf(&Settings::photons));
+  check(settingOf(&Settings::vplRoulette));
+}
+
 Settings settingsFor(const Options& o, const Scene& scene) {
-  Settings s;
+  Settings s = o.settings;
   const auto [width, height] = parseSize(o.size);
   s.width = width, s.height = height;
   s.camera = scene.cameras.front();
   s.environment = scene.environment;
-  s.directVpls = o.directVpls, s.indirectVpls = o.indirectVpls, s.photons = o.photons;
   s.compensate = !o.noCompensation;
-  s.vplRoulette = o.vplRoulette;
   return s;
 }
 
@@ -181,17 +190,18 @@ int run(int argc, char** argv) {
   command.words = {{"SCENE", &o.scene}};
   command.flags.add_options()("size", po::value(&o.size), "WxH, default 640x480")(
       "frames", po::value(&o.frames), "how many frames to measure, default 4")(
-      "direct-vpls", po::value(&o.directVpls), "per set, default 4")(
-      "indirect-vpls", po::value(&o.indirectVpls), "per set, mean, default 18")(
-      "photons", po::value(&o.photons), "per set, default 1000")(
+      "direct-vpls", po::value(&o.settings.directVpls), "per set, default as the master's")(
+      "indirect-vpls", po::value(&o.settings.indirectVpls), "per set, mean, the same")(
+      "photons", po::value(&o.settings.photons), "per set, the same")(
       "level", po::value(&o.level), "zstd level of the tiles, default 1; 0 = none")(
-      "vpl-roulette", po::value(&o.vplRoulette),
+      "vpl-roulette", po::value(&o.settings.vplRoulette),
       "default as the master's; 0 = every virtual light is asked")(
       "no-compensation", po::bool_switch(&o.noCompensation), "leave the bound's energy out")(
       "isa", po::value(&o.isa), "auto, avx2 or avx512")("json", po::bool_switch(&o.json),
                                                         "write one JSON object");
   if (!parseCommandLine(argc, argv, command)) return 0;
   checkRange("frames", o.frames, 1, 1'000'000);
+  checkSettings(o.settings);
   const Scene scene = readScene(o.scene);
   Bench bench(scene, o, isaFrom(o.isa));
   Cost cost, warm;

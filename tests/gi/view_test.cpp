@@ -29,8 +29,8 @@ TEST(View, AnotherCameraOnTheSameLightGivesTheBytesOfANewRenderer) {
   for (int phase = 0; phase < 9; ++phase) {
     const auto lights = original.light(key, lightSetOfPhase(phase, key.rotation, 9));
     shared.render(Task{key, 0, phase, 7}, *lights, *scratch, a);
-    fresh.render(Task{key, 0, phase, 7}, *fresh.light(key, lightSetOfPhase(phase, 3, 9)),
-                 *scratch, c);
+    fresh.render(Task{key, 0, phase, 7}, *fresh.light(key, lightSetOfPhase(phase, 3, 9)), *scratch,
+                 c);
     EXPECT_EQ(a.layers, c.layers);
     EXPECT_EQ(a.extras, c.extras);
     EXPECT_EQ(a.width * a.height, TileGrid(20, 15, {3, 3}).rect(0, phase).count());

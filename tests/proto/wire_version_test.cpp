@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "common/scene/settings_table.h"
 #include "proto/compression.h"
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
@@ -38,7 +39,9 @@ std::string messagesText() {
   std::stringstream text;
   text << std::ifstream(file).rdbuf();
   const std::string bare = std::regex_replace(text.str(), std::regex("//[^\n]*"), "");
-  return std::regex_replace(bare, std::regex("\\s+"), " ");
+  std::string all = std::regex_replace(bare, std::regex("\\s+"), " ");
+  forEachSetting([&](const auto& row) { all += row.name + std::string(" "); });
+  return all;
 }
 
 // Ramps over all that a field can hold, a pixel without a surface among them.
