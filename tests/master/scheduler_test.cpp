@@ -253,5 +253,28 @@ TEST(Scheduler, ExplainsWhereATaskIs) {
   EXPECT_TRUE(contains(text({.frame = 0, .tile = 1}), "superseded"));
 }
 
+// Two tasks, both at the only client; one is answered.
+TEST(Scheduler, ExplainsFramesAndClients) {
+  Bench b;
+  EXPECT_TRUE(b.scheduler.explainFrames(b.now).empty());
+  EXPECT_EQ(b.scheduler.explainClient(4, b.now), "gets no tasks");
+  b.join(4);
+  EXPECT_TRUE(b.scheduler.explainClient(4, b.now).ends_with("; waits: no task is to be had"));
+  b.open(0, Bench::grid(2, {1, 1}));
+  b.pass(milliseconds(30));
+  b.answer(4);
+  b.pass(milliseconds(20));
+  const std::vector<std::string> frames = b.scheduler.explainFrames(b.now);
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0], "frame 0: 1 of 2 tasks are done, 1 are at clients, 0 wait");
+  EXPECT_TRUE(frames[1].starts_with("tile 1 phase 0 of frame 0: in flight at client 4 for 50 ms"))
+      << frames[1];
+  const std::string client = b.scheduler.explainClient(4, b.now);
+  EXPECT_TRUE(client.starts_with("holds 1 tasks, refilled at ")) << client;
+  EXPECT_NE(client.find("the oldest is frame 0, tile 1, set 0, at work on it for 20 ms"),
+            std::string::npos)
+      << client;
+}
+
 }  // namespace
 }  // namespace ninefold
