@@ -17,7 +17,7 @@ bool usable(const std::vector<float>& values) {
 
 bool usable(const RgbPlane& p) { return usable(p.r) && usable(p.g) && usable(p.b); }
 
-void check(const TileResult& tile) {
+void checkTile(const TileResult& tile) {
   for (const LayerPlanes& layer : tile.layers)
     NINEFOLD_CHECK(usable(layer.reflectance) && usable(layer.irradiance) &&
                    usable(layer.unfiltered) && usable(layer.distance));
@@ -83,7 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   } catch (const Error&) {
     return 0;
   }
-  check(tile);
+  checkTile(tile);
   // A decoded tile is an ordinary tile: it can be sent on, and loses nothing but its dither.
   const auto again = TileEncoder().encode(tile, 1, 1);
   NINEFOLD_CHECK(again.replaced.count == 0);
