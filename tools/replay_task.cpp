@@ -13,6 +13,7 @@
 #include "common/base/program.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
+#include "common/scene/methods.h"
 #include "common/scene/needs.h"
 #include "common/scene/reader.h"
 #include "master/options/options.h"
@@ -168,9 +169,9 @@ FrameKey frameOf(const std::string& text, uint32_t number, FramePlan& plan) {
     failUsage("--frame {}: must be N or N:RANDOMIZATION:ROTATION:RADIUS", text);
   constexpr double kMost = std::numeric_limits<uint32_t>::max();
   for (const size_t i : {0u, 1u, 2u}) checkRange("frame", parts[i], 0.0, kMost);
+  checkRange("frame", parts[3], 0.0, double{std::numeric_limits<float>::max()});
   key = {static_cast<uint32_t>(parts[0]), static_cast<uint32_t>(parts[1]),
          static_cast<uint32_t>(parts[2]), static_cast<float>(parts[3])};
-  checkRanges(key);
   return key;
 }
 

@@ -83,7 +83,7 @@ class Stuck(ClusterTest):
         self.assertEqual(master.ends(), 1, master.text)
         self.assertEqual(master.text.count("this client ends: not done after "), 3, master.text)
         self.assertRegex(master.text, r"client local1.*: not done after \d+ s is frame 0, tile \d+, set \d "
-                                      r"\(again: ninefold-replay-task SCENE .*--size 96x72 .*--seed 1 ")
+                                      r"\(again: ninefold-replay-task SCENE .*--size 96x72 .*--seed 1[ )]")
         last = [line for line in master.lines if line][-1]
         self.assertRegex(last, r"^ninefold-master: local client 1 hung 3 times in a row without a result, "
                                r"at last in frame 0, tile \d+, set \d, and is given up")

@@ -149,7 +149,7 @@ TEST(LightCheckDeathTest, NamesTheValueThePlaceAndTheCommand) {
   EXPECT_DEATH(
       checkLight(tile, task, scene, s),
       "diffuse layer: E is \\(0, inf, 0\\) at the task's pixel 1, frame 3, tile 5, phase 2; "
-      "ninefold-replay-task SCENE --frame 3:0:0:.* --tile 5 --phase 2 .*--seed 77 ");
+      "ninefold-replay-task SCENE --frame 3:0:0:.* --tile 5 --phase 2 .*--seed 77[ )]");
   LightSet lights;
   lights.vpls.resize(2);
   checkLight(lights, task.frame, 4, scene, s);
