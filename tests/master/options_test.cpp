@@ -55,7 +55,7 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
   const std::string program = "ninefold-replay-task SCENE --frame 6:7:8:0.25 --tile 3 --phase 2 ";
   const auto parseLine = [&](const std::string& line) {
     EXPECT_TRUE(line.starts_with(program)) << line;
-    return parse(line.substr(program.size()) + " SCENE", {}, false);
+    return parse(line.substr(program.size()) + " SCENE");
   };
   const Options o = parseLine(replayLine(scene, s, frame, 3, 2));
   EXPECT_EQ(o.scene, "SCENE");
