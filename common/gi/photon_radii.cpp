@@ -9,11 +9,11 @@ constexpr float kBrightest = 1;
 
 }  // namespace
 
-PhotonRadii::PhotonRadii(const Transport& t, Metres radius) : radius_(radius) {
-  const float shrunk = radius / (t.settings.photonRadius * t.radius);  // r / r_first
+PhotonRadii::PhotonRadii(const Transport& t, Metres radius)
+    : radius_(radius), first_(t.settings.photonRadius * t.radius) {
   // Fractions of R: their squares stay in range whatever the scene's size.
   for (size_t j = 0; j < kPhotonKinds; ++j) {
-    const float part = this->radius(j) / (shrunk * t.radius);
+    const float part = first(j) / t.radius;
     most_[j] = kBrightest * 0.25f * part * part * t.lampFlux;
   }
 }
