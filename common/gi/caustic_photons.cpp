@@ -50,8 +50,8 @@ struct Deposit {
   }
 };
 
-// Follows a photon through S vertices and calls land(Landed) at the first D vertex if it was focused
-// on it. share: 1/number of photons sent out.
+// Follows a photon through S vertices and calls land(Landed) at the first D vertex if it was
+// focused on it. share: 1/number of photons sent out.
 template <typename Land>
 void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media,
                  int diffuseBefore, const LightSampler& sampler, uint32_t i, float share,

@@ -1,19 +1,19 @@
-// photon_radii.h: how wide a photon is spread: as wide as its flux asks for, as narrow as the pattern
-// of the light asks for.
+// photon_radii.h: how wide a photon is spread: as wide as its flux asks for, as narrow as the
+// pattern of the light asks for.
 //
-//   r_j = 2^(j-3) r,   0 <= j < kPhotonKinds
+//   r_j = 2^(j-2) r,   0 <= j < kPhotonKinds
 //
-// No photon is a bright spot of its own. Where many photons come down, each carries little; where few
-// come down, each is spread wider:
+// No photon is a bright spot of its own. Where many photons come down, each carries little; where
+// few come down, each is spread wider:
 //
-//   j >= 3, the least with   Phi/(pi r_j^2) <= E_max
+//   j >= 2, the least with   Phi/(pi r_j^2) <= E_max
 //   E_max = kBrightest E_0 (r_first/r)^2,   E_0 = flux of all lights / (4 pi R^2)
 //
-// Then j falls by up to 3 where the lamp's photons do not lie evenly within r_j (photon_spread.h).
+// Then j falls by up to 2 where the lamp's photons do not lie evenly within r_j (photon_spread.h).
 //
-// R: radius of the scene's bounds, E_0 and it as a gesture found them (transport.h); r: the frame's
-// radius, r_first: the first frame's. j depends on the first radii alone, so that all r_j shrink with
-// r: the estimate stays consistent, and blur goes with r^2 (image/radius_bias.h).
+// R: radius of the scene's bounds, E_0 and it as a gesture found them (transport.h); r: the
+// frame's radius, r_first: the first frame's. j depends on the first radii alone, so that all r_j
+// shrink with r: the estimate stays consistent, and blur goes with r^2 (image/radius_bias.h).
 //
 // Source:  written for this project; the same end as photon differentials (Schjoth et al. 2007).
 // Fails:   light that is spread wide leaks to neighbours on the same side, which goes with r.
@@ -27,7 +27,7 @@
 
 namespace ninefold {
 
-inline constexpr size_t kPhotonHalvings = 3;  // r_0 = r/8
+inline constexpr size_t kPhotonHalvings = 2;  // r_0 = r/4
 inline constexpr size_t kPhotonKinds = kPhotonHalvings + 5;
 
 using SortedPhotons = std::array<std::vector<Photon>, kPhotonKinds>;
@@ -49,7 +49,7 @@ class PhotonRadii {
   Metres first(size_t j) const { return kFactors[j] * first_; }
 
  private:
-  static constexpr std::array<float, kPhotonKinds> kFactors{0.125f, 0.25f, 0.5f, 1, 2, 4, 8, 16};
+  static constexpr std::array<float, kPhotonKinds> kFactors{0.25f, 0.5f, 1, 2, 4, 8, 16};
   Metres radius_, first_;
   std::array<float, kPhotonKinds> most_;  // flux that r_j can bear [W]
 };

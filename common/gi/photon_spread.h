@@ -7,16 +7,16 @@
 //
 //   s^2 = 1 evenly spread; 1 - 2 (4/(3 pi))^2 = 0.64 at a straight rim; 2/3 on a line; 0 in a point
 //
-// They are told to be uneven if s^2 < 3/4 and S >= 5 Phi: of fewer, chance alone makes patterns, and
-// a photon that is brighter than all others together stays wide.
+// They are told to be uneven if s^2 < 3/4 and S >= 5 Phi: of fewer, chance alone makes patterns,
+// and a photon that is brighter than all others together stays wide.
 //
-// Photons of one lamp only are looked at: what is done to another lamp in a gesture changes nothing
-// (light_streams.h). Those from VPLs come in clumps of the few VPLs that they started from, which are
-// no rims: they are neither looked at nor asked for (conference, 64 frames: relMSE 0.0061 instead of
-// 0.0028).
+// Photons of one lamp only are looked at: what is done to another lamp in a gesture changes
+// nothing (light_streams.h). Those from VPLs come in clumps of the few VPLs that they started
+// from, which are no rims: they are neither looked at nor asked for (conference, 64 frames: relMSE
+// 0.0061 instead of 0.0028).
 //
-// Source:  sample-point adaptive kernels, Breiman, Meisel, Purcell 1977 and Abramson 1982; the measure
-//          of evenness was made for this project. Tried beside it: docs/performance.md.
+// Source:  sample-point adaptive kernels, Breiman, Meisel, Purcell 1977 and Abramson 1982; the
+//          measure of evenness was made for this project. Tried beside it: docs/performance.md.
 // Proved:  tests/gi/photon_spread_test.cpp.
 // Threads: const after the last add.   Errors: none.
 #pragma once

@@ -14,7 +14,8 @@ using testing::SceneBuilder;
 
 constexpr Vec3 kUp(0, 1, 0);
 
-// n photons of flux 1 and lamp 0 on the disc of radius 1 in y = 0, evenly; where(x) says which stay.
+// n photons of flux 1 and lamp 0 on the disc of radius 1 in y = 0, evenly; where(x) says which
+// stay.
 template <typename Where>
 PhotonSpread disc(int n, Where&& where) {
   PhotonSpread spread;
@@ -38,7 +39,8 @@ TEST(PhotonSpread, IsEvenOnAWholeDiscAndUnevenAtItsRim) {
 
 // x at a distance h from the rim of what is lit, in a disc of radius 1:
 //
-//   s^2(h) = 2 (Q/F - (M/F)^2),   F, M, Q = integral over X < h of 2Y, 2XY, 2X^2 Y + 2/3 Y^3, Y = sqrt(1-X^2)
+//   s^2(h) = 2 (Q/F - (M/F)^2),   Y = sqrt(1 - X^2)
+//   F, M, Q = integral over X < h of 2Y, 2XY, 2X^2 Y + 2/3 Y^3
 //
 // which is 0.64, 0.69, 0.78, 0.86 for h = 0, 0.1, 0.3, 0.5.
 TEST(PhotonSpread, IsUnevenAtARimAndNotFarFromIt) {
@@ -67,8 +69,8 @@ TEST(PhotonSpread, NeedsFivePhotonsOfTheLampOnThisSide) {
   EXPECT_FALSE(PhotonSpread().isUneven(at(Vec3(0)), 1));
 }
 
-// The sun shines askew on a square mirror, past a ceiling on which its light lies as a square of half
-// side a.
+// The sun shines askew on a square mirror, past a ceiling on which its light lies as a square of
+// half side a.
 Scene sunOnAMirror(float a) {
   SceneBuilder b;
   b.quad(b.material(testing::mirror()), Vec3(-a, 0, -a), Vec3(0, 0, 2 * a), Vec3(2 * a, 0, 0));
@@ -87,8 +89,8 @@ double beyond(double h) {
   return h >= 1 ? 0 : (std::acos(h) - h * std::sqrt(1 - h * h)) / double(kPi);
 }
 
-// Discs of radius r carry E r 2/(3 pi) over each metre of a straight rim: the integral of beyond(h/r)
-// over h is 2r/(3 pi). Photons at the rim are narrower, those in the middle are not.
+// Discs of radius r carry E r 2/(3 pi) over each metre of a straight rim: the integral of
+// beyond(h/r) over h is 2r/(3 pi). Photons at the rim are narrower, those in the middle are not.
 TEST(PhotonSpread, LessLightLeaksOverAStraightRim) {
   constexpr float a = 0.6f;
   const Scene scene = sunOnAMirror(a);
