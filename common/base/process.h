@@ -2,8 +2,8 @@
 //
 // ChildProcess   owns a running program. Its destructor ends and reaps it, so none is left behind.
 //
-// Threads: one thread owns a ChildProcess and outlives it: the kernel ends the child when the
-//          thread that called start() dies.
+// Threads: one thread owns a ChildProcess and outlives it: a client asks the kernel to be killed
+//          when the thread that called start() dies.
 // Errors:  Error with the system's reason.
 #pragma once
 

@@ -31,7 +31,7 @@ struct Vpl {
   int glossy = -1;       // surface: what its S lobe sends on, in VplSet::glossy; -1: nothing
   MediumStack media;     // surface: around the VPL
 
-  // The D vertices that a path by way of the VPL has at least: none here if it is glossy.
+  // Least number of D vertices that a path by way of the VPL has; a glossy VPL is none itself.
   int leastCount() const { return glossy >= 0 ? diffuseCount - 1 : diffuseCount; }
 };
 
