@@ -5,9 +5,11 @@
 //   code = round(255 OETF(y))       OETF of IEC 61966-2-1 (sRGB)
 //
 // per channel, no dithering: the same radiance always gives the same code. Negative values are
-// black. A pixel with a NaN becomes magenta, so that it is seen. The curve is tabulated over the
-// exponent and 10 bits of the mantissa, which costs at most one code; the table is the same on every
-// machine, as no entry lies nearer to the next code than what mathematical libraries may differ by.
+// black. A pixel with a NaN becomes magenta, so that it is seen.
+//
+// The curve is tabulated over the exponent and 10 bits of the mantissa, which costs at most one
+// code. The table is the same on every machine: no entry lies nearer to the next code than
+// mathematical libraries may differ by.
 //
 // Proved:  tests/image/tone_map_test.cpp.   Threads: const, reentrant.
 #pragma once
