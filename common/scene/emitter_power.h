@@ -1,5 +1,6 @@
-// emitter_power.h: how much the lights of a scene emit; what Emitters builds its table from.
-// Threads: TriangleRadiance is used by one thread; the functions are pure. Refers to the scene.
+// emitter_power.h: how much the lights of a scene emit; Emitters builds its table from it.
+//
+// Owner: refers to the scene.   Threads: TriangleRadiance is one thread's; the functions are pure.
 #pragma once
 
 #include <map>
@@ -11,7 +12,7 @@ namespace ninefold {
 
 TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
 
-// Flux of a punctual light in a scene of radius R [W].
+// Flux of a punctual light in a scene of radius R [m].
 Flux punctualFlux(const PunctualLight& light, float R);
 
 // The radiance of emissive triangles, one side.
