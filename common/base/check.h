@@ -2,7 +2,7 @@
 // comparison, both values; then it aborts.
 //
 //   NINEFOLD_CHECK(claims == held);
-//   internal error: claims == held does not hold (3 and 4) at master/report.cpp:85; please re...
+//   internal error: claims == held does not hold (3 and 4) at master/x.cpp:85; please report...
 //
 // C++ reads `Values() <=> a == b` as `(Values() <=> a) == b`: the first operator keeps a, the
 // second compares it with b and keeps b, too. Each side is evaluated once.

@@ -6,8 +6,8 @@ namespace ninefold {
 
 namespace {
 
-constexpr float kMirrorEta =
-    1e6f;  // beyond it the interface reflects all but 4e-6, and eta^2 nears overflow
+// Beyond it the interface reflects all but 4e-6, and eta^2 nears overflow.
+constexpr float kMirrorEta = 1e6f;
 
 }  // namespace
 

@@ -7,7 +7,7 @@
 // Source:  Owen 1995; Laine and Karras 2011 (hash on reversed bits); Burley 2020; constants:
 //          Vegdahl, "Building a Better LK Hash", 2021.
 // Proved:  tests/sampling/owen_test.cpp (prefixes stay together; flips are fair and independent).
-// Threads: pure functions. Errors: none.
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include <cstdint>

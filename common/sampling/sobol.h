@@ -5,7 +5,7 @@
 //
 // Source:  Sobol' 1967; Joe and Kuo 2008 (primitive polynomials and initial numbers).
 // Proved:  tests/sampling/sobol_test.cpp (against Boost.Random's sequence; elementary intervals).
-// Threads: pure functions. Errors: none; every 32-bit index is valid.
+// Threads: pure functions.   Errors: none; every 32-bit index is valid.
 #pragma once
 
 #include <array>

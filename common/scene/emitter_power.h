@@ -20,8 +20,8 @@ class TriangleRadiance {
  public:
   struct Value {
     Radiance mean{0};  // over a fixed set of points
-    float least =
-        0;  // a hundredth of the brightest that it may have between them; 0 = surely black
+    // A hundredth of the brightest that it may have between them; 0 = surely black.
+    float least = 0;
   };
 
   explicit TriangleRadiance(const Scene& scene) : scene_(&scene) {}

@@ -80,8 +80,8 @@ class Contacts {
   const std::vector<AlphaMask>* masks_;
   const Hierarchies parts_;
   float margin_;  // larger than any two errors [m]
-  std::vector<std::shared_ptr<const Marks>>
-      from_;                                 // by instance: what is in contact with it; or null
+  // By instance: what is in contact with it; or null.
+  std::vector<std::shared_ptr<const Marks>> from_;
   std::vector<std::vector<bool>> touching_;  // [instance][triangle]; empty where nothing touches
 };
 
