@@ -16,7 +16,7 @@
 //   b, n_b   a block, and how many pixels it has
 //   B_b      bias by the photons' radius after the last full turn of replications, where frames
 //            take two radii by turns (radius_bias.h); standardError() includes it, too
-//   Y        mean luminance of the image
+//   Y, e_Y   mean luminance of the image, and its standard error
 //
 // Both relative errors are infinite for fewer than two frames, and 0 for a black image.
 // A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels. The last bits

@@ -7,8 +7,9 @@
 //
 //   n         number of frames that H is the mean of, this one included; at most kMost
 //   H_before  interpolated between the four pixels around x's place in the frame before. Only those
-//             count that show the same surface: normals within 25 degrees, and within kOffPlane of
-//             the distance from the plane through x. Where too few do, x was hidden, and n = 1.
+//             count that show the same surface: normals within 25 degrees, and off the plane
+//             through x by at most kOffPlane of the distance to x. Where too few do, x was hidden,
+//             and n = 1.
 //
 // At rest each pixel goes on with itself, n up to kMostKept, and the picture stays what the film
 // says. What was learned is there when the camera moves on.

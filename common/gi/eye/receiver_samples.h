@@ -1,4 +1,4 @@
-// receiver_samples.h: a task's random numbers of receivers, by pixel, layer and level.
+// receiver_samples.h: the random numbers of a task's receivers, by pixel, layer and level.
 //
 // Level: the number of D vertices between the eye and the receiver, pathVertices of
 // layered_method.h. A receiver is one sample of its pixel and frame, with nothing to stratify it

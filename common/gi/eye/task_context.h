@@ -1,6 +1,6 @@
 // task_context.h: what every step of one task needs, gathered once, so that the steps stay short.
 //
-// Threads: one thread's value. Refers to its arguments.
+// Owner: refers to its arguments.   Threads: one thread's value.
 #pragma once
 
 #include "common/gi/eye/task.h"

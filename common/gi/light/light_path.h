@@ -2,7 +2,7 @@
 // becomes of it.
 //
 // Each hit is told to the visitor. Then one lobe, D or S, is chosen in proportion to its albedo.
-// The walk survives with the albedos' sum (largest channel, at most kMaxSurvival):
+// The walk survives with a probability of the albedos' sum (largest channel, at most kMaxSurvival):
 //   flux *= lobe weight / probability
 // So flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's
 // factor (shading.h); for S lobes see particle_scatter.h. Walks end after kMaxVertices at the

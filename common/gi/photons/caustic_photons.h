@@ -7,7 +7,7 @@
 //       narrower where they do not lie evenly, as the first thousand of a set tell
 //       (photon_spread.h)                                                                    [m]
 //   Phi flux / n^2 in a medium of index n                                                    [W]
-//   f   share of the photon's disk that is covered (photon_footprint.h)
+//   f   area of surface that the photon's disk covers, over pi r^2 (photon_footprint.h)
 //
 // Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are
 // stored at the first D vertex if an S came before it. With `all`, half of them leave the set's

@@ -24,7 +24,7 @@ namespace ninefold {
 
 inline constexpr float kPhotonNormalCosine = 0.5f;
 
-// f in [1/16, ...) for a photon that landed at `at`. `turn` in [0, 1) turns the pattern. Adds its
+// f >= 1/16 for a photon that landed at `at`. `turn` in [0, 1) turns the pattern. Adds its
 // rays to the photon rays.
 float photonFootprint(const Transport& transport, const ShadingPoint& at, Metres r, float turn,
                       RayCounts& counts);

@@ -1,6 +1,5 @@
 // reference.h: the path tracer as a method: whole radiance as U of the diffuse layer, which no
-// filter touches. It has its own pixel loop and no light sets: its independence makes it a
-// reference.
+// filter touches. It has its own pixel loop and no light sets: it is independent, so a reference.
 //
 //   irradiance, caustic   E at the first hit, all of it or what came by way of S: pi times the
 //                         radiance that a white matte surface there would send. They take paths of

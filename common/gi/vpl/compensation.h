@@ -9,16 +9,16 @@
 //   E(y)          from VPLs and photons, of paths one D vertex longer, compensated in turn
 //
 // Short rays: W is zero beyond t = sqrt(cos_x / b), and few rays hit anything before. A hit is
-// followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided by q.
-// There is no other limit: in a narrow gap all of the light comes this way. The number xi that
-// decides, xi < q, is drawn before the ray. As q <= W <= 1 - b t^2/cos_x, no hit beyond
+// followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided by q, as
+// often as it takes: in a narrow gap all of the light comes this way. The number xi that decides,
+// xi < q, is drawn before the ray. As q <= W <= 1 - b t^2/cos_x, no hit beyond
 // sqrt((1-xi) cos_x / b) can be followed, and the ray ends there. The emission of a hit is divided
 // by the probability 1 - b t^2/cos_x of a ray that long.
 //
-// A glossy lobe of y (needs.h) is chosen by a second part of the numbers below 1 - b t^2/cos_x. An
-// eye path goes on from there, and brings what it meets, and E at its end, times W. Light that is
-// not bounded at x (punctual lights, environment, photons) lacks nothing: rays that meet nothing,
-// and other S lobes at y, return nothing.
+// A glossy lobe of y (needs.h) is chosen by another part of the numbers xi below 1 - b t^2/cos_x.
+// An eye path goes on from there, and brings what it meets, and E at its end, times W. Light that
+// is not bounded at x (punctual lights, environment, photons) lacks nothing: rays that meet
+// nothing, and other S lobes at y, return nothing.
 //
 // Source:  Kollig and Keller, "Illumination in the Presence of Weak Singularities", 2004.
 // Proved:  tests/gi (furnace in a corner and in a slit: exact with it, too dark without; agreement
