@@ -30,6 +30,7 @@ struct Picture {
 // before the work that leads to the picture.
 void checkOutputPath(const std::string& path);
 
+// Writes the kind of file that the extension names; only .png uses `toneMap`. Throws Error.
 void writeImage(const std::string& path, const Picture& picture,
                 const ToneMap& toneMap = ToneMap());
 // Writes a picture that was tone mapped already: the bytes that writeImage makes of its radiance.

@@ -43,10 +43,11 @@ inline constexpr float kMostExposure = 50;  // [EV], and its negative
 
 class ToneMap {
  public:
+  // Exposure [EV] in [-kMostExposure, kMostExposure].
   explicit ToneMap(float exposureEv = 0);
 
   uint8_t code(float radiance) const;
-  // Pixels from `first` on, as they lie in the image.
+  // Writes `pixels` pixels from `first` on, three codes each.
   void apply(const RgbPlane& radiance, size_t first, size_t pixels, uint8_t* rgb) const;
   // Sets the shape of `out`.
   void apply(const RgbImage& image, DisplayImage& out) const;

@@ -64,6 +64,7 @@ void merge(SceneEdit& into, const SceneEdit& later);
 // rest all are settled.
 struct EditsSoFar {
   SceneEdit settled, moving;
+  // isMoving: the gesture goes on; else all becomes settled.
   void add(const SceneEdit& edit, bool isMoving);
 };
 

@@ -10,6 +10,7 @@
 
 namespace ninefold {
 
+// `barycentrics` of the triangle's second and third corner.
 TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
 
 // Flux of a punctual light in a scene of radius R [m].

@@ -11,7 +11,7 @@
 // Power is the largest component of Phi [W]: no channel of a light is ever starved. A textured
 // triangle counts for at least a hundredth of what its brightest texel would make of it, so that no
 // triangle that emits is missed; one that is black all over has no entry. Each emissive triangle is
-// an entry of its own. Doubles (the same corners and flux) share one, since one of them is seen.
+// an entry of its own. Doubles (the same corners and flux) share one: one of them is seen.
 //
 // Owner: refers to the Scene.   Threads: const after construction.
 #pragma once

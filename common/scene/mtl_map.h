@@ -34,6 +34,8 @@ struct MtlMap {
 
 using FileExists = std::function<bool(const std::string&)>;
 
+// `rest`: the line behind the map's keyword; `line`: its number. Options that are not modelled go
+// to `unread`.
 MtlMap parseMtlMap(std::string_view rest, const FileExists& exists, UnreadKeys& unread,
                    uint64_t line);
 

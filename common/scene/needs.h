@@ -51,6 +51,7 @@ bool letsPassStraight(const Scene& scene, const Material& material);
 // on is not focusing.
 bool focusesLight(const Scene& scene, const Material& material);
 
+// `environment`: the radiance that is rendered with, instead of the scene's own.
 Needs needsOf(const Scene& scene, Radiance environment);
 
 // One line for each need: what is on or off, and why. First lines of the log.

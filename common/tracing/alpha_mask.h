@@ -14,6 +14,7 @@ struct AlphaMask {
   const Mesh* mesh;
   const Material* material;
 
+  // True if a ray passes through at barycentrics (u, v).
   bool isOpen(uint32_t triangle, float u, float v) const;
 };
 

@@ -24,6 +24,7 @@ class InstanceGeometry {
   // World-space positions [m] of the mesh's vertices; one more follows, as padding for Embree.
   const Vec3* vertices() const { return vertices_.data(); }
   const Bounds& bounds() const { return bounds_; }
+  // In world space, in the mesh's order.
   Tracer::Corners corners(uint32_t triangle) const;
   // Unit; 0 for a triangle without area.
   Vec3 frontNormal(uint32_t triangle) const { return planes_[triangle].normal; }

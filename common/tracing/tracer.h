@@ -59,12 +59,14 @@ class Tracer {
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  // Closest hit of one ray; Hit::none() if there is none.
+  // Closest hit of origin + t * direction, t in [0, tFar]; Hit::none() if there is none. direction
+  // need not be unit.
   Hit closest(Vec3 origin, Vec3 direction, float tFar) const;
   // Closest hits of the lanes in `active` (bit i = lane i); hits[lane] of other lanes stays as it
   // is. `coherent`: the rays start together and go the same way.
   void closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coherent = true) const;
 
+  // True if anything blocks that ray.
   bool occluded(Vec3 origin, Vec3 direction, float tFar) const;
   // Bits of the active lanes whose segment is blocked. `coherent`: the rays share an end or are
   // parallel.

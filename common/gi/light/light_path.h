@@ -52,8 +52,9 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
   return c;
 }
 
-// visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes
-// on after S.
+// Follows a particle that starts in `media` after `diffuseBefore` D vertices. Its numbers are those
+// of sample `index`, from `firstDimension` on. visit(const Arrival&) returns whether the walk goes
+// on after a D scattering here; after S it always does.
 template <typename Visit>
 void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
                    const LightSampler& sampler, uint32_t index, uint32_t firstDimension,

@@ -43,6 +43,8 @@ class GiMethod {
   GiMethod(const GiMethod&) = delete;
   GiMethod& operator=(const GiMethod&) = delete;
 
+  // Light of set `set` of a frame. `view` counts only for methods whose light needs it
+  // (scene/methods.h).
   virtual std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
                                                   const View& view) const = 0;
   // `light`: of the task's frame and set. `scratch`: one that makeScratch made.

@@ -1,5 +1,5 @@
 // vpl_roulette.h: fewer shadow rays for the same picture. A packet of receivers asks only some of
-// the VPLs that would add little, and multiplies their weights by 1/p_v.
+// the VPLs that would add little, and weights the asked ones by 1/p_v.
 //
 //   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between; a
 //         glossy lobe counts by what it sends to the first receiver
