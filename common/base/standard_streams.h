@@ -1,8 +1,6 @@
-// standard_streams.h: what programs say.
-//
-// Standard error   lines for people. They may be lost without harm: the reader may be gone, the
-//                  terminal closed, the disk or the pipe full.
-// Standard output  somebody's result. It arrives, or the program fails.
+// standard_streams.h: what programs say. Lines on standard error are for people and may be lost
+// without harm: reader gone, terminal closed, disk or pipe full. Standard output is somebody's
+// result: it arrives, or the program fails.
 //
 // Threads: any; a piece of text stays together.
 // Errors:  writeOutput throws Error; sayToPeople has none.

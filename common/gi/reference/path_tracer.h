@@ -14,12 +14,11 @@
 // 0 (no light straight to the first D). The first kSureVertices vertices survive for sure, later
 // ones with the probability of the lobes' albedo.
 //
-// Dimensions of vertex j = 1, 2, ...: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 8j+5
-// light.
+// Dimensions of vertex j = 1, 2, ...: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4,
+// 8j+5 light.
 //
 // Fails:   caustics of punctual lights (L is a point, S is smooth): no path finds them, and the log
 //          says so (leftOut in scene/methods.h).
-//
 // Source:  Kajiya 1986; Veach 1997.
 // Proved:  tests/gi (furnace, polygon light, agreement with photons and VPLs).
 // Threads: pure functions.   Errors: none.
