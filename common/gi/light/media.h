@@ -6,7 +6,7 @@
 // two touch, both are crossed at once (tracing/contacts.h).
 //
 // Fails:   leaving what was never entered changes nothing: a light inside two nested solids is
-//          taken for one in the inner alone. Beyond kMaxNested solids the lowest ranks are forgotten.
+//          taken for one in the inner alone. Beyond kMaxNested solids the lowest ranks are lost.
 // Threads: plain value.
 #pragma once
 
