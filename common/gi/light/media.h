@@ -5,8 +5,8 @@
 // path. The surface of the other is passed straight on, as one more step of a specular chain. Where
 // two touch, both are crossed at once (tracing/contacts.h).
 //
-// Fails:   leaving what was never entered changes nothing: a light inside two nested solids is taken
-//          for one in the inner alone. Beyond kMaxNested solids the lowest ranks are forgotten.
+// Fails:   leaving what was never entered changes nothing: a light inside two nested solids is
+//          taken for one in the inner alone. Beyond kMaxNested solids the lowest ranks are forgotten.
 // Threads: plain value.
 #pragma once
 
