@@ -2,8 +2,9 @@
 // Pure.
 //
 // Up to kActive blobs are fetched side by side, each with one piece in flight: a line with latency
-// stays full, neither side's queues grow. Errors: chunk() throws Error on a piece that was not
-// asked for, or on a size that cannot be right.
+// stays full, neither side's queues grow.
+// Errors: chunk() throws Error on a piece that was not asked for, or on a size that cannot be
+// right.
 #pragma once
 
 #include <optional>

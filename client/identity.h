@@ -1,6 +1,7 @@
 // identity.h: how this process introduces itself to a master: its release, its threads, and its
-// pixel class, proved by rendering the probe scene. Errors: Error if the instruction set cannot be
-// had on this machine. Threads: pure. Takes some ms.
+// pixel class, proved by rendering the probe scene.
+// Errors: Error if the instruction set cannot be had on this machine.
+// Threads: pure. Takes some ms.
 #pragma once
 
 #include "client/options.h"

@@ -131,7 +131,8 @@ void RenderJob::traceAndFilter(const Task& task, float neighbourWeight, Desk& de
     desk.patch.place(part.phase, rect, desk.tile);
   };
   for (part.phase = 0; part.phase < settings_.interleave.sets(); ++part.phase) {
-    // The tile's own pixels as the master would have them traced: what share a packet stay together.
+    // The tile's own pixels as the master would have them traced: what share a packet stay
+    // together.
     place(grid_.rect(task.tile, part.phase));
     for (const TaskRect& strip : borderOf(grid_, task.tile, part.phase)) place(strip);
   }

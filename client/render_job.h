@@ -1,16 +1,17 @@
 // render_job.h: a scene and settings made ready, and one task of it from key to encoded tile.
 //
 // A task is a phase of a tile, sent as it was traced; or, if the job's tiles are filtered here, a
-// whole tile: all its phases are traced, with the pixels around it that the filter reaches, and what
-// is sent is the radiance that the master would have made of them, or the codes that it would have
-// shown; but that VPL roulette chooses for other packets of receivers, around the tile.
+// whole tile: all its phases are traced, with the pixels around it that the filter reaches, and
+// what is sent is the radiance that the master would have made of them, or the codes that it would
+// have shown; but that VPL roulette chooses for other packets of receivers, around the tile.
 //
-// Jobs that differ in nothing but camera, size and form share their light: what was worked out about the
-// lamps, the light sets that were made, and the threads' working memory.
+// Jobs that differ in nothing but camera, size and form share their light: what was worked out
+// about the lamps, the light sets that were made, and the threads' working memory.
 //
 // Threads: run may be called at once for different `thread` numbers, each has its own working
-// memory; light sets are shared through the cache. Owner: shared_ptr, tasks in progress keep it
-// alive. Errors: the constructor throws Error (settings that the scene cannot serve); run what the
+// memory; light sets are shared through the cache.
+// Owner: shared_ptr, tasks in progress keep it alive.
+// Errors: the constructor throws Error (settings that the scene cannot serve); run what the
 // renderer does.
 #pragma once
 
@@ -27,12 +28,13 @@
 
 namespace ninefold {
 
-// A scene with the hierarchy that refers to it, as it was fetched or after edits; and in a gesture what
-// it was when that began.
+// A scene with the hierarchy that refers to it, as it was fetched or after edits; and in a gesture
+// what it was when that began.
 struct TracedScene {
   TracedScene(std::shared_ptr<const Scene> fetched, Isa isa)
       : asFetched(std::move(fetched)), scene(asFetched), tracer(*scene, isa) {}
-  // `all`: edits of the scene as it was fetched. What `before` has is shared as far as it is the same.
+  // `all`: edits of the scene as it was fetched. What `before` has is shared as far as it is the
+  // same.
   TracedScene(const TracedScene& before, const SceneEdit& all,
               std::shared_ptr<const TracedScene> itBegan = nullptr)
       : asFetched(before.asFetched),

@@ -4,8 +4,9 @@
 //
 // Questions are the session's actions, answered in their order. Blobs that were fetched stay in
 // memory until a scene was built of them, so that a connection lost in mid-transfer costs nothing
-// again. Threads: ask from one thread; answers come on the builder's thread. Owner: joins when
-// destroyed. Errors: everything that goes wrong is answered by `failed`.
+// again.
+// Threads: ask from one thread; answers come on the builder's thread.
+// Owner: joins when destroyed.   Errors: everything that goes wrong is answered by `failed`.
 #pragma once
 
 #include <functional>

@@ -7,8 +7,8 @@
 //   TaskClock   the times of the tasks at work; a pure value, it is told how much time has passed
 //   Watchdog    a thread that tells it and calls `onHang`, once
 //
-// Threads: begin and end from the workers, onHang on the watchdog's own.   Owner: joins its thread when
-// destroyed.   Errors: none.
+// Threads: begin and end from the workers, onHang on the watchdog's own.
+// Owner: joins its thread when destroyed.   Errors: none.
 #pragma once
 
 #include <condition_variable>

@@ -3,9 +3,10 @@
 //
 // ByteWriter appends to a buffer; ByteReader walks over one and never beyond its end. Both
 // understand the same calls (u8 ... f64, text, array), so that a type's layout is written down
-// once, as one function template for both directions (see scene_archive.h). Errors: ByteReader
-// throws Error naming the field when bytes are missing or a count is larger than what is left could
-// hold; nothing is allocated before that check. Threads: plain values.
+// once, as one function template for both directions (see scene_archive.h).
+// Errors: ByteReader throws Error naming the field when bytes are missing or a count is larger than
+// what is left could hold; nothing is allocated before that check.
+// Threads: plain values.
 #pragma once
 
 #include <bit>

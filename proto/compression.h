@@ -1,6 +1,6 @@
 // compression.h: zstd frames of large blobs. Decompression is streamed: memory grows as bytes
-// appear and never beyond the declared size. Internal to scene_blobs. Errors: throw Error with one
-// line. Threads: reentrant.
+// appear and never beyond the declared size. Internal to scene_blobs.
+// Errors: throw Error with one line.   Threads: reentrant.
 #pragma once
 
 #include "proto/bytes.h"

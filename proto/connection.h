@@ -13,8 +13,9 @@
 // connections that have not proved themselves (the oldest one is dropped), their bytes, the
 // out-queue (when it is full the connection closes: credit windows keep a healthy peer far below).
 // Threads: callbacks run in the loop's thread. send(), finish() and close() may be called from any
-// thread, everything else in the loop's. Owner: shared_ptr; the connection keeps itself alive while
-// it is open. Errors: none are thrown by a running connection; onClosed gets one line.
+// thread, everything else in the loop's.
+// Owner: shared_ptr; the connection keeps itself alive while it is open.
+// Errors: none are thrown by a running connection; onClosed gets one line.
 #pragma once
 
 #include <cstdint>

@@ -6,7 +6,8 @@
 // All little-endian. `header` is a serialized protobuf message, `payload` raw bytes.
 // Errors: FrameParser throws Error on the first byte that cannot be right: wrong magic or version,
 // or a length over the limit for its type (checked before anything is allocated). After that it is
-// broken and the connection must close. Threads: plain values, no clock, no socket.
+// broken and the connection must close.
+// Threads: plain values, no clock, no socket.
 #pragma once
 
 #include <array>

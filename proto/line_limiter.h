@@ -1,6 +1,6 @@
 // line_limiter.h: keeps a peer that nobody knows from filling the log: so many lines in a period,
-// the others are counted and mentioned with the next one. Pure: the time is told. Threads: plain
-// value.
+// the others are counted and mentioned with the next one. Pure: the time is told.
+// Threads: plain value.
 #pragma once
 
 #include <fmt/core.h>

@@ -6,7 +6,8 @@
 // A message's fields travel as Protocol Buffers (messages.proto), its bulk bytes raw behind them
 // (framing.h). Nothing outside proto/ sees either: state machines eat and give Message values.
 // Errors: decodeMessage throws Error naming the message and field for anything malformed or out of
-// range, so every Message that came from a peer is in range. Threads: plain values, pure functions.
+// range, so every Message that came from a peer is in range.
+// Threads: plain values, pure functions.
 #pragma once
 
 #include <array>
@@ -83,8 +84,8 @@ enum class Phase : uint8_t { fetching = 0, building = 1 };
 // How results are to be sent.
 struct Delivery {
   static constexpr int kAdaptive = -1, kHighestLevel = 19;
-  // layers: a task is one phase of a tile. Else it is a whole tile, filtered, and sent as radiance or
-  // as a display's codes.
+  // layers: a task is one phase of a tile. Else it is a whole tile, filtered, and sent as radiance
+  // or as a display's codes.
   enum class Form : uint8_t { layers, radiance, display };
 
   int level = kAdaptive;  // of zstd; kAdaptive: what suits the client's line

@@ -7,7 +7,8 @@
 // so that E[level(code)] = v. The levels are exactly those that the decoder gives back, and only
 // sums, products, divisions and square roots are used: the same bits on every machine. Source of
 // the octahedral code: Cigolle et al., "Efficient Representations for Independent Unit Vectors",
-// JCGT 2014. Threads: pure functions.
+// JCGT 2014.
+// Threads: pure functions.
 #pragma once
 
 #include <algorithm>

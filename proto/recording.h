@@ -1,11 +1,11 @@
-// recording.h: a client's work kept in a file: to be sent again by a replay client, or done again, task by
-// task.
+// recording.h: a client's work kept in a file: to be sent again by a replay client, or done again,
+// task by task.
 //
 //   recording := frames (PROTOCOL.md): the client's Hello, then in the order in which they came the master's
 //                SceneOffer, Edit, Configure and Tasks, and the client's Result for each task
 //
-// The file is whole or as it was before (written_file.h). Errors: throw Error that names the file.
-// Threads: a Recorder from any thread; the rest pure.
+// The file is whole or as it was before (written_file.h).
+// Errors: throw Error that names the file.   Threads: a Recorder from any thread; the rest pure.
 #pragma once
 
 #include <filesystem>

@@ -5,7 +5,8 @@
 //   elements. describe(archive, x) names the fields of x in their order; x is const when writing.
 //
 // Errors: ReadArchive throws Error on anything that cannot be a value (lists longer than the data,
-// enums and bools out of range); scene-level checks are validate()'s work. Threads: plain values.
+// enums and bools out of range); scene-level checks are validate()'s work.
+// Threads: plain values.
 #pragma once
 
 #include <type_traits>

@@ -7,8 +7,8 @@
 // its raw bytes.
 //
 // Limits: a blob is at most kMaxBlobBytes raw, a scene kMaxSceneBytes; decompression is streamed,
-// takes memory only as bytes appear, and stops at the declared size. Errors: all throw Error with
-// one line. Threads: reentrant. Owner: values.
+// takes memory only as bytes appear, and stops at the declared size.
+// Errors: all throw Error with one line.   Threads: reentrant.   Owner: values.
 #pragma once
 
 #include <vector>

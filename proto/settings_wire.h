@@ -1,6 +1,7 @@
 // settings_wire.h: Settings and FrameKey as protobuf messages. Internal to messages_decode/encode.
 // Errors: the fromWire functions throw Error naming what is out of range, unknown, missing or there
-// twice. Threads: pure.
+// twice.
+// Threads: pure.
 #pragma once
 
 #include "common/scene/settings.h"

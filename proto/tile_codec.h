@@ -72,8 +72,9 @@ class TileEncoder {
   Encoded encode(const TileResult& tile, uint64_t dither, int level);
   // A tile's finished radiance, as one field of light.
   Encoded encode(const RgbImage& radiance, uint64_t dither, int level);
-  // The same as a display takes it: exactly the tone map's codes of what is finite and not negative.
-  // Master-mapped, the field of light above gives codes of a radiance that is off by its own bound.
+  // The same as a display takes it: exactly the tone map's codes of what is finite and not
+  // negative. Master-mapped, the field of light above gives codes of a radiance that is off by its
+  // own bound.
   Encoded encode(const RgbImage& radiance, const ToneMap& toneMap, int level);
 
  private:
@@ -126,8 +127,8 @@ class TileDecoder {
   TileDecoder();
   ~TileDecoder();
 
-  // Takes the bytes apart: decompresses, checks, finds the fields. Throws Error if the bytes are not
-  // exactly one tile of this shape.
+  // Takes the bytes apart: decompresses, checks, finds the fields. Throws Error if the bytes are
+  // not exactly one tile of this shape.
   UnpackedTile unpack(Bytes&& bytes, const TileShape& expected);
 
  private:

@@ -1,6 +1,6 @@
 // tile_fields.h: the fields of a tile in the order in which they travel, for both directions, and
-// the two coders that turn a field into byte planes and back. Internal to the tile codec. Threads:
-// plain values, one per tile.
+// the two coders that turn a field into byte planes and back. Internal to the tile codec.
+// Threads: plain values, one per tile.
 #pragma once
 
 #include <array>

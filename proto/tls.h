@@ -8,9 +8,9 @@
 //
 // so that a key works in one role and for one use only. The key exchange is always ephemeral
 // (psk_dhe_ke, X25519 or P-256): recorded traffic stays closed if the key is lost later. Neither
-// tickets, early data, renegotiation nor older versions are allowed. Sources: RFC 8446 (TLS 1.3),
-// RFC 5869 (HKDF), RFC 9257 (external PSKs: bind roles). Errors: TlsError. Threads: a session
-// belongs to one thread; contexts are shared read-only.
+// tickets, early data, renegotiation nor older versions are allowed.
+// Sources: RFC 8446 (TLS 1.3), RFC 5869 (HKDF), RFC 9257 (external PSKs: bind roles).
+// Errors: TlsError.   Threads: a session belongs to one thread; contexts are shared read-only.
 #pragma once
 
 #include <memory>

@@ -4,8 +4,8 @@
 //
 // is how long the line takes for an uncompressed result of b bytes at B bytes a second, over the
 // time from one result to the next of T threads that take t each; b and t as moving averages. Below
-// kIdle the line has nothing to gain; above 1 it is what the client waits for, and processor time is
-// free. What a result decodes to does not depend on the level.
+// kIdle the line has nothing to gain; above 1 it is what the client waits for, and processor time
+// is free. What a result decodes to does not depend on the level.
 //
 // Proved: tests/proto/wire_level_test.cpp.   Threads: plain value.
 #pragma once

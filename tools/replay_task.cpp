@@ -1,5 +1,6 @@
-// ninefold-replay-task SCENE --frame F --tile T --phase P [options]: one task of a run once more, alone in
-// one thread of one process: for a debugger, and for whoever looks for where a value came from.
+// ninefold-replay-task SCENE --frame F --tile T --phase P [options]: one task of a run once more,
+// alone in one thread of one process: for a debugger, and for whoever looks for where a value came
+// from.
 //
 //   --recording FILE   as a real client was asked for it (ninefold-client --record FILE): edits and gestures
 //                      included, to the bit; what it gave then is held against what comes now

@@ -1,4 +1,5 @@
-// window_events.h: what a person did at the window, as plain values in the order in which it happened.
+// window_events.h: what a person did at the window, as plain values in the order in which it
+// happened.
 #pragma once
 
 #include <cstdint>

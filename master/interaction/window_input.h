@@ -1,4 +1,5 @@
-// window_input.h: what a person's keys and pointer mean: events in; camera moved, commands out. Pure.
+// window_input.h: what a person's keys and pointer mean: events in; camera moved, commands out.
+// Pure.
 //
 // Which key does what stands in window_keys.h; the pointer's buttons:
 //

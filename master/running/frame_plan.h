@@ -9,9 +9,9 @@
 //     w(i) = min(1, K / i)                                               weight of neighbours
 //
 // so that the bias of both falls faster than the noise, and the film's mean tends to the true
-// picture. The first K frames filter fully: until then a pixel has not met all K sets by itself. What
-// falls faster is nearer to the truth at the edges of caustics, but shows the pattern of the sets' noise
-// for some hundred frames (docs/performance.md).
+// picture. The first K frames filter fully: until then a pixel has not met all K sets by itself.
+// What falls faster is nearer to the truth at the edges of caustics, but shows the pattern of the
+// sets' noise for some hundred frames (docs/performance.md).
 // The paper's own pipeline keeps r and w = 1 fixed.
 //
 // Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011 (r).

@@ -1,5 +1,5 @@
-// live_plan.h: which frames a session wants whose picture changes while it is looked at: changes and
-// the time go in, frames come out. Pure.
+// live_plan.h: which frames a session wants whose picture changes while it is looked at: changes
+// and the time go in, frames come out. Pure.
 //
 //   rest     frames of full quality, one after another, as FramePlan says; the film sums them up,
 //            for ever or as many as a still is to have. If somebody may click, the first of them
@@ -10,9 +10,9 @@
 //            of them are open. An edited scene is announced as moving, and once more when it rests:
 //            sample streams are frozen in between (gi/transport.h)
 //
-// The newest state wins: what changed while a frame was rendered is in the next one, and changes that
-// no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
-// motion the open frame is finished, else a hand that never rests would never see one.
+// The newest state wins: what changed while a frame was rendered is in the next one, and changes
+// that no frame was opened for are never rendered. A change at rest supersedes the open frames at
+// once; in motion the open frame is finished, else a hand that never rests would never see one.
 //
 // What only is looked at in another way (LiveState::look, its planes) rests on: open frames are
 // opened anew, with the new look, and the film keeps all that are complete. Whether pick planes are

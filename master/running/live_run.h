@@ -1,5 +1,5 @@
-// live_run.h: a session with a cluster whose picture changes while it is looked at: the same clients,
-// scheduler and assembly as a headless run's, fed by a LivePlan.
+// live_run.h: a session with a cluster whose picture changes while it is looked at: the same
+// clients, scheduler and assembly as a headless run's, fed by a LivePlan.
 //
 //   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
 //   picture thread: sums frames up, publishes what is to be seen
@@ -9,8 +9,9 @@
 // motion, or a still of one frame) comes as codes if nobody wants its radiance. What clients have
 // filtered has no E any more, so that light is not used again in it (irradiance_history.h).
 //
-// Threads: as said. Owner: the session; ends all its threads when destroyed.
-// Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run later.
+// Threads: as said.   Owner: the session; ends all its threads when destroyed.
+// Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run
+// later.
 #pragma once
 
 #include <functional>

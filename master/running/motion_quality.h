@@ -9,10 +9,10 @@
 //                   not save, because roulette has left them out already (gi/vpl_roulette.h)
 //
 // The time of a full frame is learned from every frame that is timed. When a gesture begins, the
-// first entry of the ladder that is predicted to keep the target is taken: size falls to 5/16 before
-// the light is thinned, which saves little. The light then stays, so that nothing flickers, until the
-// gesture ends; size may still follow the clock: down at once when a frame is late, or long as
-// they are in the mean; up when three frames in a row say so.
+// first entry of the ladder that is predicted to keep the target is taken: size falls to 5/16
+// before the light is thinned, which saves little. The light then stays, so that nothing flickers,
+// until the gesture ends; size may still follow the clock: down at once when a frame is late, or
+// long as they are in the mean; up when three frames in a row say so.
 //
 // Threads: plain value. Errors: none. Proved: tests/master/motion_quality_test.cpp.
 #pragma once

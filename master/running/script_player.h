@@ -1,7 +1,8 @@
 // script_player.h: plays a script for whoever shows it: a time goes in, what is different since the
-// last time comes out, so that only that travels, and what the script leaves alone is somebody else's.
-// Times may go back: what the script has not yet touched then is as it was read.
-// A pure value. Errors: Error if the script leads out of what a scene may be. Threads: one owner.
+// last time comes out, so that only that travels, and what the script leaves alone is somebody
+// else's. Times may go back: what the script has not yet touched then is as it was read.
+// A pure value.
+// Errors: Error if the script leads out of what a scene may be.   Threads: one owner.
 #pragma once
 
 #include <memory>

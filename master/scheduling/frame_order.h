@@ -1,8 +1,9 @@
 // frame_order.h: a frame that somebody wants: its key, and the job that it is of. Plain value.
 //
-// A job is a version of the settings (camera and size included) and of the form of results, on a version
-// of the scene; all are announced to the clients when the first frame opens that shows them. Versions and
-// frame numbers only ever grow, and a frame's job is never older than that of the frame before.
+// A job is a version of the settings (camera and size included) and of the form of results, on a
+// version of the scene; all are announced to the clients when the first frame opens that shows
+// them. Versions and frame numbers only ever grow, and a frame's job is never older than that of
+// the frame before.
 #pragma once
 
 #include "common/scene/edit.h"

@@ -29,8 +29,8 @@
 // connection (clientLost), so its task is done again.
 //
 // Cost: an event O(log clients + log tasks), and for each task handed out O(frames log clients), or
-// O(frames K) when a client changes its light set; O(clients frames + tasks) when a frame opens or a view
-// changes. Deterministic: equal events give equal actions.
+// O(frames K) when a client changes its light set; O(clients frames + tasks) when a frame opens or
+// a view changes. Deterministic: equal events give equal actions.
 // Threads: none; one owner calls everything.
 // Errors: only broken assumptions of the caller (CHECK); whatever a peer sends is a Verdict.
 #pragma once
@@ -76,8 +76,8 @@ class Scheduler {
 
   Actions poll(Time now);
 
-  // True while clients have credit that the open frames cannot use, or can use only by sharing light
-  // sets that need not be shared: time to open the next frame.
+  // True while clients have credit that the open frames cannot use, or can use only by sharing
+  // light sets that need not be shared: time to open the next frame.
   bool wantsFrame() const;
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
   int openFrames() const { return static_cast<int>(frames_.size()); }
@@ -90,8 +90,8 @@ class Scheduler {
   std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
   // Why a task is where it is, in words.
   std::string explain(const TaskId& task, Time now) const;
-  // The open frames, each with the task that has been under way for longest; what a client is at, and
-  // waits for.
+  // The open frames, each with the task that has been under way for longest; what a client is at,
+  // and waits for.
   std::vector<std::string> explainFrames(Time now) const;
   std::string explainClient(ClientId client, Time now) const;
   // Aborts if the books do not balance. For tests: O(clients + tasks).

@@ -5,9 +5,9 @@
 // which a result waits for others (kResultsTogether; 0 while frames are urgent), a client works
 // without a pause if it holds T tasks to work on and T (r+w)/t more that are on their way:
 //     low = T + ceil(T (r+w)/t)      high = low + max(ceil(T/2), ceil(T w/t))
-// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in groups, as
-// results do. A group has at most kMaxGroup T, all together kMaxPerThread T: a frame waits for all that
-// its slowest client holds.
+// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in groups,
+// as results do. A group has at most kMaxGroup T, all together kMaxPerThread T: a frame waits for
+// all that its slowest client holds.
 //
 // Trust. trusted --no result for silenceLimit()--> suspect --any result--> trusted;
 //        suspect --heard of, and holds nothing--> trial (one task) --result--> trusted,

@@ -5,7 +5,8 @@
 // A task is  absent   (no pixels: the tile's corner of a small picture),
 //            waiting  (no active holder), active (>= 1 active holder) or done.
 // A holder is a client that was sent the task and has not answered; it is inactive while it is
-// suspect. Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
+// suspect.
+// Owner: Scheduler.   Threads: none.   Errors: NINEFOLD_CHECK only.
 #pragma once
 
 #include <cstdint>

@@ -25,8 +25,8 @@ struct TaskId {
 
 // How a frame is to be rendered.
 struct FrameKind {
-  // Of each tile there is phase 0 alone, which stands for all: whoever works on the frame makes all light
-  // sets, so that the frame counts as one set.
+  // Of each tile there is phase 0 alone, which stands for all: whoever works on the frame makes all
+  // light sets, so that the frame counts as one set.
   bool wholeTiles = false;
   bool urgent = false;    // soon, whatever that costs in light sets and messages
   bool freeSets = false;  // a light set costs nothing

@@ -2,12 +2,14 @@
 // signals, and the ticking of their deadlines.
 //
 // Threads: the constructor listens, start() begins the thread; everything else from any thread, but
-// the server's tally and clients only after join(). Owner: main; ends and joins when destroyed.
+// the server's tally and clients only after join().
+// Owner: main; ends and joins when destroyed.
 // Errors: the constructor throws Error (cannot listen). What ends the run later is told by
 // failure().
 //
-// SIGUSR1 asks what is under way: lines of the log that begin with "state:". The network thread alone takes it;
-// where main does not, as it should, nobody is ended by asking before that thread runs, or after.
+// SIGUSR1 asks what is under way: lines of the log that begin with "state:". The network thread
+// alone takes it; where main does not, as it should, nobody is ended by asking before that thread
+// runs, or after.
 #pragma once
 
 #include <atomic>

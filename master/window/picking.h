@@ -1,8 +1,8 @@
 // picking.h: what a shown picture says of a place in it. At rest it knows, in motion if it was
 // asked for (LiveRun::wantPicks); one that does not know says nothing.
 //
-// Film positions count pixels of the shown image from its upper left corner. Threads: pure functions.
-// Errors:  none.
+// Film positions count pixels of the shown image from its upper left corner.
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-// A client that followed a session of random edits and one that came late give the same bytes, and so does
-// one on the scene that was edited before it was traced, where rounding leaves no choice.
+// A client that followed a session of random edits and one that came late give the same bytes, and
+// so does one on the scene that was edited before it was traced, where rounding leaves no choice.
 #include <gtest/gtest.h>
 
 #include "client/render_job.h"

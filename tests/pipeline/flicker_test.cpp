@@ -1,5 +1,6 @@
-// How much a moving sequence flickers, with the random bits and sample streams of a gesture fixed and
-// with other bits for each frame. With frames I_t and R_t, the same state as a mean of more frames, with bits of their own,
+// How much a moving sequence flickers, with the random bits and sample streams of a gesture fixed
+// and with other bits for each frame. With frames I_t and R_t, the same state as a mean of more
+// frames, with bits of their own,
 //
 //   e_t = (I_t+1 - I_t) - (R_t+1 - R_t)         flicker = sqrt(mean of e_t^2) / mean of R_t, of luminance
 //
