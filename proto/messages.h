@@ -5,8 +5,8 @@
 //
 // A message's fields travel as Protocol Buffers (messages.proto), its bulk bytes raw behind them
 // (framing.h). Nothing outside proto/ sees either: state machines eat and give Message values.
-// Errors: decodeMessage throws Error naming the message and field for anything malformed or out of
-// range, so every Message that came from a peer is in range.
+// Errors: decodeMessage throws Error that names message and field, for anything malformed or out of
+// range. Every Message that came from a peer is in range.
 // Threads: plain values, pure functions.
 #pragma once
 
