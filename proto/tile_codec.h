@@ -1,8 +1,8 @@
 // tile_codec.h: a task's planes to few bytes and back. The format is in PROTOCOL.md.
 //
 //   field                      code                           |decoded - value| at most
-//   reflectance in [0, 1/pi]   8 bit, levels (q/255)^2 / pi   (2 sqrt(t) + 1/255)/255/pi,   t = pi v
-//   albedo in [0, 1]           8 bit, levels (q/255)^2        (2 sqrt(t) + 1/255)/255,      t = v
+//   reflectance in [0, 1/pi]   8 bit, levels (q/255)^2 / pi   (2 sqrt(t) + 1/255)/255/pi, t = pi v
+//   albedo in [0, 1]           8 bit, levels (q/255)^2        (2 sqrt(t) + 1/255)/255,    t = v
 //   E, U, caustic >= 0         8:8:8:8, a common exponent     max(r, g, b)/127.5, at least 2^-134
 //   distance, depth > 0        16 bit, even steps of the      v ceil(D/65534) 2^-23, D floats from
 //                              floats' bits from the tile's   min to max; max/min = 2^k gives

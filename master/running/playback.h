@@ -1,5 +1,5 @@
-// playback.h: a script against the clock of a window: it plays, pauses, and at its end stays, or
-// begins again and again. Pure.
+// playback.h: a script against the clock of a window. It plays and pauses; at its end it stays
+// there, or begins again. Pure.
 // Threads: plain value.   Errors: as ScriptPlayer.   Proved: tests/master/script_test.cpp.
 #pragma once
 

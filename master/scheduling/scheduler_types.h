@@ -25,8 +25,8 @@ struct TaskId {
 
 // How a frame is to be rendered.
 struct FrameKind {
-  // Of each tile there is phase 0 alone, which stands for all: whoever works on the frame makes all
-  // light sets, so that the frame counts as one set.
+  // A task is a whole tile, named by its phase 0. Whoever works on the frame makes all light sets,
+  // so that the frame counts as one set.
   bool wholeTiles = false;
   bool urgent = false;    // soon, whatever that costs in light sets and messages
   bool freeSets = false;  // a light set costs nothing
@@ -38,7 +38,7 @@ struct HeldTask {
   TaskId task;
   int set = 0;      // light set
   double rays = 1;  // FrameKind::rays
-  // Since fewer tasks than the client has threads are ahead of it: it is at work on this one.
+  // When the client began it: since then fewer tasks than it has threads were ahead.
   std::optional<Time> begun = std::nullopt;
 };
 

@@ -3,8 +3,8 @@
 // other fills the sky, at distance h/cos:
 //
 //   E = B integral of cos exp(-tau/cos) dw = B 2 pi E3(tau)        E3: exponential integral
-//   B = 1 + a/pi E   so   B = 1 + a 2 E3 B + ... : with n diffuse vertices the partial sum of
-//   (2 a E3)^i, without limit 1/(1 - 2 a E3)
+//   B = 1 + a/pi E = 1 + 2 a E3 B = 1/(1 - 2 a E3)     without limit; with n diffuse vertices
+//                                                      the partial sum of (2 a E3)^i, i = 0..n
 //
 // An eye halfway between sees B exp(-tau/2) straight on. Plates 2 wide at h = 0.02: 1e-4 of E is
 // missing at the sides.

@@ -4,9 +4,10 @@
 // With S films of N frames, block means m_sb with stated standard errors e_sb, and their mean M_b
 // over the films:
 //
-//   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))     Student's t with R-1 degrees of freedom, R = 8 replications
-//   F    = mean of e_sb^2 / variance of m_sb over s      1; its spread is sqrt(2/(S-1) + 2/(S(R-1)))
-//          for one block, and no larger for many together
+//   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))        Student's t with R - 1 degrees of freedom,
+//                                                     R = 8 replications
+//   F    = mean of e_sb^2 / variance of m_sb over s   1; its spread is sqrt(2/(S-1) + 2/(S(R-1)))
+//                                                     for one block, and no larger for many
 //
 // t is tested by Kolmogorov and Smirnov's statistic block by block, F for blocks and pixels, and
 // for what the stop rule looks at. Frames are what the programs make, codec and filter included:
