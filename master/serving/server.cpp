@@ -12,8 +12,8 @@
 namespace ninefold {
 namespace {
 
-// Frames that may be open at once: 144 clients have a light set of their own at rest, if memory is
-// enough for all of them (Assembly::hasRoom).
+// Frames that may be open at once: enough for 144 clients with a light set of their own at rest, if
+// there is memory for all (Assembly::hasRoom).
 constexpr int kMaxOpenFrames = 16;
 
 // Ticks come much closer together: whatever is longer is a pause of this process or its machine.

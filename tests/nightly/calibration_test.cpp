@@ -1,7 +1,7 @@
 // The stated error is the real one. Many films of one picture, each with a seed of its own, say
 // what their error is; their spread says what it was.
 //
-// With S films of N frames, block means m_sb with stated standard errors e_sb, and their mean M_b
+// S films of N frames have block means m_sb with stated standard errors e_sb; M_b is their mean
 // over the films:
 //
 //   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))        Student's t with R - 1 degrees of freedom,
@@ -10,10 +10,9 @@
 //                                                     for one block, and no larger for many
 //
 // t is tested by Kolmogorov and Smirnov's statistic block by block, F for blocks and pixels, and
-// for what the stop rule looks at. Frames are what the programs make, codec and filter included:
-// they differ in their neighbours' weight and photon radius, so that their variance grows a little
-// and their mean moves a little: both only make the stated error larger, by less than the
-// tolerances.
+// for what the stop rule looks at. Frames are what the programs make, codec and filter included.
+// They differ in their neighbours' weight and photon radius: their variance grows a little and
+// their mean moves a little. Both make the stated error larger only, by less than the tolerances.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>
