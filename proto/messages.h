@@ -142,9 +142,9 @@ struct Progress {
   uint64_t done = 0, total = 0;  // bytes when fetching, steps when building; done <= total
 };
 struct TaskItem {
-  uint32_t tile = 0;
-  uint32_t phase = 0;
-  uint8_t extraMask = 0;
+  uint32_t tile = 0;      // 0..TileGrid::tiles()-1
+  uint32_t phase = 0;     // 0..Interleave::sets()-1; 0 if tiles are whole
+  uint8_t extraMask = 0;  // bits of ExtraPlane
   bool operator==(const TaskItem&) const = default;
 };
 struct Tasks {

@@ -41,7 +41,7 @@ struct FrameView {
   FrameKey key;
   FrameShape shape;
   Camera camera;
-  float neighbourWeight = 1;  // of the filter
+  float neighbourWeight = 1;  // of the filter, in [0, 1]
 };
 
 // The results of a frame; those that a tile needs are there while it is finished.
@@ -65,8 +65,8 @@ class Assembly {
   // Called on a worker's thread for each result that was taken.
   using Answer =
       std::function<void(ReceivedTile&& tile, const std::optional<std::string>& malformed)>;
-  // Called on worker `worker` for each tile: all of one frame, at once for different tiles, before
-  // the first of the next.
+  // Called on worker `worker` (0..workers-1) for each tile (0..TileGrid::tiles()-1): all of one
+  // frame, at once for different tiles, before the first of the next.
   using Finish = std::function<void(int worker, const GatheredFrame& frame, int tile)>;
 
   Assembly(int workers, Answer answer, Finish finish);

@@ -32,11 +32,11 @@ class FrameMachine {
   FrameMachine(const Options& options, const Listener::Keys& keys, JobOffer& offer, FrameDuty duty);
   ~FrameMachine();
 
-  static int workers();  // of finishTile, on all cores
+  static int workers();  // threads that call finishTile: one for each core
   // Says where clients may join, and begins.
   void start();
 
-  // A frame of this shape will come, by nextWork.
+  // Prepares for a frame of this shape, which nextWork gives afterwards.
   void open(const FrameOrder& order, const FrameShape& shape);
   // No frame before `firstWanted` is wanted any more.
   void supersede(uint32_t firstWanted);

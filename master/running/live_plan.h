@@ -53,7 +53,7 @@ struct LiveFrame {
   bool moving = false;
   uint32_t world = 0;         // counts changes of anything but the camera and the size
   int64_t rested = 0;         // frames at rest before this one: 0 begins the film anew
-  float neighbourWeight = 1;  // of the filter
+  float neighbourWeight = 1;  // of the filter, in [0, 1]
   Quality quality;
   Time changed{}, opened{};  // changed: when what it shows first for became known
 };

@@ -18,8 +18,8 @@ using ClientId = uint32_t;
 // Names one task on master, client and wire: the pixels of one phase in one tile of one frame.
 struct TaskId {
   uint32_t frame = 0;  // FrameKey::frame
-  int tile = 0;
-  int phase = 0;
+  int tile = 0;        // 0..TileGrid::tiles()-1
+  int phase = 0;       // 0..Interleave::sets()-1
   bool operator==(const TaskId&) const = default;
 };
 
