@@ -15,7 +15,7 @@ namespace ninefold {
 
 class RestFilm {
  public:
-  // A frame begins; isFirst: of a new picture.
+  // A frame begins. isFirst: it is the first of a new picture.
   void begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst);
   void addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
   void frameDone();
