@@ -9,7 +9,8 @@
 namespace ninefold {
 namespace {
 
-// The short rays of sixteen receivers: where they go, and how far at this xi, sqrt((1-xi) cos_x / b) [m].
+// The short rays of sixteen receivers: where they go, and how far at this xi:
+// sqrt((1-xi) cos_x / b) [m].
 struct ShortRays {
   RayPacket packet;
   float cosX[kPacket];
