@@ -1,4 +1,4 @@
-// How work goes out: frames are opened, tasks assigned and sent.
+// server_dispatch.cpp: how work goes out: frames are opened, tasks assigned and sent.
 #include "common/base/cpu_time.h"
 #include "common/base/log.h"
 #include "common/scene/methods.h"
@@ -8,8 +8,8 @@
 namespace ninefold {
 namespace {
 
-// Frames that may be open at once: 144 clients have a light set of their own at rest, if memory is
-// enough for all of them (Assembly::hasRoom).
+// Frames that may be open at once: enough for 144 clients with a light set of their own at rest, if
+// there is memory for all (Assembly::hasRoom).
 constexpr int kMaxOpenFrames = 16;
 
 // Ticks come much closer together: whatever is longer is a pause of this process or its machine.

@@ -1,4 +1,4 @@
-// What the server tells of itself and its clients.
+// server_report.cpp: what the server tells of itself and its clients.
 #include "master/serving/server.h"
 
 namespace ninefold {

@@ -1,5 +1,5 @@
-// A client that followed a session of random edits and one that came late give the same bytes, and so does
-// one on the scene that was edited before it was traced, where rounding leaves no choice.
+// Random edits of a session: a client that followed them and one that came late give the same
+// bytes. So does one whose scene was edited before it was traced, where rounding leaves no choice.
 #include <gtest/gtest.h>
 
 #include "client/render_job.h"

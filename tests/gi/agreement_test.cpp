@@ -62,9 +62,9 @@ TEST(Agreement, GlassBallWithItsCaustic) {
   expectAgreement(room.b.build(), {.bias = 0.015, .frames = 48});
 }
 
-// What a ball floating half in water throws on the floor, seen from below the ball: particles come to it
-// from above, eye paths through the water, and both must find glass where the two overlap, whichever the
-// file has first.
+// What a ball floating half in water throws on the floor, seen from below the ball: particles come
+// to it from above, eye paths through the water, and both must find glass where the two overlap,
+// whichever the file has first.
 class BallHalfInWater : public ::testing::Test {
  protected:
   void addBall() { b_.sphere(b_.material(testing::glass(1.5f)), Vec3(0, -0.4f, 0), 0.3f, 32); }

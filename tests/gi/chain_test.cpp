@@ -1,6 +1,7 @@
-// Specular chains up to their limit. A corridor between two mirrors, z = 0 and z = 1, and x from 0 to n: what
-// runs along (1, 0, 1)/sqrt(2) meets them n times, at 45 degrees, before the wall at x = n, and each time
-// keeps Schlick's  F = f0 + (1 - f0)(1 - cos 45)^5.  It arrives if and only if specular-depth >= n.
+// Specular chains up to their limit. A corridor between two mirrors, z = 0 and z = 1, and x from 0
+// to n: what runs along (1, 0, 1)/sqrt(2) meets them n times, at 45 degrees, before the wall at x =
+// n, and each time keeps Schlick's F = f0 + (1 - f0)(1 - cos 45)^5. It arrives if and only if
+// specular-depth >= n.
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 
@@ -51,8 +52,8 @@ TEST(Chain, EyesSeeThroughAsManyMirrorsAsTheLimitSays) {
   }
 }
 
-// The longest chain that may be asked for, of perfect mirrors. Not for the path tracer: its roulette lets
-// 0.99^1024, one path in 30,000, come so far.
+// The longest chain that may be asked for, of perfect mirrors. Not for the path tracer: its
+// roulette lets 0.99^1024, one path in 30,000, come so far.
 TEST(Chain, EyePathsAreFollowedThroughAThousandMirrors) {
   const int n = 1024;
   SceneBuilder b = corridor(n, 1, testing::matte(Vec3(0), Vec3(1)));

@@ -1,6 +1,6 @@
 // Energy balance: what flows into a closed box is absorbed by its walls, glass or mirrors in it or
-// not. Lossless objects hand on what they get, so that with walls of one albedo a, and flux Phi from
-// the lights, after n diffuse vertices
+// not. Lossless objects hand on what they get, so that with walls of one albedo a, and flux Phi
+// from the lights, after n diffuse vertices
 //
 //   integral of E over the walls = Phi (1 + a + ... + a^(n-1))          [W]
 //

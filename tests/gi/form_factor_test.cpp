@@ -1,5 +1,5 @@
-// Form factors: a plate, or sphere, of radiance 1 and flux Phi = pi A1 sends F12 Phi to a second one.
-// What the second, of albedo a, then shows on average after one diffuse vertex is
+// Form factors: a plate, or sphere, of radiance 1 and flux Phi = pi A1 sends F12 Phi to a second
+// one. What the second, of albedo a, then shows on average after one diffuse vertex is
 //
 //   L = a/pi * F12 pi A1/A2 = a F12 A1/A2
 //

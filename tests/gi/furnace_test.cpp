@@ -1,7 +1,8 @@
 // The white furnace: in a closed room whose walls have albedo a and emit radiance 1, every point
 // sees
-//     L = 1 + a + a^2 + ... = 1/(1-a)      and, with at most n diffuse vertices a path, the partial
-//     sum L_n = 1 + a + ... + a^n.
+//
+//   L = 1 + a + a^2 + ... = 1/(1-a)      without limit
+//   L_n = 1 + a + ... + a^n              with at most n diffuse vertices a path
 #include <gtest/gtest.h>
 
 #include "tests/gi/make_scene.h"

@@ -1,5 +1,6 @@
-// While a gesture lasts, sample streams belong to lamps and to pairs of a lamp and a specular object: what is done
-// to one of them leaves the samples of the others as they are, bit for bit, and no energy is lost or added.
+// While a gesture lasts, sample streams belong to lamps and to pairs of a lamp and a specular
+// object: what is done to one of them leaves the samples of the others as they are, bit for bit,
+// and no energy is lost or added.
 #include <gtest/gtest.h>
 
 #include "common/gi/radiosity/light_set.h"

@@ -43,8 +43,8 @@ TEST(Lights, AreaOfATenthOfABillionthOfASquareMetre) {
   testing::expectRadiance(b.build(), testing::estimators(8, 1), expected, {.bias = 1e-3});
 }
 
-// ... near by too, a hundred times within the bound of the geometry term: nothing would meet it by chance, and
-// if something did, it would be a firefly of 1e10.
+// ... near by too, a hundred times within the bound of the geometry term: nothing would meet it by
+// chance, and if something did, it would be a firefly of 1e10.
 TEST(Lights, SmallOnesLightWhatIsNearThem) {
   const Vec3 x(0.05f, 0, 0);
   const float h = 0.1f;
@@ -77,8 +77,8 @@ TEST(Lights, AFaintOneWhereTheStrongOneIsHidden) {
   testing::expectRadiance(b.build(), all, expected, {.frames = 300, .error = 0.02});
 }
 
-// Most virtual lights are the strong lamp's, and roulette leaves out what adds next to nothing if nothing were
-// between: it must leave some chance to what is not hidden.
+// Most virtual lights are the strong lamp's, and roulette leaves out what adds next to nothing if
+// nothing were between: it must leave some chance to what is not hidden.
 TEST(Lights, AFaintOneWhereTheStrongOneIsHiddenAlsoWithRoulette) {
   const Vec3 x(0), strong(-1.5f, 1, 0), faint(0.5f, 1, 0);
   SceneBuilder b = floorSeenAt(x);

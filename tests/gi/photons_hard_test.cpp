@@ -1,5 +1,5 @@
-// Photons where they are hardest to count: none, a radius that shrinks to nothing, and a query in the
-// middle of a cell. (One photon: energy_balance_test. A million: tests/nightly.)
+// Photons where they are hardest to count: none, a radius that shrinks to nothing, and a query in
+// the middle of a cell. (One photon: energy_balance_test. A million: tests/nightly.)
 #include <random>
 
 #include "common/gi/photons/photon_grid.h"

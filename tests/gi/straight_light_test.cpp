@@ -1,8 +1,9 @@
 // Light that passes straight through panes and blended surfaces, without any photon.
 //
 // A floor of albedo a under a point light of intensity I at height h, seen where the light is at
-// the angle t
-// from the vertical:  L = a/pi I cos^3(t)/h^2 T,   T = product of what the surfaces between let pass:
+// the angle t from the vertical:
+//
+//   L = a/pi I cos^3(t)/h^2 T          T: product of what the surfaces between let pass
 //
 //   pane of index n    1 - 2F/(1+F) by Fresnel's F(t), its two faces and all bounces between them
 //   blended            1 - opacity

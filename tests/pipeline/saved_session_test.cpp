@@ -1,9 +1,9 @@
-// A session of random edits, with undo and redo, saved and read again: the same values, and the same
-// picture as far as its noise lets see.
+// A session of random edits, with undo and redo, saved and read again: the same values, and the
+// same picture as far as its noise lets see.
 //
-// The saved file's bounds are those of what is in it, while a session's only grow: b, r and the origin of
-// the coordinates differ, so that no bytes can be the same. Both pictures have seeds of their own; with
-// block means a, b and their standard errors e_a, e_b,  |a - b| < 3 sqrt(e_a^2 + e_b^2).
+// The saved file's bounds are those of what is in it, while a session's only grow. So b, r and the
+// origin of the coordinates differ, and bytes cannot be the same. Both pictures have seeds of their
+// own; with block means a, b and their standard errors e_a, e_b,  |a - b| < 3 sqrt(e_a^2 + e_b^2).
 #include <gtest/gtest.h>
 
 #include "common/image/film.h"

@@ -95,8 +95,8 @@ TEST(Methods, LightIsSharedByViewsUnlessItIsMadeForOne) {
   }
 }
 
-// The path tracer cannot meet a point by chance: what comes from one by a smooth surface is missing, and said
-// to be; rough lobes sample lights, area lights are met.
+// The path tracer cannot meet a point by chance: what comes from one by a smooth surface is
+// missing, and said to be; rough lobes sample lights, area lights are met.
 TEST(LeftOut, PathTracerNamesTheCausticsOfPunctualLights) {
   Settings settings;
   settings.method = Method::pathTrace;
