@@ -2,7 +2,8 @@
 //
 // A Renderer is made once per scene and settings; after that everything is a pure function of its
 // arguments: any client makes the same light set and the same tile, bit for bit. Another camera or
-// size on the same light costs next to nothing: light sets do not depend on them.
+// size on the same light costs next to nothing. Light sets do not depend on them either, unless the
+// method makes its light for a view (lightNeedsView in scene/methods.h).
 // Threads: const functions are reentrant; each thread has its own Scratch. Owner: refers to the
 // Tracer. Errors: constructor throws Error for settings that the scene cannot serve.
 #pragma once
@@ -26,7 +27,7 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Light of set k of a frame. Costs 0.1 to some ms; share it among the tasks that use it
+  // Light of set k of a frame, for this camera and size if it needs them. Costs 0.1 to some ms; share it among the tasks that use it
   // (lightSetOfPhase).
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set) const;
 
@@ -40,8 +41,8 @@ class Renderer {
   std::unique_ptr<Impl> impl_;
 };
 
-// The pixel class of this process: a hash of a small probe scene rendered with `isa`, as 16 hex
-// digits. Clients with equal probes give equal bytes.
+// The pixel class of this process: a hash of a small probe scene rendered by every method with
+// `isa`, as 16 hex digits. Clients with equal probes give equal bytes.
 std::string probeClass(Isa isa);
 
 }  // namespace ninefold

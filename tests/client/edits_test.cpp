@@ -1,8 +1,9 @@
-// A client that followed a session of random edits and one that came late give the same bytes, and so does
-// one on the scene that was edited before it was traced, where rounding leaves no choice.
+// A client that followed a session of random edits and one that came late give the same bytes, by every
+// method. A scene that was edited before it was traced has the same surfaces, where rounding leaves no choice.
 #include <gtest/gtest.h>
 
 #include "client/render_job.h"
+#include "common/scene/methods.h"
 #include "common/scene/reader.h"
 #include "tests/scene/random_edits.h"
 
@@ -11,16 +12,17 @@ namespace {
 
 constexpr int kEdits = 1000;
 
-Settings smallPicture(const Scene& scene) {
+Settings smallPicture(const Scene& scene, Method method) {
   Settings s;
+  s.method = method;
   s.width = 96, s.height = 72;
   s.camera = scene.cameras.front();
   return s;
 }
 
 // All tasks of a frame, as they would travel.
-std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene) {
-  RenderJob job(scene, 1, smallPicture(*scene->scene), {}, 1);
+std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene, Method method) {
+  RenderJob job(scene, 1, smallPicture(*scene->scene, method), {}, 1);
   FrameKey key;
   key.photonRadius = 0.05f;
   std::vector<Bytes> tiles;
@@ -43,11 +45,14 @@ TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
     if (i % 250 != 0 && i != 1) continue;
     const auto fresh = std::make_shared<const TracedScene>(
         TracedScene(std::make_shared<const Scene>(*read), Isa::automatic), all);
-    EXPECT_EQ(render(followed), render(fresh)) << "after " << i << " edits";
+    for (const MethodFacts& by : allMethods())
+      EXPECT_EQ(render(followed, by.method), render(fresh, by.method))
+          << by.name << " after " << i << " edits";
     ++compared;
   }
   EXPECT_EQ(compared, 5);
-  EXPECT_NE(render(followed), render(asRead));
+  for (const MethodFacts& by : allMethods())
+    EXPECT_NE(render(followed, by.method), render(asRead, by.method)) << by.name;
 }
 
 // One that saw a gesture begin, step by step, and one that comes in the middle of it.
@@ -66,9 +71,12 @@ TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
   }
   const TracedScene late(std::make_shared<const Scene>(*read), Isa::automatic);
   const auto lateBegun = std::make_shared<const TracedScene>(late, settled);
-  EXPECT_EQ(render(followed),
-            render(std::make_shared<const TracedScene>(*lateBegun, all, lateBegun)));
-  EXPECT_NE(render(followed), render(std::make_shared<const TracedScene>(late, all)));
+  const auto inTheMiddle = std::make_shared<const TracedScene>(*lateBegun, all, lateBegun);
+  const auto atRest = std::make_shared<const TracedScene>(late, all);
+  for (const MethodFacts& by : allMethods()) {
+    EXPECT_EQ(render(followed, by.method), render(inTheMiddle, by.method)) << by.name;
+    EXPECT_NE(render(followed, by.method), render(atRest, by.method)) << by.name;
+  }
 }
 
 // The other order of building: edited first, traced in one hierarchy.
