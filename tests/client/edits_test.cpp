@@ -4,8 +4,8 @@
 
 #include "client/render_job.h"
 #include "common/scene/methods.h"
-#include "common/scene/reader.h"
 #include "tests/scene/random_edits.h"
+#include "tests/scene/table_room.h"
 
 namespace ninefold {
 namespace {
@@ -32,7 +32,7 @@ std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene, Metho
 }
 
 TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
-  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const auto asRead = std::make_shared<const TracedScene>(read, Isa::automatic);
   RandomEdits random(*read, 7);
   SceneEdit all;
@@ -57,7 +57,7 @@ TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
 
 // One that saw a gesture begin, step by step, and one that comes in the middle of it.
 TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
-  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const auto asRead = std::make_shared<const TracedScene>(read, Isa::automatic);
   RandomEdits random(*read, 6);
   SceneEdit settled;
@@ -81,7 +81,7 @@ TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
 
 // The other order of building: edited first, traced in one hierarchy.
 TEST(Edits, PartsOfTheirOwnSeeWhatOneHierarchySees) {
-  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const TracedScene asRead(read, Isa::automatic);
   RandomEdits random(*read, 11);
   SceneEdit all;

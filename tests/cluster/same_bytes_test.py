@@ -13,7 +13,7 @@ class SameBytes(ClusterTest):
 
     def test_any_number_of_clients_and_threads(self):
         for method in methods():
-            self.same_by(method, [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)], frames=3)
+            self.same_by(method, [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)], frames=2)
 
     def same_by(self, method, crews, *options, frames):
         with self.subTest(method):

@@ -10,9 +10,9 @@
 #include "client/scene_builder.h"
 #include "client/session.h"
 #include "common/scene/methods.h"
-#include "common/scene/reader.h"
 #include "master/serving/job_offer.h"
 #include "tests/scene/random_edits.h"
+#include "tests/scene/table_room.h"
 
 namespace ninefold {
 namespace {
@@ -145,7 +145,7 @@ class Client {
 class LateClient : public ::testing::TestWithParam<MethodFacts> {
  protected:
   LateClient()
-      : scene_(readScene(NINEFOLD_SCENES "/table_room.glb")),
+      : scene_(tableRoomWithSpot()),
         random_(scene_, 7),
         offer_(packScene(scene_), settings(), {}) {}
 
