@@ -6,7 +6,8 @@
 // shown; but that VPL roulette chooses for other packets of receivers, around the tile.
 //
 // Jobs that differ in nothing but camera, size and form share their light: what was worked out about the
-// lamps, the light sets that were made, and the threads' working memory.
+// lamps, the light sets that were made, and the threads' working memory. Where the method makes its light for a
+// view, only jobs of one camera and size do.
 //
 // Threads: run may be called at once for different `thread` numbers, each has its own working
 // memory; light sets are shared through the cache. Owner: shared_ptr, tasks in progress keep it

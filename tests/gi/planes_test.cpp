@@ -136,7 +136,7 @@ void expectSum(const Tracer& tracer, const testing::Estimator& e) {
   // What the eye sees of the lamp itself, by glass, is in both.
   Settings dark = direct;
   dark.directVpls = 0;
-  const auto of = [&](const Settings& s) { return testing::render(tracer, s, e.frames(48, 300)); };
+  const auto of = [&](const Settings& s) { return testing::render(tracer, s, e.frames(96, 300)); };
   const auto whole = of(all), a = of(direct), b = of(indirect), lamp = of(dark);
   const double error =
       std::sqrt(whole.error() * whole.error() + a.error() * a.error() + b.error() * b.error());
