@@ -1,6 +1,6 @@
-// The pixel class by doing: a room with every kind of estimator in it is rendered by every method
-// and hashed, so that any difference in arithmetic, traversal or library that can reach a picture shows in the
-// hash.
+// The pixel class by doing: renders a room with every kind of estimator in it by every method and
+// hashes the result. Any difference in arithmetic, traversal or library that can reach a picture
+// shows in the hash.
 #include <bit>
 
 #include <fmt/core.h>
