@@ -8,6 +8,7 @@
 //
 // Jobs that differ only in camera, size and form share their light: what was worked out about the
 // lamps, the light sets made so far, and the threads' working memory.
+// Where a method makes its light for a view, only jobs of one camera and size share.
 //
 // Threads: run() at once for different `thread`; each has its own working memory, light sets are
 // shared through the cache.

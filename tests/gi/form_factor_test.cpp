@@ -42,11 +42,11 @@ TEST(FormFactor, SquaresAtARightAngleWithACommonEdge) {
                           kAlbedo * testing::squaresWithACommonEdge(), {.frames = 192});
 }
 
-// The same without compensation: what the bound takes away near the edge is missing, and only that.
+// VPLs without compensation: what the bound takes away near the edge is missing, and only that.
 TEST(FormFactor, TheBoundAloneOnlyTakesAway) {
   SceneBuilder b = receiver();
   b.quad(b.material(testing::matte(Vec3(0), Vec3(1))), Vec3(0), Vec3(0, 1, 0), Vec3(0, 0, 1));
-  Settings s = testing::estimators(8, 1)[1].settings;
+  Settings s = testing::radiosity(8, 1).settings;
   s.compensate = false;
   const Scene scene = b.build();
   const Tracer tracer(scene, Isa::automatic);

@@ -85,7 +85,7 @@ TEST(Lights, AFaintOneWhereTheStrongOneIsHiddenAlsoWithRoulette) {
   addLamp(b, 1e6f, strong, 0.5f), addLamp(b, 1e-6f, faint, 0.5f);
   b.quad(b.material(testing::matte(Vec3(0))), Vec3(-0.5f, 0, -3), Vec3(0, 0, 6), Vec3(0, 0.9f, 0));
   const double expected = kAlbedo / kExactPi * 1e-6 * irradianceUnder(faint, 0.5f, x);
-  auto e = testing::estimators(8, 1)[1];
+  auto e = testing::radiosity(8, 1);
   e.settings.vplRoulette = 3;
   testing::expectRadiance(b.build(), {e}, expected, {.frames = 1200, .error = 0.1});
 }
@@ -169,7 +169,7 @@ TEST(Lights, SeenOnlyInAMirror) {
       testing::lambert({{1, 0.5, -0.5}, {1, 0.9, -0.5}, {1, 0.9, 0.5}, {1, 0.5, 0.5}}, DVec3(x),
                        DVec3(0, 1, 0));
   auto all = testing::estimators(8, 1);
-  all[1].settings.photonRadius = 0.03f;
+  for (auto& e : all) e.settings.photonRadius = 0.03f;
   testing::expectRadiance(b.build(), all, expected, {.frames = 400, .bias = 5e-3, .error = 0.03});
 }
 

@@ -42,7 +42,7 @@ Scene furnaceWithBall() {
 testing::Rendered withPhotons(int photons, float radius, int frames) {
   const Scene scene = furnaceWithBall();
   const Tracer tracer(scene, Isa::automatic);
-  auto estimator = testing::estimators()[1];
+  auto estimator = testing::radiosity();
   estimator.settings.photons = photons, estimator.settings.photonRadius = radius;
   return testing::render(tracer, estimator.settings, frames);
 }

@@ -49,7 +49,7 @@ void expectPassed(const std::vector<Material>& between, double t, double passed)
   b.camera(x + Vec3(0, 0.4f, 0), x, 1e-3f, Vec3(0, 0, 1));
   const Scene scene = b.build();
   const Tracer tracer(scene, Isa::automatic);
-  Settings s = testing::estimators(4, 1)[1].settings;
+  Settings s = testing::radiosity(4, 1).settings;
   s.photons = 0;
   const double L = kAlbedo / double(kPi) * std::pow(std::cos(t), 3) / double(kHeight * kHeight);
   EXPECT_NEAR(testing::render(tracer, s, 1).grey(), L * passed, 1e-3 * L)
