@@ -20,8 +20,13 @@ CHANGED = set(re.findall(r"^--- a/(\S+)$", DIFF, re.MULTILINE))
 WRITTEN = set(re.findall(r"^\+\+\+ b/(\S+)$", DIFF, re.MULTILINE))
 NEW = WRITTEN - CHANGED
 
-# Test programs are asked for these suites of theirs.
-SUITES = [suite for names in re.findall(r"--gtest_filter='([^']+)'", TEXT) for suite in re.findall(r"(\w+)\.\*", names)]
+# Folder of tests: the suites that its program is asked for.
+SUITES = {folder: re.findall(r"(\w+)\.\*", names)
+          for folder, names in re.findall(r"(\w+)_test --gtest_filter='([^']+)'", TEXT)}
+
+
+def has_suite(text, suite):
+    return f"TEST({suite}, " in text
 
 
 def environment(**more):

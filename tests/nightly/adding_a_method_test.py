@@ -6,7 +6,8 @@ test and render with. Then the new method meets its closed form through a real c
 in each pixel, as the code 255 OETF(rho) of a PNG (IEC 61966-2-1; rho below 0.8, where the tone curve is straight) give
 or take one code: tiles are quantized on the wire.
 
-Of the tests, only those that the page runs are copied, so that the others need not be compiled.
+Of the test programs that the page builds, only the files with suites that it runs are copied: the others need not be
+compiled.
 """
 import os
 import pathlib
@@ -33,9 +34,11 @@ def copy(tree):
             shutil.copytree(page.TREE / part, tree / part, ignore=shutil.ignore_patterns("__pycache__"))
         else:
             shutil.copy2(page.TREE / part, tree / part)
-    for test in tree.glob("tests/*/*_test.cpp"):
-        if not any(f"TEST({suite}, " in test.read_text(encoding="utf-8") for suite in page.SUITES):
-            test.unlink()
+    for folder, suites in page.SUITES.items():
+        for test in tree.glob(f"tests/{folder}/*_test.cpp"):
+            text = test.read_text(encoding="utf-8")
+            if not any(page.has_suite(text, suite) for suite in suites):
+                test.unlink()
 
 
 def code(radiance):
