@@ -15,7 +15,7 @@ class Page(unittest.TestCase):
     def patch(self, *options):
         done = subprocess.run(["git", "apply", *options], cwd=page.TREE, input=page.DIFF, text=True, capture_output=True,
                               env=page.environment())
-        self.assertEqual((done.returncode, done.stderr), (0, ""), REMEDY)
+        self.assertEqual(done.returncode, 0, f"{done.stderr}{REMEDY}")
         return done.stdout
 
     @unittest.skipUnless(shutil.which("git"), "there is no git here")
