@@ -39,6 +39,14 @@ struct Emitter {
   Flux flux{0};              // total emitted flux [W], double sides included
 };
 
+// Names the object that shines (instance, punctual light, environment) in every state of a scene;
+// ascends in a table of emitters.
+inline uint32_t lampOf(const Emitter& e) {
+  const bool triangle = e.kind == EmitterKind::triangle;
+  const uint32_t group = triangle ? 0 : e.kind == EmitterKind::environment ? 2 : 1;
+  return group << 30 | (triangle ? e.instance : e.light);
+}
+
 // A point on a triangle emitter.
 struct EmitterPoint {
   Vec3 position{0};

@@ -11,7 +11,7 @@ FrameKey FramePlan::next() {
   if (!converging_) return key;
   const double wider = std::sqrt(std::sqrt(2.0));
   key.photonRadius = static_cast<Metres>(key.frame % 2 == 0 ? radius_ * wider : radius_ / wider);
-  constexpr double kAlpha = 0.5;
+  constexpr double kAlpha = 2.0 / 3;
   const double i = next_;
   radius_ *= std::sqrt((i + kAlpha) / (i + 1));
   return key;

@@ -35,7 +35,7 @@ TEST(PhotonRadii, NoPhotonIsBrighterThanTheLimitNorWiderThanItMustBe) {
         return part * lamp / (kPi * radii.radius(k) * radii.radius(k));
       };
       EXPECT_TRUE(j + 1 == kPhotonKinds || brightness(j) <= 1.001f * limit) << part;
-      EXPECT_TRUE(j == 0 || brightness(j - 1) > 0.999f * limit) << part;
+      EXPECT_TRUE(j == kPhotonHalvings || brightness(j - 1) > 0.999f * limit) << part;
     }
   }
 }
@@ -49,7 +49,11 @@ TEST(PhotonRadii, ShrinkTogether) {
   const PhotonRadii first(t, r), later(t, 0.01f * r);
   for (float flux = 1e-9f; flux < 1; flux *= 2)
     EXPECT_EQ(first.choose(Flux(flux)), later.choose(Flux(flux)));
-  EXPECT_FLOAT_EQ(later.radius(3), 0.08f * r);
+  for (size_t j = 0; j < kPhotonKinds; ++j) {
+    EXPECT_FLOAT_EQ(later.radius(j), 0.01f * first.radius(j));
+    EXPECT_EQ(later.first(j), first.radius(j));
+  }
+  EXPECT_EQ(first.radius(kPhotonHalvings), r);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ TEST(FramePlan, EveryFrameHasItsOwnRandomizationAndRotation) {
   EXPECT_EQ(plan.opened(), 20);
 }
 
-// r^2(n) = r^2(1) prod_{i=1}^{n-1} (i + 1/2)/(i + 1), which falls as n^(-1/2).
-TEST(FramePlan, PhotonRadiusShrinksWithTheSquareRootOfTheFrames) {
+// r^2(n) = r^2(1) prod_{i=1}^{n-1} (i + 2/3)/(i + 1), which falls as n^(-1/3).
+TEST(FramePlan, PhotonDiscsShrinkWithTheCubeRootOfTheFrames) {
   FramePlan plan(0.2f, 9, true);
   double expected = 0.2 * 0.2;
   float last = 0;
@@ -29,10 +29,10 @@ TEST(FramePlan, PhotonRadiusShrinksWithTheSquareRootOfTheFrames) {
     // Wider and narrower by the fourth root of 2, by turns.
     last = plan.next().photonRadius * std::pow(2.0f, i % 2 == 1 ? -0.25f : 0.25f);
     ASSERT_NEAR(last, std::sqrt(expected), 1e-6) << "frame " << i;
-    expected *= (i + 0.5) / (i + 1);
+    expected *= (i + 2.0 / 3) / (i + 1);
   }
-  // Gamma(n + 1/2)/(Gamma(3/2) Gamma(n + 1)) tends to 2/sqrt(pi n).
-  EXPECT_NEAR(last * last, 0.04 * 2 / std::sqrt(std::acos(-1.0) * 1000), 0.04 * 1e-3);
+  // Gamma(n + 2/3)/(Gamma(5/3) Gamma(n + 1)) tends to n^(-1/3)/Gamma(5/3).
+  EXPECT_NEAR(last * last, 0.04 / (std::cbrt(1000.0) * std::tgamma(5.0 / 3)), 0.04 * 1e-3);
 }
 
 TEST(FramePlan, NeighboursFadeOnceEveryPixelHasMetAllSets) {

@@ -239,6 +239,7 @@ Particle emitLocal(const Transport& t, const Source& s, Vec2 u) {
 Particle emittedBy(const Source& s, Particle particle) {
   particle.punctual =
       s.emitter->kind != EmitterKind::triangle && s.emitter->kind != EmitterKind::environment;
+  particle.lamp = lampOf(*s.emitter);
   return particle;
 }
 

@@ -34,6 +34,7 @@ struct Particle {
   Vec3 direction{0};  // unit
   Flux flux{0};
   bool punctual = false;  // from a light that no ray meets
+  uint32_t lamp = 0;      // lampOf its emitter; 0 if it has none
 };
 
 inline constexpr float kOrdinaryShare = 0.2f;

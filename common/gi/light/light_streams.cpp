@@ -11,11 +11,7 @@ namespace ninefold {
 namespace {
 
 // Names an emitter in every state of a scene; ascends in a table of emitters.
-auto nameOf(const Emitter& e) {
-  const bool triangle = e.kind == EmitterKind::triangle;
-  const int group = triangle ? 0 : e.kind == EmitterKind::environment ? 2 : 1;
-  return std::tuple(group, triangle ? e.instance : e.light, e.triangle);
-}
+auto nameOf(const Emitter& e) { return std::tuple(lampOf(e), e.triangle); }
 
 }  // namespace
 

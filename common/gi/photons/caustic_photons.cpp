@@ -4,6 +4,7 @@
 
 #include "common/gi/light/light_path.h"
 #include "common/gi/photons/photon_footprint.h"
+#include "common/gi/photons/photon_spread.h"
 
 namespace ninefold {
 namespace {
@@ -13,52 +14,87 @@ constexpr uint32_t kWalkDimension = 8;  // after the joint four of the start and
 
 int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
 
-// Where photons come to lie. share: 1/number of photons sent out.
-struct Deposit {
-  const PhotonRadii& radii;
-  float share;
-  SortedPhotons& photons;
+constexpr uint32_t kPilot = 1024;  // photons of a stream that tell how its lamps' light lies
+
+// A photon at the first D vertex after an S vertex. flux: what it adds to E there, times area.
+struct Landed {
+  ShadingPoint point;
+  Flux flux{0};
+  int diffuseBefore = 0;
+  float turn = 0;  // of its footprint
 };
 
-// Follows a photon through S vertices and stores it at the first D vertex if it was focused on it.
+PhotonSpread::Landing landingOf(const Landed& photon, uint32_t lamp) {
+  return {photon.point.surface.position, photon.point.ng, maxComponent(photon.flux), lamp};
+}
+
+// Where photons come to lie.
+struct Deposit {
+  const Transport& t;
+  const PhotonRadii& radii;
+  SortedPhotons& photons;
+  RayCounts& rays;
+
+  void add(const Landed& photon, size_t kind) {
+    const float footprint = photonFootprint(t, photon.point, radii.radius(kind), photon.turn, rays);
+    photons[kind].push_back({photon.point.surface.position, photon.point.ng,
+                             photon.flux / footprint, photon.diffuseBefore});
+  }
+  // As narrow as the pattern of its lamp's photons asks for.
+  void add(const Landed& photon, uint32_t lamp, const PhotonSpread& spread) {
+    size_t kind = radii.choose(photon.flux);
+    const PhotonSpread::Landing landing = landingOf(photon, lamp);
+    for (size_t i = 0; i < kPhotonHalvings && spread.isUneven(landing, radii.first(kind)); ++i)
+      --kind;
+    add(photon, kind);
+  }
+};
+
+// Follows a photon through S vertices and calls land(Landed) at the first D vertex if it was
+// focused on it. share: 1/number of photons sent out.
+template <typename Land>
 void tracePhoton(const Transport& t, const Particle& start, const MediumStack& media,
-                 int diffuseBefore, const LightSampler& sampler, uint32_t i, RayCounts& rays,
-                 Deposit& out) {
+                 int diffuseBefore, const LightSampler& sampler, uint32_t i, float share,
+                 RayCounts& rays, Land&& land) {
   walkLightPath(
       t, start, media, diffuseBefore, sampler, i, kWalkDimension, rays, [&](const Arrival& a) {
         const ShadingPoint& p = *a.point;
         if (!a.focused || isBlack(p.bsdf.diffuse)) return false;
         const Flux flux =
-            out.share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
-        if (isBlack(flux)) return false;
-        const Vec3 x = p.surface.position;
-        const size_t kind = out.radii.choose(flux);
-        const float footprint =
-            photonFootprint(t, p, out.radii.radius(kind), sampler.get1D(i, kTurnDimension), rays);
-        out.photons[kind].push_back({x, p.ng, flux / footprint, a.diffuseBefore});
+            share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
+        if (!isBlack(flux))
+          land(Landed{p, flux, a.diffuseBefore, sampler.get1D(i, kTurnDimension)});
         return false;  // what scatters diffusely here is the VPLs' part
       });
 }
 
 void photonsFromEmitters(const Transport& t, size_t stream, const FrameKey& frame, int k,
-                         int countOfFirst, const PhotonRadii& radii, RayCounts& rays,
-                         SortedPhotons& photons) {
-  const int count = t.streams.samples(stream, countOfFirst);
-  Deposit out{radii, 1 / static_cast<float>(count), photons};
+                         int countOfFirst, Deposit& out) {
+  const auto count = static_cast<uint32_t>(t.streams.samples(stream, countOfFirst));
   const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), SampleUse::photon,
-                             frame.randomization, static_cast<uint32_t>(k), log2Ceil(count),
-                             t.settings.randomization);
-  for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+                             frame.randomization, static_cast<uint32_t>(k),
+                             log2Ceil(static_cast<int>(count)), t.settings.randomization);
+  const auto trace = [&](uint32_t i, const auto& land) {
     const Particle start =
         emitAimed(t, stream, sampler.get2D(i, 0), sampler.get2D(i, 2), sampler.get1D(i, 4));
-    tracePhoton(t, start, {}, 0, sampler, i, rays, out);
-  }
+    tracePhoton(t, start, {}, 0, sampler, i, 1 / static_cast<float>(count), out.rays,
+                [&](const Landed& photon) { land(photon, start.lamp); });
+  };
+  const uint32_t pilots = std::min(count, kPilot);
+  std::vector<std::pair<Landed, uint32_t>> first;
+  PhotonSpread spread;
+  for (uint32_t i = 0; i < pilots; ++i)
+    trace(i, [&](const Landed& photon, uint32_t lamp) {
+      spread.add(landingOf(photon, lamp));
+      first.emplace_back(photon, lamp);
+    });
+  for (const auto& [photon, lamp] : first) out.add(photon, lamp, spread);
+  for (uint32_t i = pilots; i < count; ++i)
+    trace(i, [&](const Landed& photon, uint32_t lamp) { out.add(photon, lamp, spread); });
 }
 
 void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count,
-                     const std::vector<const Vpl*>& sources, const PhotonRadii& radii,
-                     RayCounts& rays, SortedPhotons& photons) {
-  Deposit out{radii, 1 / static_cast<float>(count), photons};
+                     const std::vector<const Vpl*>& sources, Deposit& out) {
   std::vector<double> flux;
   flux.reserve(sources.size());
   for (const Vpl* vpl : sources) flux.push_back(static_cast<double>(maxComponent(vpl->power)));
@@ -74,7 +110,9 @@ void photonsFromVpls(const Transport& t, const FrameKey& frame, int k, int count
         vpl.position, vpl.normal, vpl.error,
         kPi * t.shader.squaredIndex(vpl.media) / choice.probability * vpl.power};
     const Particle start = emitAimed(t, source, sampler.get2D(i, 2), sampler.get1D(i, 1));
-    tracePhoton(t, start, vpl.media, vpl.diffuseCount, sampler, i, rays, out);
+    tracePhoton(t, start, vpl.media, vpl.diffuseCount, sampler, i, 1 / static_cast<float>(count),
+                out.rays,
+                [&](const Landed& photon) { out.add(photon, out.radii.choose(photon.flux)); });
   }
 }
 
@@ -132,14 +170,14 @@ CausticPhotons causticPhotons(const Transport& t, const FrameKey& frame, int k,
   const int fromVpls = all ? std::max(s.photons / 2, 1) : 0;
   const PhotonRadii radii(t, frame.photonRadius);
   SortedPhotons photons;
+  Deposit deposit{t, radii, photons, rays};
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), radii, rays,
-                        photons);
+    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), deposit);
   if (fromVpls > 0) {
     std::vector<const Vpl*> sources;
     for (const Vpl& vpl : vpls)
       if (vpl.diffuseCount > 0 && !isBlack(vpl.power)) sources.push_back(&vpl);
-    photonsFromVpls(t, frame, k, fromVpls, sources, radii, rays, photons);
+    photonsFromVpls(t, frame, k, fromVpls, sources, deposit);
   }
   CausticPhotons grids;
   for (size_t kind = 0; kind < kPhotonKinds; ++kind)

@@ -8,7 +8,9 @@
 // stored at the first D vertex if there was an S before it. With `all`, half of them leave the
 // set's indirect VPLs instead (chosen by flux, a tenth alike), aimed in the same way: those are D
 // vertices with every prefix, so ...D S+ D is whole. Each half of n photons is divided by n:
-// emission counts, not landings. r is wider for photons that would be bright alone (photon_radii.h).
+// emission counts, not landings. r is wider for photons that would be bright alone, and narrower
+// where they do not lie evenly (photon_radii.h, photon_spread.h), told by the first thousand of a
+// set.
 //
 // Source:  Jensen 1996.   Proved: tests/gi (caustic energy balance; no photon in a diffuse scene).
 // Fails:   flux is blurred over r, which goes with r.   Threads: pure functions.

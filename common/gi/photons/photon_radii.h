@@ -1,11 +1,19 @@
-// photon_radii.h: no photon is a bright spot of its own. Where many photons come down, each carries
-// little and a caustic is as sharp as the frame's radius; where few come down, each is spread wider:
+// photon_radii.h: how wide a photon is spread: as wide as its flux asks for, as narrow as the
+// pattern of the light asks for.
 //
-//   r_j = 2^j r,   the least j < kPhotonKinds with   Phi/(pi r_j^2) <= E_max
+//   r_j = 2^(j-2) r,   0 <= j < kPhotonKinds
+//
+// No photon is a bright spot of its own. Where many photons come down, each carries little; where
+// few come down, each is spread wider:
+//
+//   j >= 2, the least with   Phi/(pi r_j^2) <= E_max
 //   E_max = kBrightest E_0 (r_first/r)^2,   E_0 = flux of all lights / (4 pi R^2)
 //
-// R: radius of the scene's bounds, E_0 and it as a gesture found them (transport.h); r: the frame's radius, r_first: the first frame's. All r_j shrink
-// with r, so the estimate stays consistent.
+// Then j falls by up to 2 where the lamp's photons do not lie evenly within r_j (photon_spread.h).
+//
+// R: radius of the scene's bounds, E_0 and it as a gesture found them (transport.h); r: the
+// frame's radius, r_first: the first frame's. j depends on the first radii alone, so that all r_j
+// shrink with r: the estimate stays consistent, and blur goes with r^2 (image/radius_bias.h).
 //
 // Source:  written for this project; the same end as photon differentials (Schjoth et al. 2007).
 // Fails:   light that is spread wide leaks to neighbours on the same side, which goes with r.
@@ -19,7 +27,8 @@
 
 namespace ninefold {
 
-inline constexpr size_t kPhotonKinds = 5;
+inline constexpr size_t kPhotonHalvings = 2;  // r_0 = r/4
+inline constexpr size_t kPhotonKinds = kPhotonHalvings + 5;
 
 using SortedPhotons = std::array<std::vector<Photon>, kPhotonKinds>;
 using CausticPhotons = std::array<PhotonGrid, kPhotonKinds>;  // one grid a radius
@@ -28,17 +37,20 @@ class PhotonRadii {
  public:
   PhotonRadii(const Transport& transport, Metres radius);
 
-  // j for a photon of this flux [W].
+  // j >= kPhotonHalvings for a photon of this flux [W].
   size_t choose(Flux flux) const {
     const float brightest = maxComponent(flux);
-    size_t j = 0;
+    size_t j = kPhotonHalvings;
     while (j + 1 < kPhotonKinds && brightest > most_[j]) ++j;
     return j;
   }
-  Metres radius(size_t j) const { return static_cast<float>(1u << j) * radius_; }
+  Metres radius(size_t j) const { return kFactors[j] * radius_; }
+  // ... in the first frame.
+  Metres first(size_t j) const { return kFactors[j] * first_; }
 
  private:
-  Metres radius_;
+  static constexpr std::array<float, kPhotonKinds> kFactors{0.25f, 0.5f, 1, 2, 4, 8, 16};
+  Metres radius_, first_;
   std::array<float, kPhotonKinds> most_;  // flux that r_j can bear [W]
 };
 
