@@ -3,14 +3,16 @@ test and render with. Then the new method meets its closed form through a real c
 
     E = pi everywhere, so that a matte wall of reflectance rho shows L = rho
 
-as the code 255 OETF(rho) of a PNG (IEC 61966-2-1; rho below 0.8, where the tone curve is straight), rounded by the table
-of common/image/tone_map.h, 1 code. On the wire reflectance and E are rounded, each up or down by at most 1/128 of its
-largest channel and without bias (proto/quantize.h): a pixel is off by at most 2/128 of the largest rho, their mean is not.
+as the code 255 OETF(rho) of a PNG (IEC 61966-2-1; rho below 0.8, where the tone curve is straight), give or take 1.5,
+half a code by rounding and one by the table of common/image/tone_map.h. On the wire reflectance and E are rounded, too, without
+bias (proto/tile_codec.h): so that the mean over the pixels has that code, and each pixel that of a radiance with
+
+    |L - rho| <= d + (rho + d)/127.5,   d = (2 sqrt(rho) + 1/255)/255
 
 Of the test programs that the page builds, only the files with suites that it runs are copied: the others need not be
 compiled.
 """
-import os
+import math
 import pathlib
 import shutil
 import subprocess
@@ -26,6 +28,7 @@ from programs import ClusterTest  # noqa: E402
 PARTS = ("CMakeLists.txt", "CMakePresets.json", "cmake", "common", "proto", "client", "master", "tools", "tests", "docs",
          "scenes", "scripts", ".clang-format")
 REFLECTANCE = (0.6, 0.3, 0.1)
+TONE = 1.5  # codes
 
 
 def copy(tree):
@@ -45,6 +48,12 @@ def copy(tree):
 def code(radiance):
     """Of sRGB, before it is rounded."""
     return 255 * (1.055 * radiance ** (1 / 2.4) - 0.055)
+
+
+def rounding(rho):
+    """Of L on the wire, at most."""
+    d = (2 * math.sqrt(rho) + 1 / 255) / 255
+    return d + (rho + d) / 127.5
 
 
 class AddingAMethod(ClusterTest):
@@ -84,11 +93,10 @@ class AddingAMethod(ClusterTest):
         self.assertIn("constant-light", told)
         pixels = self.pixels(clients=2)
         self.assertEqual(len(pixels), 48 * 36)
-        rounding = 2 / 128 * (1 + 1 / 256) * max(REFLECTANCE)
         for channel, rho in zip(zip(*pixels), REFLECTANCE):
-            self.assertGreaterEqual(min(channel), code(rho - rounding) - 1)
-            self.assertLessEqual(max(channel), code(rho + rounding) + 1)
-            self.assertAlmostEqual(sum(channel) / len(channel), code(rho), delta=1)
+            self.assertGreaterEqual(min(channel), code(rho - rounding(rho)) - TONE)
+            self.assertLessEqual(max(channel), code(rho + rounding(rho)) + TONE)
+            self.assertAlmostEqual(sum(channel) / len(channel), code(rho), delta=TONE)
         self.assertEqual(pixels, self.pixels(clients=1), "whoever renders it")
 
 
