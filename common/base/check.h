@@ -1,12 +1,12 @@
-// check.h: NINEFOLD_CHECK, for our own bugs. It prints the expression, both values if it is a comparison, and
-// the place; then it aborts.
+// check.h: NINEFOLD_CHECK, for our own bugs. It prints the expression, the place and, of a
+// comparison, both values; then it aborts.
 //
 //   NINEFOLD_CHECK(claims == held);
-//   internal error: claims == held does not hold (3 and 4) at master/report.cpp:85; please report this line
+//   internal error: claims == held does not hold (3 and 4) at master/x.cpp:85; please report...
 //
-// C++ reads `Values() <=> a == b` as `(Values() <=> a) == b`: the first operator keeps a, the second one
-// compares it with b and keeps that, too. Of `a == b && c` only the truth is left: better two checks.
-// Each side is evaluated once. A value that cannot be printed is a question mark.
+// C++ reads `Values() <=> a == b` as `(Values() <=> a) == b`: the first operator keeps a, the
+// second compares it with b and keeps b, too. Each side is evaluated once.
+// Of `a == b && c` only the truth is known: better two checks. A value without a text is a "?".
 // Threads: any thread.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace ninefold {
 
-// `values`: of the comparison, or nothing.
+// `values`: both sides of a comparison as text; empty of anything else.
 [[noreturn]] void checkFailed(const char* expression, const std::string& values, const char* file,
                               int line);
 
@@ -43,7 +43,7 @@ std::string show(const T& value) {
     return "?";
 }
 
-// Of different signedness, too: a literal is an int.
+// These are compared by value, whatever their signedness: a literal is an int.
 template <typename T>
 concept Integer = std::integral<T> && !std::same_as<T, bool> && !std::same_as<T, char>;
 

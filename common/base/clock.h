@@ -1,5 +1,5 @@
-// clock.h: points in time are values. Only a program's main and the connection read the clock; all else
-// is told the time, so that tests and the simulated cluster can set it.
+// clock.h: points in time are values. Only a program's main and the connection read the clock.
+// All else is told the time, so that tests and the simulated cluster can set it.
 #pragma once
 
 #include <chrono>

@@ -1,6 +1,8 @@
-// command_line.h: what the command lines of all programs share. Flags, then environment
-// (NINEFOLD_*), then defaults; wrong usage is one line and exit status 2.
-// Errors: UsageError. Threads: pure, but for processVariable.
+// command_line.h: what the command lines of all programs share. A flag counts before its
+// environment variable (NINEFOLD_*), that before the default. Wrong usage is one line and exit
+// status 2.
+//
+// Threads: pure, but for processVariable.   Errors: UsageError.
 #pragma once
 
 #include <cstdint>
@@ -33,7 +35,7 @@ std::optional<std::string> processVariable(const std::string& name);
 // The variable that stands for a flag: "key-file" -> "NINEFOLD_KEY_FILE".
 std::string variableOfFlag(std::string_view flag);
 
-// "640x480" -> {640, 480}: two numbers in [low, high].
+// "640x480" -> {640, 480}: two whole numbers in [low, high].
 std::pair<int, int> parsePair(std::string_view flag, std::string_view text, int low, int high);
 
 // "1.5,2,0.25" -> those numbers; at least one, all finite.

@@ -1,10 +1,10 @@
 // concurrency.h: how threads hand work to each other.
 //
 // BoundedQueue   first in, first out, never more than `capacity` entries. A producer that must not
-// wait
-//                uses tryPush and decides itself what to do when there is no room. After close(),
-//                what is inside can still be taken, nothing can be added, and nobody waits any
-//                longer.
+//                wait uses tryPush and decides itself what to do when there is no room.
+//                After close() nothing can be added and nobody waits; what is inside can still
+//                be taken.
+//
 // Threads: all functions from any thread.   Owner: outlives the threads that use it.
 #pragma once
 
@@ -59,7 +59,7 @@ class BoundedQueue {
     return removed;
   }
 
-  // of(the entry that is next); nothing if the queue is empty.
+  // of(next entry); nothing if the queue is empty.
   template <typename Of>
   std::optional<std::invoke_result_t<Of, const T&>> front(Of of) const {
     const std::lock_guard lock(mutex_);

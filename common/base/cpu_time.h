@@ -1,4 +1,5 @@
-// cpu_time.h: what this thread or process has used so far. Threads: any.
+// cpu_time.h: the processor time and memory that this thread or process has used so far.
+// Threads: any.
 #pragma once
 
 #include <sys/resource.h>

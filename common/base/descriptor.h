@@ -1,5 +1,5 @@
 // descriptor.h: a file descriptor that closes itself.
-// Owner: the descriptor. Threads: one owner at a time. Errors: none; one below 0 is no descriptor.
+// Owner: the descriptor.   Threads: one owner at a time.   Errors: none; -1 is no descriptor.
 #pragma once
 
 #include <unistd.h>

@@ -1,10 +1,10 @@
-// error.h: the one exception for what a user, a file or a peer did wrong, and the check for our own bugs.
+// error.h: the one exception for what a user, a file or a peer did wrong.
 //
-// Error   a file, flag, peer or message is bad. Its text is one line: what, where, what to do about it.
-//         Whoever owns the conversation (main, a connection) catches it and reports it; a peer's Error
-//         ends that peer's connection, never the program.
-// CHECK   our own assumption is broken: prints the expression, its values and the place, then aborts
-//         (check.h).
+// Error   A file, flag, peer or message is bad. The text is one line: what, where, what to do.
+//         Whoever owns the conversation (main, a connection) catches and reports it. A peer's
+//         Error ends that peer's connection, never the program.
+// CHECK   Our own assumption is broken: the program prints it and aborts (check.h).
+//
 // Threads: all functions may be called from any thread.
 #pragma once
 

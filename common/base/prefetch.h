@@ -1,5 +1,5 @@
 // prefetch.h: asks the memory for what will be used soon, where no processor looks ahead by itself.
-// Threads: any. Errors: none; addresses that are nobody's are passed over.
+// Threads: any.   Errors: none; addresses that belong to nobody are passed over.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // process.h: programs that we start and end, and descriptors that they inherit.
 //
-// ChildProcess   owns a running program: ends and reaps it when destroyed, so that none is left behind.
+// ChildProcess   owns a running program. Its destructor ends and reaps it, so none is left behind.
 //
-// Threads: one thread owns a ChildProcess; the kernel's parent-death signal counts for the thread that
-// called start, so that thread lives as long as its children.
-// Errors: Error with the system's reason.
+// Threads: one thread owns a ChildProcess and outlives it: a client asks the kernel to be killed
+//          when the thread that called start() dies.
+// Errors:  Error with the system's reason.
 #pragma once
 
 #include <sys/types.h>
@@ -23,13 +23,13 @@ struct Pipe {
   Descriptor readEnd, writeEnd;
 };
 
-// A pipe of which no child inherits an end, unless it is handed over on purpose.
+// A pipe. No child inherits an end unless it is handed over on purpose.
 Pipe makePipe();
 
 class ChildProcess {
  public:
-  // Starts `program`. The child sees `inherited` as descriptor kInheritedDescriptor and, besides
-  // standard input, output and error, nothing else of ours.
+  // Starts `program`. Of our descriptors the child has standard input, output and error, and
+  // `inherited` as kInheritedDescriptor; nothing else.
   static ChildProcess start(const std::filesystem::path& program,
                             const std::vector<std::string>& arguments, const Descriptor& inherited);
   ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, 0)) {}
@@ -44,7 +44,7 @@ class ChildProcess {
     std::optional<int> status;  // nothing: a signal
     std::string text;           // "exit status 1", "signal 9 (Killed)"
   };
-  // How it ended, once it has; asks without waiting.
+  // How it ended; nothing while it runs. Does not wait.
   std::optional<Ending> ended();
   void terminate() const;  // SIGTERM, asks it to go
 
@@ -53,11 +53,11 @@ class ChildProcess {
   pid_t pid_ = 0;  // 0 = reaped
 };
 
-// The signals that ask a program to end well: Ctrl-C, SIGTERM, a closed terminal (unless whoever
-// started us had it ignored, as nohup does), a pipe without a reader.
+// The signals that ask a program to end well: Ctrl-C, SIGTERM, a pipe without a reader, and a
+// closed terminal (unless whoever started us had that ignored, as nohup does).
 std::vector<int> endingSignals();
 
-// Whether this thread, and those that it starts, take the signal. While no thread does, it waits.
+// Whether this thread, and those that it starts, take the signal. It waits while no thread does.
 void takeSignal(int signal, bool take);
 
 inline constexpr int kInheritedDescriptor = 3;

@@ -6,7 +6,8 @@
 
 namespace ninefold {
 
-// The status of `run`; 2 after a UsageError and 1 after any other exception, each told in one line.
+// Returns the status of `run`; 2 after a UsageError, 1 after any other exception. Each exception is
+// told in one line.
 int runProgram(std::string_view name, const std::function<int()>& run);
 
 }  // namespace ninefold

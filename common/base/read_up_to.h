@@ -1,5 +1,5 @@
 // read_up_to.h: reading from a file descriptor until there is enough, whatever interrupts it.
-// Threads: any. Errors: none thrown; errno says why it is less, if it is not the end.
+// Threads: any.   Errors: none thrown; errno says why a read failed.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace ninefold {
 
-// Reads until `into` is full or the data end or fail; how many bytes that were.
+// Reads until `into` is full, the data end, or a read fails. Returns the number of bytes read.
 size_t readUpTo(int fd, std::span<std::byte> into);
 
 }  // namespace ninefold

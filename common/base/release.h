@@ -1,7 +1,7 @@
-// release.h: what all programs of a cluster must have been built from; others are refused at the handshake.
+// release.h: what all programs of a cluster are built from. The handshake refuses others.
 //
-// The project's version, the commit, and a digest of what differs from it: cmake/release.cmake, which
-// writes releaseName() at each build.
+// The name holds the project's version, the commit, and a digest of what differs from the commit.
+// cmake/release.cmake writes releaseName() at each build.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// shared_list.h: a std::vector whose copies share their elements until one of them is to be changed:
-// copying costs nothing, and what a const list refers to stays where it is as long as any copy lives.
+// shared_list.h: a std::vector whose copies share their elements until one of them is changed.
+// Copying costs nothing. References into a const list stay valid while any copy lives.
 //
 // Threads: copies may be read at once; whoever changes one must be its only user.
 #pragma once
@@ -24,7 +24,7 @@ class SharedList {
   auto begin() const { return list_->cbegin(); }
   auto end() const { return list_->cend(); }
 
-  // To be changed: from here on it is not shared any more.
+  // For changes: gives this list elements of its own first.
   std::vector<T>& own() {
     if (list_.use_count() > 1) list_ = std::make_shared<std::vector<T>>(*list_);
     return *list_;

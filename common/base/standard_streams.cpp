@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kPatienceMs = 100;
 
-// Within its life a pipe without a reader is an error of ::write alone. The signal that comes with
-// it goes to the thread that writes, so that one from elsewhere is not lost.
+// While it lives, a pipe without a reader is an error of ::write alone. The signal that comes with
+// the error goes to the thread that writes; one from elsewhere is not lost.
 class NoPipeSignal {
  public:
   NoPipeSignal() {
@@ -55,7 +55,7 @@ bool takesText(int fd) {
 }  // namespace
 
 void prepareStreams() {
-  // For reading only: who writes to one that was closed gets an error.
+  // For reading only: writing to a stream that was closed gives an error.
   for (const int fd : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (!isOpen(fd) && ::open("/dev/null", O_RDONLY) != fd) _exit(1);
   ::signal(SIGXFSZ, SIG_IGN);

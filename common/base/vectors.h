@@ -1,8 +1,9 @@
 // vectors.h: eight floats or words at once, for the loops that the compiler does not vectorise by
-// itself. Sums, products, comparisons and the like are the language's operators, lane by lane (an
-// extension of GCC and Clang); a comparison gives all bits or none in each lane.
+// itself. Sums, products and comparisons are the language's operators, lane by lane (an extension
+// of GCC and Clang). A comparison gives all bits or none in each lane.
 //
-// The values are those of the same expressions one by one. Threads: plain values.
+// The values are those of the same expressions one by one.
+// Threads: plain values.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +32,7 @@ void put(const Vector& values, T* to) {
   std::memcpy(to, &values, sizeof values);
 }
 
-// value where the mask is set, else 0: without a branch and without 0 * infinity.
+// `value` where the mask is set, else 0; without a branch and without 0 * infinity.
 inline Floats masked(Floats value, Mask mask) { return Floats(Mask(value) & mask); }
 inline Floats least(Floats a, Floats b) { return b < a ? b : a; }    // as std::min
 inline Floats largest(Floats a, Floats b) { return a < b ? b : a; }  // as std::max

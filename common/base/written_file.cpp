@@ -89,7 +89,7 @@ fs::path checkedTarget(const fs::path& name, const FileRights& rights) {
 
 bool lock(int fd) { return ::flock(fd, LOCK_EX | LOCK_NB) == 0; }
 
-// Somebody who sweeps may have been quicker than our lock.
+// False if somebody who sweeps was quicker than our lock.
 bool isThere(int fd) {
   struct stat facts {};
   return ::fstat(fd, &facts) == 0 && facts.st_nlink > 0;

@@ -1,16 +1,17 @@
 // written_file.h: the one way in which programs write files: whole, or as they were before.
 //
-//   target    what the name leads to through symbolic links, which stay
+//   target    what the name leads to through symbolic links; the links stay
 //   beside    the bytes go to a new file in the target's folder, .ninefold.PID.N.part
 //   publish   sync, compare the size with what was written, rename over the target
 //
-// A file that is replaced hands its mode and, if the system allows, its owner on. What is no
-// regular file (folder, device, pipe), is write-protected or a mount of its own is refused. Each
-// writer has a file of its own beside the target: of two at the same time the last one wins, whole.
-// A living writer holds a lock on its file, by which checkWritable knows what a killed one left,
-// and takes that away.
-// Owner: a local variable; bytes that were not published go with it. Threads: one at a time.
-// Errors: throws Error in one line, "cannot write NAME: ...".
+// The new file takes the mode of the one that it replaces and, if the system allows, its owner.
+// Refused: what is no regular file (folder, device, pipe), write-protected or a mount of its own.
+// Each writer has its own file beside the target: of two at the same time the last one wins, whole.
+// A living writer holds a lock on its file. A file without a lock is a killed writer's:
+// checkWritable removes it.
+//
+// Owner:   a local variable; bytes that were not published go with it.
+// Threads: one at a time.   Errors: throws Error in one line, "cannot write NAME: ...".
 #pragma once
 
 #include <sys/types.h>
@@ -38,7 +39,7 @@ class WrittenFile {
   void write(std::string_view bytes) { writeAt(size_, bytes); }  // at the end
   void writeAt(uint64_t offset, std::string_view bytes);
   uint64_t size() const { return size_; }
-  // Last. Before it nothing is to be seen under the name. Fails again if a write has failed.
+  // Last. Nothing is to be seen under the name before. Throws if any write has failed.
   void publish();
 
  private:

@@ -2,24 +2,24 @@
 //
 //   D             f = diffuse / pi; its weight does not depend on directions
 //   reflection    GGX with Smith's height-correlated masking (smooth when alpha = 0)
-//                 opaque: Schlick's Fresnel f0 + (f90-f0)(1-cos)^5; dielectric: exact Fresnel of
-//                 eta
-//   transmission  GGX refraction (Walter 2007), smooth when alpha = 0; thin-walled: straight on,
-//                 without bending (rough: the mirror lobe, turned to the other side);
+//                 opaque: Schlick's Fresnel f0 + (f90-f0)(1-cos)^5
+//                 dielectric: exact Fresnel of eta
+//   transmission  GGX refraction (Walter 2007), smooth when alpha = 0
+//                 thin-walled: straight on (rough: the mirror lobe, turned to the other side)
 //                 plus the straight pass of weight `passThrough` (alpha blending), always smooth
 //
-// All of it is for basic radiance L/n^2: weights hold no eta^2, and every lobe is symmetric in the
-// measure n^2 dw, f(wo, wi; eta) = eta^2 f(wi, wo; 1/eta), so light particles and eye paths use the
-// same functions. Directions are unit, local (z = shading normal), point away from the surface;
-// wo.z > 0 always: the caller turns the frame, and eta, to the side of wo. Fresnel's F and 1-F are
-// part of the weights: the caller chooses the lobe by lobeAlbedo, or follows both.
+// All is for basic radiance L/n^2, so weights hold no eta^2. Every lobe is symmetric in the measure
+// n^2 dw, f(wo, wi; eta) = eta^2 f(wi, wo; 1/eta): particles and eye paths use the same functions.
+// Directions are unit, local (z = shading normal) and point away from the surface. wo.z > 0 always:
+// the caller turns the frame, and eta, to the side of wo. Fresnel's F and 1-F are part of the
+// weights: the caller chooses the lobe by lobeAlbedo, or follows both.
 // Refraction whose spread, alpha |eta - 1|, is below kSmoothAlpha is smooth; eta = 1 is invisible.
-// The single-scattering GGX lobes lose energy at high roughness: a white metal seen head-on keeps
-// 92 % at alpha = 0.25, 69 % at 0.5, 31 % at 1. The loss is stated by the tests, not hidden.
 //
 // Source:  Walter et al. 2007; Heitz 2018 (visible normals); Schlick 1994.
 // Proved:  tests/bsdf (chi-square sample/pdf, reciprocity, albedo <= 1, smooth limits, extremes).
-// Threads: plain values, pure functions. Errors: none; nullopt means "no light goes there".
+// Fails:   single-scattering GGX loses energy at high roughness: a white metal seen head-on keeps
+//          92 % at alpha = 0.25, 69 % at 0.5, 31 % at 1. The tests state the loss.
+// Threads: plain values, pure functions.   Errors: none; nullopt means "no light goes there".
 #pragma once
 
 #include <optional>
@@ -58,24 +58,24 @@ struct LobeSample {
 // Samples one lobe. uLobe chooses between refraction and the straight pass inside `transmission`.
 std::optional<LobeSample> sampleLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec2 u, float uLobe);
 
-// What passes straight on through a surface that bends nothing: through the holes of alpha blending
-// and smooth thin walls.
+// Share that passes straight on through a surface that bends nothing: through the holes of alpha
+// blending and smooth thin walls.
 Reflectance straightPass(const Bsdf& bsdf, float cosThetaO);
 
-// f * |cos wi| [1/sr] of the non-smooth part of a lobe, and the density of sampleLobe for it.
+// f |cos wi| and sampleLobe's density, both [1/sr], of the part of a lobe that is not smooth.
 struct LobeValue {
   Vec3 value{0};
   float pdf = 0;
 };
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi);
 
-// Directional albedo of a lobe, for choosing among lobes and for albedo planes; in [0, 1]. Exact
-// for smooth lobes, a table within 0.04 for opaque ones, four samples within 0.1 for rough
+// Directional albedo of a lobe, in [0, 1], for choosing among lobes and for albedo planes. Exact
+// for smooth lobes; a table within 0.04 for opaque ones; four samples within 0.1 for rough
 // dielectrics.
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO);
 
-// Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what folding a lobe that
-// is too rough into D adds to rho. 0 <= f0 <= 1.
+// Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what a lobe too rough to
+// be followed adds to rho when it is folded into D. 0 <= f0 <= 1.
 Reflectance meanReflection(Vec3 f0, float alpha);
 
 // Exact unpolarized Fresnel reflectance at |cosThetaI|, eta = n_t / n_i; 1 on total reflection.

@@ -6,8 +6,8 @@ namespace ninefold {
 
 namespace {
 
-constexpr float kMirrorEta =
-    1e6f;  // beyond it the interface reflects all but 4e-6, and eta^2 nears overflow
+// Beyond it the interface reflects all but 4e-6, and eta^2 nears overflow.
+constexpr float kMirrorEta = 1e6f;
 
 }  // namespace
 
@@ -26,8 +26,8 @@ float fresnelDielectric(float cosThetaI, float eta) {
 }
 
 // F_mean = 2 int_0^1 F(c) c dc. With c = t^4 the steep rise towards grazing, where the scale is
-// sqrt(eta^2 - 1), is smooth in t. From the dense side light that stays below the critical angle
-// goes both ways alike: (1 - F_mean(eta)) = eta^2 (1 - F_mean(1/eta)).
+// sqrt(eta^2 - 1), is smooth in t. From the dense side, light below the critical angle goes both
+// ways alike: (1 - F_mean(eta)) = eta^2 (1 - F_mean(1/eta)).
 float meanFresnelDielectric(float eta) {
   if (eta < 1.0f) return 1.0f - eta * eta * (1.0f - meanFresnelDielectric(1.0f / eta));
   constexpr int kSteps = 128;

@@ -6,11 +6,12 @@
 //   G2     = 2 cos_o cos_i / (s_o cos_i + s_i cos_o)      height-correlated, both on one side
 //   p(m)   = G1(wo) max(wo.m, 0) D(m) / cos_o             visible normals      [1/sr]
 //
-// All is written without a division by a cosine, so that grazing directions stay finite.
+// No expression divides by a cosine, so grazing directions stay finite. Internal to common/bsdf.
+//
 // Source:  Walter et al. 2007; Heitz 2014 (masking), 2018 (visible normals); Dupuy and Benyoub 2023
 //          (sampling by spherical caps).
 // Proved:  tests/bsdf (chi-square through each lobe).
-// Threads: pure functions. Internal to common/bsdf.
+// Threads: pure functions.
 #pragma once
 
 #include "common/math/units.h"

@@ -1,19 +1,21 @@
-// lobes.h: the parts behind bsdf.h. Each lobe has one function that samples and one that evaluates;
-// both get weight = f |cos wi| / pdf and pdf from the same expressions, so they cannot disagree.
-// Threads: pure functions. Errors: none. Internal to common/bsdf.
+// lobes.h: the parts behind bsdf.h. Each lobe has one function that samples and one that evaluates.
+// Both get weight = f |cos wi| / pdf and pdf from the same expressions, so they cannot disagree.
+// Internal to common/bsdf.
+//
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include "common/bsdf/bsdf.h"
 
 namespace ninefold {
 
-// What an interface sends back and lets through, at `cosine` to its (micro) normal. A thin wall
-// adds up the bounces between its two faces: F' = 2F/(1+F), and lets 1 - F' through.
+// Shares that an interface sends back and lets through, at `cosine` to its (micro) normal. A thin
+// wall adds up the bounces between its two faces: F' = 2F/(1+F), and lets 1 - F' through.
 Vec3 interfaceReflectance(const Bsdf& bsdf, float cosine);
 Vec3 interfaceTransmittance(const Bsdf& bsdf, float cosine);
 
-// Rough refraction bends by about alpha |eta - 1|: where that is less than the least roughness, the
-// interface is smooth for light that passes. Index 1 is invisible by this rule, too.
+// Rough refraction bends by about alpha |eta - 1|. Where that is less than the least roughness, the
+// interface is smooth for light that passes; so index 1 is invisible.
 inline bool smoothReflection(const Bsdf& bsdf) { return bsdf.alpha < kSmoothAlpha; }
 inline bool smoothTransmission(const Bsdf& bsdf) {
   return bsdf.alpha * std::min(std::abs(bsdf.eta - 1.0f), 1.0f) < kSmoothAlpha;

@@ -1,15 +1,15 @@
-// transmission.cpp: light that passes: straight on, bent by a smooth interface or spread by a rough
-// one. Thin walls: the mirror lobe, turned to the other side.
+// transmission.cpp: light that passes: straight on, bent by a smooth interface, or spread by a
+// rough one. Through thin walls: the mirror lobe, turned to the other side.
 //
 //   f |cos_i| = (1-F) G1(wo) G1(wi) D(m) (wo.m) / cos_o  dm/dwi              [1/sr]
 //   dm/dwi    = eta^2 |wi.m| / (wo.m + eta wi.m)^2 = eta g (c + g)^2 / (eta^2 - 1)^2,
 //               c = wo.m, g = eta |wi.m| = sqrt(eta^2 - 1 + c^2)
 //
 // The integral of f |cos_i| over wi is the fraction that gets through. Masking is a plain product:
-// what is seen from above and from below tends to lie at opposite heights, so that the correlated
-// form for one side would let too much through.
+// points seen from above and from below tend to lie at opposite heights. The correlated form for
+// one side would let too much through.
 //
-// Source: Walter et al. 2007.
+// Source:  Walter et al. 2007.
 #include "common/bsdf/ggx.h"
 #include "common/bsdf/lobes.h"
 

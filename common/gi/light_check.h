@@ -1,7 +1,7 @@
 // light_check.h: light that is no number (infinite, NaN) is a mistake of ours, found where it was
 // made: in builds without NDEBUG the renderer asks these after each light set and each task.
 //
-// Others count such values, replace them by 0 and warn (proto/tile_codec.h).
+// In all builds the wire counts such values, replaces them by 0 and warns (proto/tile_codec.h).
 // Threads: pure.   Errors: aborts with the values and the command that makes them again.
 #pragma once
 

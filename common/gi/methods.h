@@ -7,8 +7,8 @@
 
 namespace ninefold {
 
-// Of transport.settings.method. `begun`: the same method in the scene that a gesture began with, or
-// null.
+// The method of transport.settings.method. `begun`: the same method in the scene that a gesture
+// began with; null at rest.
 std::unique_ptr<const GiMethod> makeMethod(const Transport& transport, const GiMethod* begun);
 
 }  // namespace ninefold

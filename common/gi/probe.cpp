@@ -1,5 +1,5 @@
-// The pixel class by doing: a room with every kind of estimator in it is rendered and hashed, so
-// that any difference in arithmetic, traversal or library that can reach a picture shows in the
+// The pixel class by doing: renders a room with every kind of estimator in it and hashes the
+// result. Any difference in arithmetic, traversal or library that can reach a picture shows in the
 // hash.
 #include <bit>
 

@@ -1,10 +1,12 @@
 // renderer.h: what a client does with a scene: light sets and tasks. The door of common/gi.
 //
-// A Renderer is made once per scene and settings; after that everything is a pure function of its
-// arguments: any client makes the same light set and the same tile, bit for bit. Another camera or
-// size on the same light costs next to nothing: light sets do not depend on them.
-// Threads: const functions are reentrant; each thread has its own Scratch. Owner: refers to the
-// Tracer. Errors: constructor throws Error for settings that the scene cannot serve.
+// A Renderer is made once per scene and settings. After that everything is a pure function of its
+// arguments: any client makes the same light set and the same tile, bit for bit. Light sets do not
+// depend on camera and size, so another view of the same light costs next to nothing.
+//
+// Owner:   refers to the Tracer.
+// Threads: const functions are reentrant; each thread has its own Scratch.
+// Errors:  constructor throws Error for settings that the scene cannot serve.
 #pragma once
 
 #include <memory>
@@ -17,10 +19,10 @@ namespace ninefold {
 class Renderer {
  public:
   // `begun`: of the scene that a gesture began with, under the same settings; null at rest. Counts,
-  // shares, b and the photons' spread stay what they are there (transport.h).
+  // shares, b and the photons' radii stay as they are in `begun` (transport.h).
   Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun = nullptr);
-  // The same light seen by the camera, and in the size, of `settings`; the rest of them must be
-  // those of `lit`. Bit for bit what a new Renderer would be.
+  // The light of `lit` seen by the camera, and in the size, of `settings`. The rest of `settings`
+  // must be that of `lit`. Bit for bit what a new Renderer would be.
   Renderer(const Renderer& lit, const Settings& settings);
   ~Renderer();
   Renderer(const Renderer&) = delete;

@@ -3,10 +3,13 @@
 //   albedo.R G B   N.x y z   Z   irradiance.R G B   caustic.R G B     means over frames
 //   objectId                                                          of the newest frame
 //
-// irradiance is E at the first hit after the discontinuity buffer, or the plane of that name where
-// the method has one; caustic the photons' part of it before the buffer. N is made unit again. Z is
-// the mean over those frames in which the pixel met a surface. Threads: addPatch for different
-// tiles at once, else one at a time.
+//   irradiance  E at the first hit after the discontinuity buffer, or the plane of that name where
+//               the method has one                                                     [W/m^2]
+//   caustic     the photons' part of E before the buffer                               [W/m^2]
+//   N           the mean, made unit again
+//   Z           mean over those frames in which the pixel met a surface                [m]
+//
+// Threads: addPatch for different tiles at once, else one at a time.
 #pragma once
 
 #include "common/image/patch_filter.h"

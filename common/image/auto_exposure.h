@@ -1,13 +1,14 @@
 // auto_exposure.h: the exposure [EV] that suits a picture by itself.
 //
-//   EV = log2(a / L)      L: luminance that kShare of the pixels that are not black stay below, a = kBright
+//   EV = log2(a / L), rounded to tenths     a = kBright; L: luminance that kShare of the pixels
+//                                           that are not black stay below
 //
-// rounded to tenths. From kBright (code 188) to where the tone map's curve begins to bend there are
-// two thirds of a stop left for what is brighter; lamps are rolled off. 0 for a picture that is
-// black or has values that are not finite in L's place. The same picture always has the same
-// exposure. Fails: a picture that is lamps for more than 1 - kShare is made too dark.
+// From kBright (code 188) to the bend of the tone map's curve two thirds of a stop are left for
+// what is brighter; lamps are rolled off. EV is 0 for a picture that is black or has no finite L.
+// The same picture always has the same exposure.
 //
-// Proved: tests/image/auto_exposure_test.cpp. Threads: pure. Errors: none.
+// Fails:   a picture that is lamps for more than 1 - kShare is made too dark.
+// Proved:  tests/image/auto_exposure_test.cpp.   Threads: pure.   Errors: none.
 #pragma once
 
 #include "common/image/image.h"

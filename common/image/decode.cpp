@@ -101,7 +101,7 @@ bool looksLikeTga(std::span<const std::byte> file) {
   return at(1) <= 1 && type >= 1 && type <= 3 && at(16) >= 8 && at(16) <= 32;
 }
 
-// OpenImageIO's name of the format, of which the file is a whole one as far as can be told cheaply.
+// OpenImageIO's name of the format. Throws unless the file is whole, as far as is cheap to tell.
 const char* formatOf(std::span<const std::byte> file) {
   if (startsWith(file, "\x89PNG\r\n\x1a\n")) return checkPng(file), "png";
   if (startsWith(file, "\xff\xd8\xff")) return checkJpeg(file), "jpeg";

@@ -1,11 +1,11 @@
 // decode.h: compressed image files in memory to 8-bit texels, for textures.
 //
-// Only plain formats (PNG, JPEG, BMP, TGA) are let in, recognized by content. The header is read
-// and held against the limits before memory is taken for pixels; a file too short for the size
-// that it claims is refused at once. 16-bit channels are rounded to 8; alpha is never
-// premultiplied.
-// Errors: throws Error that says what is wrong with the image; the caller knows which one it is.
+// Only plain formats (PNG, JPEG, BMP, TGA) are let in, recognized by content. The header is held
+// against the limits before memory is taken for pixels. A file too short for the size that it
+// claims is refused at once. 16-bit channels are rounded to 8; alpha is never premultiplied.
+//
 // Threads: reentrant.
+// Errors:  throws Error that says what is wrong with the image; the caller knows which one it is.
 #pragma once
 
 #include <cstddef>

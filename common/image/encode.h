@@ -1,5 +1,6 @@
-// encode.h: 8-bit texels to a PNG file in memory, without loss: decode.h gives back the same texels.
-// Errors: throws Error. Threads: reentrant.
+// encode.h: 8-bit texels to a PNG file in memory, without loss.
+//
+// Threads: reentrant.   Errors: throws Error.
 #pragma once
 
 #include <cstdint>

@@ -74,8 +74,8 @@ void Film::addTile(int x0, int y0, const RgbImage& tile) {
   addLuminance(x0, y0, tile);
 }
 
-// To each pixel, and to the sums of the blocks, row by row within each block. A row's blocks take
-// turns: an addition has to wait for the one before it to the same sum.
+// Adds to each pixel, and to the sums of the blocks, row by row within each block. A row's blocks
+// take turns: an addition has to wait for the one before it to the same sum.
 void Film::addLuminance(int x0, int y0, const RgbImage& tile) {
   NINEFOLD_CHECK(x0 % kErrorBlock == 0);
   NINEFOLD_CHECK(y0 % kErrorBlock == 0);

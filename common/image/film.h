@@ -1,27 +1,29 @@
 // film.h: the mean over frames of one unchanging picture, and how far it may still be from its
 // limit.
 //
-// Per pixel and channel a running mean in double: no drift over millions of frames, and frames that are
-// all alike have exactly their own value as mean.
+// Per pixel and channel it keeps a running mean in double: no drift over millions of frames, and
+// the mean of equal frames is exactly their value.
 //
-// Pixels of one frame share light sets, so that their errors are not independent and must not be
-// averaged away. Hence the film also keeps the luminance of the image and of each block of 16 x 16
-// pixels (less at the right and lower edge). All errors are of luminances and come from eight
-// replications, as replications.h says; e: standard error of a mean:
+// Pixels of one frame share light sets, so their errors are not independent and must not be
+// averaged away. Hence the film also keeps the mean luminance of the image and of blocks of 16 x 16
+// pixels (less at the right and lower edge). Eight replications give each mean its standard error e
+// (replications.h):
 //
 //   standardError()        e of each pixel
-//   relativeError()        sqrt(sum_b n_b (e_b^2 + B_b^2) / sum_b n_b) / Y         b: blocks of n_b pixels
-//   imageRelativeError()   e_Y / Y                                       Y: mean image luminance
+//   relativeError()        sqrt(sum_b n_b (e_b^2 + B_b^2) / sum_b n_b) / Y      what stop rules use
+//   imageRelativeError()   e_Y / Y
 //
-// B_b: bias by the photons' radius, where frames take two by turns (radius_bias.h), as it was after
-// the last full turn of replications; standardError() has it, too. relativeError() is what stop
-// rules use. Both are infinite for N < 2, and 0 for a black image.
+//   b, n_b   a block, and how many pixels it has
+//   B_b      bias by the photons' radius after the last full turn of replications, where frames
+//            take two radii by turns (radius_bias.h); standardError() includes it, too
+//   Y, e_Y   mean luminance of the image, and its standard error
 //
-// A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels.
+// Both relative errors are infinite for fewer than two frames, and 0 for a black image.
+// A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels. The last bits
+// depend on the order of frames: add them in the order of their index.
 //
 // Proved:  tests/image/film_test.cpp.
 // Threads: addTile for different tiles at once, else one at a time.
-// The last bits depend on the order of frames: add them in the order of their index.
 #pragma once
 
 #include <cstdint>
@@ -37,7 +39,7 @@ inline constexpr int kErrorBlock = 16;
 
 class Film {
  public:
-  // keepsError: standardError() will be asked for, which takes eight means of every pixel.
+  // keepsError: standardError() will be asked for; it takes eight means of every pixel.
   // twoRadii: even frames have photons of a wider radius than odd ones.
   Film(int width, int height, bool keepsError = true, bool twoRadii = false);
 
@@ -52,7 +54,7 @@ class Film {
   bool twoRadii() const { return twoRadii_; }
   int64_t frames() const { return frames_; }
   void mean(RgbImage& out) const;  // black without frames
-  // Of the pixels of a tile, the frame included that it was last added of; into the same place of a
+  // The mean of a tile's pixels, up to the frame last added to it, into the same place of `out`, a
   // picture of the film's size.
   void meanOfTile(const TaskRect& tile, RgbImage& out) const;
   std::vector<float> standardError() const;  // row-major; zero for N < 2

@@ -1,6 +1,7 @@
-// image.h: a whole picture as planes, row-major from the top left; what filter, film, tone map and
+// image.h: a whole picture as planes, row-major from the top left: what filter, film, tone map and
 // files hand to each other.
-// Owner: whoever holds the value. Threads: plain data.
+//
+// Owner: whoever holds the value.   Threads: plain data.
 #pragma once
 
 #include <string>
@@ -44,8 +45,8 @@ struct Channel {
 // Adds the channels layer.R, layer.G, layer.B.
 void appendLayer(const std::string& layer, const RgbPlane& plane, std::vector<Channel>& channels);
 
-// 64-bit FNV-1a over the size and the bits of R, G, B, plane by plane, as 16 hex digits: equal
-// pictures, and in practice only those, have equal hashes. -0 and 0 differ: the promise is the same
+// 64-bit FNV-1a over the size and the bits of R, G, B, plane by plane, as 16 hex digits. Equal
+// pictures have equal hashes, and in practice only those. -0 and 0 differ: the promise is the same
 // bytes.
 std::string imageHash(const RgbImage& image);
 

@@ -42,8 +42,7 @@ std::string oneLine(std::string text) {
   return text.empty() ? "unknown reason" : text;
 }
 
-// Where the library writes to. What goes wrong there is kept: at a close the library may not mind
-// it.
+// Where the library writes to. It keeps what goes wrong: at a close the library may not mind it.
 class FileProxy : public OIIO::Filesystem::IOProxy {
  public:
   explicit FileProxy(WrittenFile& file) : IOProxy("", Write), file_(file) {}

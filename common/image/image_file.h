@@ -1,12 +1,11 @@
-// image_file.h: pictures to and from files, by OpenImageIO. The kind is told by the name's
-// extension.
+// image_file.h: pictures to and from files, by OpenImageIO. The name's extension tells the kind.
 //
 //   .exr  32-bit float R, G, B, then the extra channels; metadata as attributes "ninefold:key"
 //   .hdr  R, G, B with a shared 8-bit exponent (1 % steps; no negative values); no extra channels
 //   .png  8-bit sRGB through the tone map; no extra channels
 //
-// A file is whole or as it was before (written_file.h). Errors: Error with one line that names the
-// file. Threads: reentrant.
+// A file is whole or as it was before (written_file.h).
+// Threads: reentrant.   Errors: Error with one line that names the file.
 #pragma once
 
 #include <string>
@@ -31,9 +30,10 @@ struct Picture {
 // before the work that leads to the picture.
 void checkOutputPath(const std::string& path);
 
+// Writes the kind of file that the extension names; only .png uses `toneMap`. Throws Error.
 void writeImage(const std::string& path, const Picture& picture,
                 const ToneMap& toneMap = ToneMap());
-// A .png of a picture that was tone mapped already: the bytes that writeImage makes of its radiance.
+// Writes a picture that was tone mapped already: the bytes that writeImage makes of its radiance.
 void writePng(const std::string& path, const DisplayImage& picture);
 
 // The channels R, G, B (the first three if none are named so; one channel is spread to all) as

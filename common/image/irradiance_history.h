@@ -1,20 +1,27 @@
-// irradiance_history.h: temporal reuse while only the camera moves. E' of the diffuse layer [W/m^2] belongs to
-// a place, not to the eye: the place x that a pixel shows is looked up in the frame before, and
+// irradiance_history.h: temporal reuse while only the camera moves. E' of the diffuse layer [W/m^2]
+// belongs to a place, not to the eye. So the place x that a pixel p shows is looked up in the frame
+// before:
 //
-//   H(x) = H_before + (E'(x) - H_before)/n    n = min(frames that H is the mean of, this one included, kMost)
+//   H(x) = H_before + (E'(x) - H_before)/n
 //   L(p) = beauty + reflectance (H - E')
 //
-// H_before is interpolated between the four pixels around x's place in the frame before, of those alone that
-// show the same surface: normals within 25 degrees, and within kOffPlane of the distance from the plane
-// through x. Where too few do, x was hidden, and n = 1. At rest each pixel goes on with itself, with n up to
-// kMostKept, and the picture stays what the film says; what was learned is there when the camera moves on.
+//   n         number of frames that H is the mean of, this one included; at most kMost
+//   H_before  interpolated between the four pixels around x's place in the frame before. Only those
+//             count that show the same surface: normals within 25 degrees, and off the plane
+//             through x by at most kOffPlane of the distance to x. Where too few do, x was hidden,
+//             and n = 1.
 //
-// Fails:   where E' changes, old light would lag: whoever changes anything but camera and size calls forget().
-//          Light in mirrors and glass is not reused. Repeated interpolation blurs by about a pixel.
-// Source:  Walter, Drettakis and Parker 1999 (render cache); Scherzer et al. 2007 (reverse reprojection).
+// At rest each pixel goes on with itself, n up to kMostKept, and the picture stays what the film
+// says. What was learned is there when the camera moves on.
+//
+// Fails:   where E' changes, old light would lag: whoever changes anything but camera and size
+//          calls forget(). Light in mirrors and glass is not reused. Repeated interpolation blurs
+//          by about a pixel.
+// Source:  Walter, Drettakis and Parker 1999 (render cache); Scherzer et al. 2007 (reverse
+//          reprojection).
 // Proved:  tests/image/irradiance_history_test.cpp.
-// Threads: blend for different tiles at once, between begin and frameDone. Memory: 40 bytes a pixel.
-// Errors:  none.
+// Threads: blend for different tiles at once, between begin and frameDone.
+// Memory:  40 bytes a pixel.   Errors: none.
 #pragma once
 
 #include <cstdint>
@@ -34,13 +41,14 @@ class IrradianceHistory {
   static constexpr float kSameNormal = 0.9f;  // cosine
   static constexpr float kEnough = 0.25f;     // weight of those that show the same surface
 
-  // A frame begins, which looks back at the last one that was done.
+  // Begins a frame, which looks back at the last one that was done.
   void begin(const Camera& camera, int width, int height);
   void frameDone() { isDone_ = true; }
   // Nothing of the past counts for the next frame.
   void forget() { isForgotten_ = true; }
 
-  // After filter.compose with filter.keepIrradiance(true). moving: changes the tile's pixels in `beauty`.
+  // After filter.compose with filter.keepIrradiance(true). moving: changes the tile's pixels in
+  // `beauty`.
   void blend(const Patch& patch, const PatchFilter& filter, bool moving, RgbImage& beauty);
 
  private:
@@ -62,7 +70,8 @@ class IrradianceHistory {
     float frames = 0;
   };
   Past pastOf(Vec3 x, Vec3 normal, Metres distance) const;
-  // What pixel (x, y) of now_ shows, seen from `distance`; its mean with the past, of `most` frames at most.
+  // What pixel (x, y) of now_ shows, seen from `distance`, and its mean with the past, of at most
+  // `most` frames.
   Pixel remembered(int x, int y, Vec3 fresh, Vec3 normal, Metres distance, int most) const;
 
   Frame now_, before_;

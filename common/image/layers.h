@@ -1,13 +1,13 @@
-// layers.h: what a task gives back, planar: for each of a pixel's at most three layers the filterable
-// irradiance E with its guide planes, and the unfiltered radiance U.
+// layers.h: what a task gives back, planar: for each of a pixel's at most three layers the
+// filterable irradiance E with its guide planes, and the unfiltered radiance U.
 //
-//   layer radiance = reflectance * E + U            reflectance = throughput * rho/pi, each in [0, 1/pi]
+//   layer radiance = reflectance * E + U       reflectance = throughput * rho/pi, in [0, 1/pi]
 //
-// Layers come from the split at the first hit: diffuse (the hit itself is x), reflection and transmission
-// (x is where the specular chain ends on a diffuse surface).
-// A pixel without x in a layer (emitter met, path escaped, lobe absent) has distance 0 and reflectance 0;
-// its U counts all the same.
-// Owner: whoever holds the value. Threads: plain data.
+// The first hit splits into layers: diffuse (the hit itself is x), reflection and transmission (x
+// is where the specular chain ends on a diffuse surface). A pixel without x in a layer (emitter
+// met, path escaped, lobe absent) has distance 0 and reflectance 0; its U counts all the same.
+//
+// Owner: whoever holds the value.   Threads: plain data.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ enum ExtraPlane : uint8_t {
   kCausticPlane = 16,     // part of E in the diffuse layer that came by way of S [W/m^2]
   kIrradiancePlane = 32,  // E there, of methods whose light is all in U [W/m^2]
 };
-// What tells what is at a place of the picture.
+// The planes that tell which object is at a place of the picture, and how far away.
 inline constexpr uint8_t kPickPlanes = kObjectPlane | kDepthPlane;
 
 inline constexpr int kExtraPlanes = 6;
@@ -46,7 +46,7 @@ inline constexpr int kExtraPlanes = 6;
 struct RgbPlane {
   std::vector<float> r, g, b;
   void resize(size_t n) { r.assign(n, 0), g.assign(n, 0), b.assign(n, 0); }
-  // Old values may stay: for who writes all of them.
+  // Old values may stay: for callers that write all of them.
   void reshape(size_t n) { r.resize(n), g.resize(n), b.resize(n); }
   bool operator==(const RgbPlane&) const = default;
 };
@@ -82,7 +82,7 @@ struct ExtraPlanes {
   bool operator==(const ExtraPlanes&) const = default;
 };
 
-// The result of one task, or any rectangle of pixels of one phase. Row-major, width * height pixels.
+// The result of one task, or of any rectangle of pixels of one phase. Row-major, width * height.
 struct TileResult {
   int width = 0, height = 0;
   uint8_t layerMask = kDiffuseBit;

@@ -1,15 +1,16 @@
 // patch.h: one tile of a frame in planes, with a border of one sub-pixel around it in every phase:
 // all that the filter needs to finish the tile's pixels, small enough to stay in the cache.
 //
-// Each phase (sampling/interleave.h) has a plane of kSide x kSide sub-pixels; sub-pixel (i, j) of
-// the phase's sub-plane is at (i - i0 + 1, j - j0 + 1), where (i0, j0) is the tile's first one. What
-// lies outside the picture, or was not filled in, has distance 0: no x, so that the filter takes
-// nothing from there.
+// Each phase (sampling/interleave.h) has a plane of kSide x kSide sub-pixels. Sub-pixel (i, j) of
+// the phase's sub-plane is at (i - i0 + 1, j - j0 + 1); (i0, j0) is the tile's first one. Pixels
+// outside the picture, or not filled in, have distance 0: no x, so the filter takes nothing from
+// there.
 //
-// A layer is dark until something is placed in it that is not black: then nothing of it counts. It
+// A layer is dark, and none of it counts, until something that is not black is placed in it. It
 // glows if it has U anywhere.
 //
-// Threads: plain data. Memory: of the first reset(); later ones of the same job take none.
+// Threads: plain data.
+// Memory:  taken by the first reset(); later ones of the same job take none.
 // Errors:  place() throws Error if the result has not the shape and planes of its rectangle.
 #pragma once
 
@@ -45,7 +46,7 @@ class Patch {
   };
   Overlap overlap(int phase, const TaskRect& rect) const;
 
-  // Copies what overlaps of a rectangle's result. Black layers, too: the planes hold another tile's.
+  // Copies the overlap with a rectangle's result; black layers, too, as the planes hold old values.
   void place(int phase, const TaskRect& rect, const TileResult& result);
 
   TileResult& phase(int p) { return phases_[static_cast<size_t>(p)]; }
@@ -64,8 +65,8 @@ class Patch {
   int width() const { return width_; }
   int height() const { return height_; }
 
-  // Calls visit(index in the phase's planes, x, y in the image) for each of the tile's own pixels of
-  // a phase.
+  // Calls visit(index in the phase's planes, x, y in the image) for each of the tile's own pixels
+  // of phase p.
   template <typename Visit>
   void forEachPixel(int p, const Visit& visit) const {
     const TaskRect& rect = inner(p);
@@ -89,7 +90,7 @@ class Patch {
   std::vector<TaskRect> inner_, reach_;  // by phase: without and with what is needed around it
 };
 
-// Are reflectance, E and U of a layer 0 everywhere?
+// True if reflectance, E and U of a layer are 0 everywhere.
 bool isBlack(const LayerPlanes& layer);
 
 }  // namespace ninefold

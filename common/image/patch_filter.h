@@ -1,9 +1,10 @@
-// patch_filter.h: from a patch to radiance:
+// patch_filter.h: from a patch to radiance [W/(m^2 sr)]:
 //
 //   L(p) = sum over layers of reflectance * E' + U        E' = E through the discontinuity buffer
 //
-// summed in the order of the layers. Only E is filtered, so that textures and highlights stay
-// sharp. Threads: one at a time. No allocation after the first patch of a job.
+// summed in the order of the layers. Only E is filtered, so textures and highlights stay sharp.
+//
+// Threads: one at a time.   Memory: no allocation after the first patch of a job.
 #pragma once
 
 #include "common/image/discontinuity_buffer.h"
@@ -18,14 +19,14 @@ class PatchFilter {
   // Writes the tile's pixels; sets the shape of `beauty`.
   void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty);
 
-  // Whether compose keeps E' of the diffuse layer for who asks; else only if the patch has extra planes,
-  // for which it is another.
+  // Whether compose keeps E' of the diffuse layer for irradiance(). Without, it does so only for
+  // patches with extra planes.
   void keepIrradiance(bool keep) { keepsIrradiance_ = keep; }
   // E' of the diffuse layer after compose, in the patch's planes; 0 where the layer is dark.
   const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }
 
-  // After compose: into each of the tile's pixels, as grey, what share of the window the diffuse
-  // layer's light there is the mean of. U is nobody's but the pixel's; 0 where there is no light.
+  // After compose. Writes to each of the tile's pixels, as grey, the share of the window that the
+  // diffuse layer's light there is the mean of; 0 where there is no light. U is the pixel's alone.
   void paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const;
 
  private:

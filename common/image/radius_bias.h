@@ -1,17 +1,16 @@
-// radius_bias.h: how far the photons' blur has moved the means of a film, told by frames that take
+// radius_bias.h: how far the photons' blur has moved the means of a film. Frames tell it: they take
 // a wider and a narrower radius by turns (master/running/frame_plan.h), so that four of the eight
 // replications have each.
 //
-//   D_s   mean of the four replications in s less the mean of the others      35 ways s to halve eight
-//   B^2   = c (D_wide^2 - mean of D_s^2 over the other 34),   c = (3/2)^2 / (1 - 2/17)      of each block
+//   D_s   mean of the four replications in s less the mean of the others; eight have 35 such halves
+//   B^2 = c (D_wide^2 - mean of D_s^2 over the other 34) of each block,  c = (3/2)^2 / (1 - 2/17)
 //
-// Blur goes with r^2, and the radii's squares are as 2 to 1: the mean is 3/2 of the difference off.
-// The other halves show what chance makes of D, and 2/17 of the true difference.
+// Blur goes with r^2, and the radii's squares are as 2 to 1: the mean is off by 3/2 of the
+// difference. The other halves show what chance makes of D, and 2/17 of the true difference.
 //
-// Only what cannot be chance counts: B is 0 unless the image's sum of n_b D^2 is larger for the
-// true halves than for all others (which happens by chance once in 35). That holds however blocks
-// depend on each other, as those of pictures do; and what is not seen is of the order of the noise
-// or less.
+// Only what cannot be chance counts: B is 0 unless the image's sum of n_b D^2 (n_b: pixels of block
+// b) is larger for the true halves than for all others. By chance that happens once in 35, however
+// blocks depend on each other. What is not seen is of the order of the noise or less.
 //
 // Source:  the exact permutation test, Fisher 1935.   Proved: tests/image/radius_bias_test.cpp.
 // Threads: pure.   Errors: none; 0 before all replications have a frame.
@@ -25,7 +24,7 @@ struct RadiusBias {
   double squared = 0;           // mean over all pixels
   std::vector<double> squares;  // by block, at least 0; empty: none
 
-  // Of the first pixels.size() quantities; `pixels`: how many each stands for.
+  // Of the first pixels.size() quantities; `pixels`: how many pixels each stands for.
   static RadiusBias of(const Replications<double>& blocks, std::span<const double> pixels,
                        int64_t frames);
 };

@@ -1,16 +1,21 @@
-// replications.h: means of quantities that frames see, kept apart for eight replications, and the error
-// that the spread between these states.
+// replications.h: means of quantities that frames see, kept apart for eight replications. The
+// spread of the replications tells the error of the mean.
 //
-// Frames f, f + 8, f + 16, ... continue one point sequence in each pixel (sampling/sampler.h): they are not
-// independent, and their mean is better than if they were. The eight sequences are, so with c_r
-// frames and the mean m_r of replication r, N = sum c_r, m = sum c_r m_r / N and R = min(N, 8):
+// Frames f, f + 8, f + 16, ... continue one point sequence in each pixel (sampling/sampler.h). They
+// are not independent; their mean is better than if they were. The eight sequences are independent:
 //
 //   squared standard error of m   =   R/(R-1) sum_r (c_r/N)^2 (m_r - m)^2
 //
-// The film counts its own frames: they must come in order and without gaps, but may begin with any.
-// Below nine frames that is s^2/N. Frames that are all alike have an error of exactly 0.
+//   c_r, m_r   number of frames and mean of replication r
+//   N, m       number of frames and mean of all: sum c_r, sum c_r m_r / N
+//   R          min(N, 8)
 //
-// Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002 (replications of randomized points).
+// The film counts its own frames: they must come in order and without gaps, but may begin with any.
+// Below nine frames the formula is s^2/N, s: standard deviation of the frames. Equal frames have an
+// error of exactly 0.
+//
+// Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002 (replications of
+//          randomized points).
 // Proved:  tests/image (closed forms), tests/nightly (Student's t with seven degrees of freedom).
 // Threads: add for disjoint quantities at once, else one at a time.
 #pragma once
@@ -32,7 +37,7 @@ class Replications {
   }
   bool empty() const { return quantities_ == 0; }
 
-  // `values`: what frame `frame`, counted from 0, saw of quantities first, first + 1, ...
+  // `values`: quantities first, first + 1, ... as frame number `frame`, from 0, saw them.
   void add(std::span<const T> values, size_t first, int64_t frame) {
     const int64_t before = frame / kReplications;
     const T share = T(1) / static_cast<T>(before + 1);

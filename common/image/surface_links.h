@@ -1,14 +1,14 @@
 // surface_links.h: between which neighbours in a patch the surface goes on (surface_test.h).
 //
-// The test is symmetric, so that a pair of pixels is tested once and both look it up: at the upper
-// one, in a row at the left one. Each pixel has a bit for each pair (dx, dy) that begins there.
+// The test is symmetric, so a pair of pixels is tested once and both look it up: at the upper
+// pixel, in a row at the left one. Each pixel has a bit for each pair (dx, dy) that begins there.
 //
-// All planes of a patch have the same shape, so that a neighbour is another phase's plane shifted by
-// a constant, and a phase is tested as one long row: what this finds in the border where there is
-// no neighbour is never looked at.
+// All planes of a patch have the same shape. So a neighbour is another phase's plane shifted by a
+// constant, and a phase is tested as one long row. In the border there is no neighbour, and the
+// results there are never looked at.
 //
 // Proved:  tests/image/discontinuity_buffer_test.cpp.
-// Threads: one at a time. Memory: 4 floats and some words per pixel, taken by the first patch.
+// Threads: one at a time.   Memory: 4 floats and some words per pixel, taken by the first patch.
 #pragma once
 
 #include "common/image/patch.h"
@@ -24,8 +24,8 @@ class SurfaceLinks {
   // Tests all pairs in the layers that are not dark.
   void connect(const Patch& patch, const Camera& camera);
 
-  // A position of the n x m window as seen from one phase: which phase lies there, and where its
-  // sub-pixels are: pixel i of the centre's plane has pixel i + shift of the other as neighbour.
+  // A position of the n x m window as seen from one phase. `phase` lies there; pixel i of the
+  // centre's plane has pixel i + shift of that phase's plane as neighbour.
   struct Neighbour {
     int phase, shift;
     int linkPhase, linkAt;  // the surface goes on: links(layer, linkPhase)[linkAt + i] & linkBit

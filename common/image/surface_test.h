@@ -6,20 +6,20 @@
 //   surface  in the first layer: n_p . n_q >= kSurfaceNormal, and the tangent planes at both ends
 //            predict the neighbour, as follows
 //   mirrors  behind a reflection or refraction there are no such planes: distance and normal as in
-//            `paper`, with wider limits in `surface`; and the chain must be the same in both
+//            `paper`, with wider limits in `surface`; and both must have the same chain
 //
 // On a plane, inverse depth u = 1/z is linear in image coordinates:
 //
 //   u(q) = u_p + grad_p . (q-p)        grad_p = u_p (n_p . step)/(n_p . v_p)
 //
 // v is the pixel's ray direction scaled to depth 1, step its change from pixel to pixel. Projection
-// keeps convexity, so that on any convex or concave surface the true difference lies between the
-// predictions of the two ends, and across a step in depth it does not:
+// keeps convexity. So on any convex or concave surface the true difference lies between the
+// predictions of the two ends; across a step in depth it does not:
 //
 //   min(a, b) - s <= u_q - u_p <= max(a, b) + s        a = grad_p . (q-p), b = grad_q . (q-p)
 //
-// The slack s is the larger of both ends' |grad|_1 (film positions are spread over the pixel, so
-// that p and q may be a pixel off) plus kFootprints pixel footprints at their distance.
+// The slack s is the larger of both ends' |grad|_1 (film positions are spread over the pixel: p and
+// q may be a pixel off) plus kFootprints pixel footprints at their distance.
 //
 // Source:  Keller 1998 (discontinuity buffer); Wald et al. 2002. They give no thresholds: those
 //          here are ours, and so is the test by tangent planes.
@@ -50,7 +50,7 @@ struct SurfaceGuide {
   float slack = 0;             // [1/m]
 };
 
-// All of these avoid short-circuit evaluation on purpose: they stand in vectorised loops.
+// These functions avoid short-circuit evaluation on purpose: they stand in vectorised loops.
 inline bool predictsNeighbour(const SurfaceGuide& p, const SurfaceGuide& q, float dx, float dy) {
   const float fromP = p.gradX * dx + p.gradY * dy;
   const float fromQ = q.gradX * dx + q.gradY * dy;

@@ -5,9 +5,11 @@
 //   code = round(255 OETF(y))       OETF of IEC 61966-2-1 (sRGB)
 //
 // per channel, no dithering: the same radiance always gives the same code. Negative values are
-// black. A pixel with a NaN becomes magenta, so that it is seen. The curve is tabulated over the
-// exponent and 10 bits of the mantissa, which costs at most one code; the table is the same on every
-// machine, as no entry lies nearer to the next code than what mathematical libraries may differ by.
+// black. A pixel with a NaN becomes magenta, so that it is seen.
+//
+// The curve is tabulated over the exponent and 10 bits of the mantissa, which costs at most one
+// code. The table is the same on every machine: no entry lies nearer to the next code than
+// mathematical libraries may differ by.
 //
 // Proved:  tests/image/tone_map_test.cpp.   Threads: const, reentrant.
 #pragma once
@@ -41,10 +43,11 @@ inline constexpr float kMostExposure = 50;  // [EV], and its negative
 
 class ToneMap {
  public:
+  // Exposure [EV] in [-kMostExposure, kMostExposure].
   explicit ToneMap(float exposureEv = 0);
 
   uint8_t code(float radiance) const;
-  // Pixels from `first` on, as they lie in the image.
+  // Writes `pixels` pixels from `first` on, three codes each.
   void apply(const RgbPlane& radiance, size_t first, size_t pixels, uint8_t* rgb) const;
   // Sets the shape of `out`.
   void apply(const RgbImage& image, DisplayImage& out) const;

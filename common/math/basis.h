@@ -1,5 +1,6 @@
 // basis.h: an orthonormal frame around a unit normal, so that local z is the normal.
-// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017 (branchless, stable at z = -1).
+// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 2017 (branchless, stable at
+//         z = -1).
 #pragma once
 
 #include "common/math/vec.h"

@@ -1,4 +1,4 @@
-// camera.h: the pinhole camera. Image x grows to the right and y downwards; pixel (0,0) is top left.
+// camera.h: the pinhole camera. Image x grows to the right, y downwards; pixel (0,0) is top left.
 #pragma once
 
 #include <optional>
@@ -35,9 +35,9 @@ class CameraRays {
   }
   // Unit direction through film position (px, py) in pixels; a pixel's centre is at +0.5.
   Vec3 direction(float px, float py) const { return glm::normalize(onImagePlane(px, py)); }
-  // From the eye to a film position on the image plane: as far along forward as 1.
+  // From the eye to a film position (px, py) on the image plane, at distance 1 along forward.
   Vec3 onImagePlane(float px, float py) const { return corner_ + px * stepX_ + py * stepY_; }
-  // Where on the film, in pixels, the ray along d arrives; nothing if d does not point forwards.
+  // Film position [pixels] where the ray along d arrives; nothing if d does not point forwards.
   std::optional<Vec2> filmPosition(Vec3 d) const {
     const float depth = glm::dot(d, forward_);
     if (!(depth > 0)) return std::nullopt;

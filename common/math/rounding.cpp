@@ -14,8 +14,8 @@ DVec3 exactNormal(Vec3 a, Vec3 b, Vec3 c) {
 
 float planeError(Vec3 a, Vec3 b, Vec3 c, Vec3 n) {
   const Vec3 box = glm::max(a, glm::max(b, c)) - glm::min(a, glm::min(b, c));
-  // The products whose differences are the components of the normal, of the pair of edges that has
-  // the smaller ones: that is the pair that the ray test chooses.
+  // Component i of a normal is a difference of two products. These are the products of a pair of
+  // edges; the ray test chooses the pair with the smaller ones.
   const auto products = [](Vec3 e, Vec3 f) {
     return glm::abs(Vec3(e.z * f.y, e.x * f.z, e.y * f.x));
   };
@@ -23,8 +23,7 @@ float planeError(Vec3 a, Vec3 b, Vec3 c, Vec3 n) {
   const float twiceArea = glm::length(glm::cross(c - a, a - b));
   const float edges = 12 * glm::dot(box, glm::abs(n));
   const float cross = twiceArea > 0 ? 4 * glm::dot(box, m) / twiceArea : 0;
-  // An origin that lies exactly in an axis-aligned plane is met again at t = 0: never no distance
-  // at all.
+  // Never 0: an origin exactly in an axis-aligned plane is met again at t = 0.
   const float least = std::max(box.x, std::max(box.y, box.z));
   return kUnitRoundoff * (edges + cross + least);
 }

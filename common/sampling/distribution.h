@@ -1,10 +1,12 @@
 // distribution.h: choice among n things in proportion to given weights.
+//
 // A sample u is a multiple of 2^-24 and stands for the middle of that interval. A choice spends
-// log2(1/probability) of its 24 bits, and `remapped` is as fine as what is left: coarse for one among
-// many, but with the right mean. What has a share below 2^-24 is found by luck or never: see
+// log2(1/probability) of its 24 bits, and `remapped` is as fine as the bits that are left: coarse
+// for a rare choice, but with the right mean. A share below 2^-24 is found by luck or never: see
 // partlyAlike.
+//
 // Proved:  tests/sampling/distribution_test.cpp.
-// Threads: const after construction. Errors: NINEFOLD_CHECK on negative or non-finite weights.
+// Threads: const after construction.   Errors: NINEFOLD_CHECK on negative or non-finite weights.
 #pragma once
 
 #include <cstdint>
@@ -21,13 +23,13 @@ class Distribution {
   };
 
   Distribution() = default;
-  // Weights >= 0. If all are zero the distribution is empty. Shares of the total below the smallest
-  // normal float (1e-38) count as zero.
+  // Weights >= 0. If all are zero the distribution is empty. A share of the total below 1e-38 (the
+  // smallest normal float) counts as zero.
   explicit Distribution(const std::vector<float>& weights);
 
   bool empty() const { return cumulative_.empty(); }
   double total() const { return total_; }  // sum of the weights
-  // Both not when empty. u in [0, 1); never an index of weight 0.
+  // Neither when empty. u in [0, 1). choose() never gives an index of weight 0.
   Choice choose(float u) const;
   float probability(uint32_t index) const;
 
@@ -36,7 +38,7 @@ class Distribution {
   double total_ = 0;
 };
 
-// The weights' shares of their total, of which kAlike is dealt out alike to all that are not 0: what is
+// Shares p_i of n weights w_i > 0: (1 - kAlike) w_i / sum w + kAlike / n; 0 where w_i = 0. What is
 // faint on the whole may be all that there is at some place.
 inline constexpr double kAlike = 0.1;
 std::vector<double> partlyAlike(const std::vector<double>& weights);

@@ -2,7 +2,7 @@
 // Source:  the finalizer is Stafford's variant 13 of MurmurHash3 (2011), as in SplitMix64
 //          (Steele, Lea and Flood 2014).
 // Proved:  tests/sampling/hash_test.cpp (each input bit flips each output bit half of the time).
-// Threads: pure functions. Errors: none.
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include <cstdint>
@@ -18,8 +18,8 @@ constexpr uint64_t mixWord(uint64_t x) {
 
 // The order of the words counts: hashWords(1, 2) and hashWords(2, 1) are unrelated.
 constexpr uint64_t hashWords(uint64_t a, uint64_t b, uint64_t c = 0, uint64_t d = 0) {
-  constexpr uint64_t kGolden =
-      0x9e3779b97f4a7c15ull;  // 2^64 / golden ratio; keeps zeros from staying zero
+  // 2^64 / golden ratio; keeps zeros from staying zero
+  constexpr uint64_t kGolden = 0x9e3779b97f4a7c15ull;
   uint64_t h = mixWord(a + kGolden);
   h = mixWord((h ^ b) + kGolden);
   h = mixWord((h ^ c) + kGolden);

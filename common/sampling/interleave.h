@@ -1,13 +1,16 @@
-// interleave.h: which pixels make up a task. The image is cut into tiles; the n x m interleaving
-// pattern gives each pixel a *phase*, its place in the pattern; a task is (frame, tile, phase).
+// interleave.h: which pixels make up a task. The image is cut into tiles. The n x m interleaving
+// pattern gives each pixel a *phase*, its place in the pattern. A task is (frame, tile, phase).
 //
-// All pixels of one phase form a *sub-plane*, a small image of its own: sub-pixel (i, j) of phase p
-// is pixel (p mod n + n i, p / n + m j). A task is a rectangle of one sub-plane, rows top to
-// bottom. Light set k serves phase p of a frame by k = (p + rotation) mod K: over K rotations every
-// pixel meets every set, and while the picture moves the rotation stays put.
+// All pixels of phase p form a *sub-plane*, a small image of its own. A task is a rectangle of one
+// sub-plane, rows top to bottom.
+//
+//   sub-pixel (i, j) of phase p  =  pixel (p mod n + n i, p / n + m j)
+//   light set of phase p         =  (p + rotation) mod K
+//
+// Over K rotations every pixel meets every set. While the picture moves the rotation stays put.
 //
 // Source:  Keller and Heidrich, "Interleaved Sampling", 2001.
-// Proved:  tests/sampling/interleave_test.cpp. Threads: plain values.
+// Proved:  tests/sampling/interleave_test.cpp.   Threads: plain values.
 #pragma once
 
 #include <algorithm>

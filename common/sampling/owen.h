@@ -1,13 +1,13 @@
 // owen.h: nested uniform (Owen) scrambling of 32-bit fractions, by a hash instead of a stored tree.
 //
 // Bit k of the result is bit k of x, flipped or not by a hash of the seed and of all higher bits of
-// x. So numbers that share a prefix keep sharing one: elementary intervals are permuted as a whole
-// and every net stays a net. Applied to an index it permutes aligned blocks of 2^j indices alike.
+// x. So numbers with a common prefix keep a common prefix: elementary intervals are permuted as a
+// whole, and every net stays a net. Applied to an index it permutes aligned blocks of 2^j indices.
 //
 // Source:  Owen 1995; Laine and Karras 2011 (hash on reversed bits); Burley 2020; constants:
 //          Vegdahl, "Building a Better LK Hash", 2021.
 // Proved:  tests/sampling/owen_test.cpp (prefixes stay together; flips are fair and independent).
-// Threads: pure functions. Errors: none.
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include <cstdint>

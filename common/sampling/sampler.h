@@ -1,25 +1,27 @@
-// sampler.h: addressed random numbers. A sample is a pure function of (key, index, dimension);
-// nothing is ever drawn from a shared stream, so any client computes any part of a frame by itself.
+// sampler.h: addressed random numbers. A sample is a pure function of (key, index, dimension).
+// Nothing is drawn from a shared stream, so any client computes any part of a frame by itself.
 //
-// LightSampler   light set k of a frame takes the k-th aligned block of 2^m points of one
-//                randomized Sobol' sequence, so that K sets together are again well distributed.
+// LightSampler   Light set k of a frame takes the k-th aligned block of 2^m points of one
+//                randomized Sobol' sequence, so that K sets together are well distributed, too.
 //                Dimensions beyond the first kSobolDimensions are padded replications: the same
 //                points, their indices permuted inside the block, with their own randomization.
-// PixelSampler   eight sequences per pixel, each randomized by itself: frame f goes on with sequence f mod 8.
-//                So all paths of a pixel complement each other, edges converge faster than by
-//                chance, and the spread between the eight replications still states the error.
-// Randomization  exclusiveOr: one random word per dimension, as the paper; owen: nested uniform
-//                scrambling. Padding permutes indices by nested scrambling in both: Sobol' points
-//                are linear in the bits of the index, so an exclusive-or of indices would only be
-//                one more exclusive-or of the points, and would repeat the first dimensions.
+// PixelSampler   Each pixel has eight sequences, each randomized by itself. Frame f goes on with
+//                sequence f mod 8. So all paths of a pixel complement each other, edges converge
+//                faster than by chance, and the spread of the eight replications states the error.
+// Randomization  exclusiveOr: one random word per dimension, as the paper.
+//                owen: nested uniform scrambling.
 //                random: plain pseudo-random numbers instead of Sobol' points, to compare with.
+//                Padding permutes indices by nested scrambling always: Sobol' points are linear in
+//                the bits of the index, so an exclusive-or of indices would repeat the first
+//                dimensions.
 //
 // get2D takes dimensions of one replication: use even ones. Nothing is checked on this hot path.
+// All values are multiples of 2^-24 in [0, 1).
 //
 // Source:  Kollig and Keller, "Efficient Multidimensional Sampling", 2002; Owen 1995; Burley 2020
 //          (hashed Owen); Keller, "Myths of Computer Graphics" (padding).
 // Proved:  tests/sampling (elementary intervals of each block and of unions of 2^j blocks; order).
-// Threads: const, reentrant. Errors: none. All values are multiples of 2^-24 in [0, 1).
+// Threads: const, reentrant.   Errors: none.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +34,7 @@
 
 namespace ninefold {
 
-// What a stream of samples is for; part of its address so that no two uses share numbers.
+// What a stream of samples is for: part of its address, so that no two uses share numbers.
 enum class SampleUse : uint32_t {
   lightPath,
   directVpl,
@@ -53,8 +55,8 @@ struct PaddedSobol {
   uint64_t key;
   Randomization kind;
 
-  // Index in the replication that holds `dimension`: permuted, but only among the indices that
-  // agree with it outside `mask` = 2^m - 1.
+  // The index inside the replication of `dimension`. It is permuted only in the bits of `mask` =
+  // 2^m - 1.
   uint32_t permute(uint32_t index, uint32_t dimension, uint32_t mask) const {
     const uint32_t replication = dimension / kSobolDimensions;
     if (replication == 0) return index;
@@ -80,8 +82,8 @@ struct PaddedSobol {
 
 class LightSampler {
  public:
-  // Block `set` of 2^log2Count points, log2Count in 0..32, (set + 1) 2^log2Count <= 2^32.
-  // `randomization` is the frame's randomization index; all sets of a frame share it.
+  // Block `set` of 2^log2Count points; log2Count in 0..32, (set + 1) 2^log2Count <= 2^32.
+  // `randomization`: the frame's randomization index, the same for all sets of a frame.
   LightSampler(uint64_t seed, SampleUse use, uint32_t randomization, uint32_t set, int log2Count,
                Randomization kind)
       : sobol_{hashWords(seed, static_cast<uint64_t>(use), randomization), kind},
@@ -105,7 +107,7 @@ class LightSampler {
 
 inline constexpr uint32_t kReplications = 8;
 
-// What all pixels of a frame share. `paths`: of each pixel in a frame.
+// What all pixels of a frame share. `paths`: paths of each pixel in a frame.
 class PixelStream {
  public:
   PixelStream(uint64_t seed, SampleUse use, uint32_t randomization, uint32_t paths,
@@ -126,7 +128,7 @@ class PixelStream {
 
 class PixelSampler {
  public:
-  // `index` counts the pixel's paths in the frame.
+  // `index`: which of the pixel's paths in the frame, from 0.
   PixelSampler(const PixelStream& stream, uint32_t x, uint32_t y, uint32_t index)
       : sobol_{mixWord(stream.key_ ^ (uint64_t{y} << 32 | x)), stream.kind_},
         index_(stream.first_ + index) {}

@@ -1,11 +1,11 @@
 // sobol.h: four dimensions of the Sobol' sequence, point by index: x_d(i) = C_d i over GF(2).
 //
-// Dimensions 0 and 1 are a (0,2)-sequence, all four a (3,4)-sequence in base 2: any aligned block
-// of 2^m indices puts the same number of points into every elementary interval of volume 2^(t-m).
+// Dimensions 0 and 1 are a (0,2)-sequence, all four a (3,4)-sequence in base 2. In a (t,s)-sequence
+// each aligned block of 2^m indices has 2^t points in every elementary interval of volume 2^(t-m).
 //
 // Source:  Sobol' 1967; Joe and Kuo 2008 (primitive polynomials and initial numbers).
 // Proved:  tests/sampling/sobol_test.cpp (against Boost.Random's sequence; elementary intervals).
-// Threads: pure functions. Errors: none; every 32-bit index is valid.
+// Threads: pure functions.   Errors: none; every 32-bit index is valid.
 #pragma once
 
 #include <array>

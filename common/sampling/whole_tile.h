@@ -1,7 +1,7 @@
-// whole_tile.h: what a task of a whole tile covers, when clients filter: all phases, and the pixels
+// whole_tile.h: what a task of a whole tile covers when clients filter: all phases, and the pixels
 // around them that the filter's window reaches.
 //
-// Proved: tests/sampling/whole_tile_test.cpp. Threads: pure.
+// Proved:  tests/sampling/whole_tile_test.cpp.   Threads: pure.
 #pragma once
 
 #include <array>
@@ -20,8 +20,8 @@ inline TaskRect pixelsOf(const TileGrid& grid, int tile) {
   return r;
 }
 
-// A phase's sub-pixels of the tile and of the n x m windows around the tile's pixels: a window
-// reaches (n-1)/2 pixels to the left and n/2 to the right, the same up and down.
+// A phase's sub-pixels in the tile and in the n x m windows around the tile's pixels. A window
+// reaches (n-1)/2 pixels to the left and n/2 to the right; up and down likewise with m.
 inline TaskRect rectWithBorder(const TileGrid& grid, int tile, int phase) {
   const TaskRect inner = grid.rect(tile, phase);
   const auto [n, m] = grid.interleave();

@@ -1,4 +1,5 @@
-// animated_node.h: a node of the file that moves, by itself or because one above it does. Plain data.
+// animated_node.h: a node of the file that moves, by itself or because one above it does.
+// Threads: plain data.
 #pragma once
 
 #include <optional>

@@ -56,7 +56,7 @@ DVec4 rotationAt(const AnimationTrack& track, double time) {
   if (track.kind == AnimationTrack::Kind::linear && at.s > 0)
     return alongArc(track.values[at.i], track.values[at.i + 1], at.s);
   const DVec4 q = valueAt(track, time);
-  // Tangents may lead a cubic one through 0, which is no rotation.
+  // A cubic track's tangents may lead through 0, which is no rotation.
   return glm::length(q) > 1e-9 ? q : track.values[3 * at.i + 1];
 }
 

@@ -6,8 +6,7 @@
 //                    degrees; up is +y, or +z when looking straight up or down
 //   (empty)          the scene's first camera
 //
-// Errors: throws Error that lists the cameras.
-// Threads: pure.
+// Threads: pure.   Errors: throws Error that lists the cameras.
 #pragma once
 
 #include <string>
@@ -19,7 +18,7 @@ namespace ninefold {
 
 Camera chooseCamera(const Scene& scene, std::string_view spec);
 
-// A camera of the scene as eye:target:fov. What is lost: how it is turned about its line of sight.
+// `camera` as eye:target:fov. How it is turned about its line of sight is lost.
 std::string specOf(const Scene& scene, const Camera& camera);
 
 }  // namespace ninefold

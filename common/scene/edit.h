@@ -1,16 +1,16 @@
-// edit.h: changes of a scene while it is looked at, small and absolute: an edit says what a thing is
-// like afterwards, in terms of the scene as it was read. So edits can be merged, sent twice, or given
-// to somebody who comes late, and all who have the same edits have the same scene, bit for bit.
+// edit.h: changes of a scene while it is looked at, small and absolute. An edit says what a thing
+// is like afterwards, in terms of the scene as it was read. So edits can be merged, sent twice, or
+// given to somebody who comes late. All who have the same edits have the same scene, bit for bit.
 //
 //   objects    toWorld = motion * toWorld as read, for all instances of a node
 //   lights     punctual ones: place, direction, intensity (off = 0)
 //   materials  the numbers that a person turns; maps stay
 //
-// The scene's bounds, and with them b and r, stay what they were while things move inside of them;
-// what leaves them makes them grow by quarters.
+// The scene's bounds, and with them b and r, stay while things move inside of them. When something
+// leaves them, they grow by quarters.
 //
-// Errors: checkEdit throws Error naming what does not exist or is out of range. Threads: plain values.
-// Proved: tests/scene/edit_test.cpp.
+// Proved:  tests/scene/edit_test.cpp.   Threads: plain values.
+// Errors:  checkEdit throws Error naming what does not exist or is out of range.
 #pragma once
 
 #include <cstdint>
@@ -52,27 +52,29 @@ struct SceneEdit {
   bool empty() const { return objects.empty() && lights.empty() && materials.empty(); }
 };
 
-// What a thing is like now.
+// The state of a light or material now, as an edit.
 LightEdit editOf(const Scene& scene, uint32_t light);
 MaterialEdit editOfMaterial(const Scene& scene, uint32_t material);
 
-// `later` over `into`: each thing once, in ascending order, as its last edit has it.
+// Puts `later` over `into`: each thing once, in ascending order, as its last edit has it.
 void merge(SceneEdit& into, const SceneEdit& later);
 
-// All edits so far, for somebody who comes late: those up to the state that the gesture under way began
-// with, which decides about sample streams (gi/transport.h), and those since. At rest all are settled.
+// All edits so far, for somebody who comes late. settled: up to the state that the gesture under
+// way began with, which decides about sample streams (gi/light/transport.h). moving: since then. At
+// rest all are settled.
 struct EditsSoFar {
   SceneEdit settled, moving;
+  // isMoving: the gesture goes on; else all becomes settled.
   void add(const SceneEdit& edit, bool isMoving);
 };
 
-// Everything that it names exists in `scene`, and every number is in range.
+// Throws Error unless everything that `edit` names exists in `scene` and every number is in range.
 void checkEdit(const Scene& scene, const SceneEdit& edit);
 
 // The scene that was read with all edits so far. Shares images and meshes with it.
 Scene edited(const Scene& asRead, const SceneEdit& all);
 
-// Instances of nodes that the edit moves: these are kept apart from the rest when tracing.
+// By instance: true if the edit moves its node. Tracing keeps these apart from the rest.
 std::vector<bool> movedInstances(const Scene& scene, const SceneEdit& all);
 
 }  // namespace ninefold

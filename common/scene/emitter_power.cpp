@@ -12,8 +12,8 @@ Vec2 interpolate(const std::vector<Vec2>& uv, const Triangle& t, Vec2 b) {
   return (1 - b.x - b.y) * uv[t.x] + b.x * uv[t.y] + b.y * uv[t.z];
 }
 
-// Integral of glTF's falloff over the sphere: with c = cos, a ramp ((c - cos outer)/w)^2 of width
-// w = max(0.001, cos inner - cos outer), then 1 up to the axis.
+// Integral of glTF's falloff over the sphere [sr]. With c = cos it is a ramp ((c - cos outer)/w)^2
+// of width w = max(0.001, cos inner - cos outer), then 1 up to the axis.
 float spotSolidAngle(const PunctualLight& light) {
   const float outer = std::cos(light.outerCone);
   const float width = std::max(0.001f, std::cos(light.innerCone) - outer);

@@ -1,5 +1,6 @@
-// emitter_power.h: how much the lights of a scene emit; what Emitters builds its table from.
-// Threads: TriangleRadiance is used by one thread; the functions are pure. Refers to the scene.
+// emitter_power.h: how much the lights of a scene emit; Emitters builds its table from it.
+//
+// Owner: refers to the scene.   Threads: TriangleRadiance is one thread's; the functions are pure.
 #pragma once
 
 #include <map>
@@ -9,9 +10,10 @@
 
 namespace ninefold {
 
+// `barycentrics` of the triangle's second and third corner.
 TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
 
-// Flux of a punctual light in a scene of radius R [W].
+// Flux of a punctual light in a scene of radius R [m].
 Flux punctualFlux(const PunctualLight& light, float R);
 
 // The radiance of emissive triangles, one side.
@@ -19,8 +21,8 @@ class TriangleRadiance {
  public:
   struct Value {
     Radiance mean{0};  // over a fixed set of points
-    float least =
-        0;  // a hundredth of the brightest that it may have between them; 0 = surely black
+    // A hundredth of the brightest that it may have between them; 0 = surely black.
+    float least = 0;
   };
 
   explicit TriangleRadiance(const Scene& scene) : scene_(&scene) {}

@@ -13,8 +13,7 @@
 namespace ninefold {
 namespace {
 
-// Share of the light of a textured emitter's texel that is let through by the surface's own
-// opacity.
+// Share of the light of a textured emitter's texel that the surface's own opacity lets through.
 float coverage(const Scene& scene, const Material& m, const TexturePlace& at) {
   if (m.alphaMode == AlphaMode::opaque) return 1.0f;
   float alpha = m.opacity * at.alpha;
@@ -50,8 +49,8 @@ Emitter triangleEmitter(const Mesh& mesh, const DMat4& toWorld, uint32_t triangl
   return e;
 }
 
-// Corners in an order that does not depend on where a mesh starts to count them. The front is part
-// of the place, unless both sides emit.
+// Corners in an order that does not depend on where a mesh starts to count them. The front belongs
+// to the place, unless both sides emit.
 std::array<Vec3, 3> placeOf(const Emitter& e) {
   std::array<Vec3, 3> corners = {e.a, e.b, e.c};
   std::sort(corners.begin(), corners.end(),
@@ -103,7 +102,8 @@ std::vector<float> choiceWeights(const std::vector<Emitter>& emitters,
 
 bool isPower(float power) { return power > 0 && std::isfinite(power); }
 
-// Those of an instance that may shine, with their power, until `take` wants no more.
+// Calls take(emitter, power) for each triangle of an instance that may shine, until it wants no
+// more.
 template <typename Take>
 bool forEachTriangle(const Scene& scene, uint32_t instance, TriangleRadiance& radiance, Take take) {
   const Instance& i = scene.instances[instance];

@@ -1,6 +1,6 @@
-// emitters.h: all lights of a scene in one table, chosen in proportion to their power; but a tenth of
-// the choices is shared alike by all objects that shine (instances, punctual lights, environment),
-// so that a faint lamp is found where a strong one is hidden.
+// emitters.h: all lights of a scene in one table, chosen in proportion to their power. A tenth of
+// the choices is shared alike by all objects that shine (instances, punctual lights, environment):
+// a faint lamp is found where a strong one is hidden.
 //
 //   triangle     Phi = pi L A (twice that if double-sided); L of a texture is averaged
 //   point        Phi = 4 pi I
@@ -8,12 +8,12 @@
 //   directional  Phi = E0 pi R^2
 //   environment  Phi = L 4 pi pi R^2  (constant radiance from outside)
 //
-// Power means the largest component of Phi [W]: no channel of a light is ever starved. A textured
-// triangle counts for at least a hundredth of what its brightest texel would make of it, so that
-// sampling by power misses none that emits at all; one that is black all over has no entry.
-// Each emissive triangle is an entry of its own; one that is there twice, corner by corner, with the
-// same flux, has one entry for both, since only one of them is seen. Refers to the Scene.
-// Threads: const after construction.
+// Power is the largest component of Phi [W]: no channel of a light is ever starved. A textured
+// triangle counts for at least a hundredth of what its brightest texel would make of it, so that no
+// triangle that emits is missed; one that is black all over has no entry. Each emissive triangle is
+// an entry of its own. Doubles (the same corners and flux) share one: one of them is seen.
+//
+// Owner: refers to the Scene.   Threads: const after construction.
 #pragma once
 
 #include <map>
@@ -56,14 +56,14 @@ struct EmitterPoint {
 
 class TriangleRadiance;  // emitter_power.h
 
-// What decides about a material's look at a place of a triangle.
+// What decides about a material's look at one point of a triangle.
 struct TexturePlace {
   Vec2 uv0{0}, uv1{0};
   float alpha = 1;  // of the vertices' colours
 };
 
-// Radiance that an emissive triangle sends from a place, one side. The surface's own opacity (alpha mask,
-// blending) is in it.
+// Radiance that an emissive triangle sends from a place, one side, times the surface's own opacity
+// (alpha mask, blending).
 Radiance emittedRadiance(const Scene& scene, int material, const TexturePlace& at);
 
 class Emitters {
@@ -71,7 +71,7 @@ class Emitters {
   // `environment` replaces the scene's own. R = scene.bounds.radius().
   Emitters(const Scene& scene, Radiance environment);
 
-  // Whether there would be any emitter with flux, without an environment.
+  // True if the scene has an emitter with flux, its environment aside.
   static bool anyIn(const Scene& scene);
 
   bool empty() const { return emitters_.empty(); }  // no emitter with flux

@@ -1,9 +1,11 @@
-// file_search.h: where a file is that an OBJ or MTL file names.
+// file_search.h: finds the file that an OBJ or MTL file names. Places, in this order:
 //
-// Beside the file that names it, else in the scene's folder; where both fail, as with paths of
-// other machines, the name without its folders, in these two places; last, all that in any case.
+//   1  beside the file that names it, then in the scene's folder
+//   2  the name without its folders, in the same two places, for paths of other machines
+//   3  all of that again, in any case of the letters
+//
 // Nothing outside the scene's folder is found.
-// Errors: none. Threads: reentrant.
+// Threads: reentrant.   Errors: none.
 #pragma once
 
 #include <optional>
@@ -13,8 +15,8 @@
 
 namespace ninefold {
 
-// As a path from the scene's folder. `beside`: the folder of the file that names it, empty or
-// ending in '/'.
+// Returns a path from the scene's folder. `beside`: the folder of the file that names `name`, empty
+// or ending in '/'.
 std::optional<std::string> findFile(const SceneFolder& folder, const std::string& beside,
                                     const std::string& name);
 

@@ -1,8 +1,9 @@
-// gltf_accessor.h: checked access to the typed arrays of a glTF file: strides, sparse substitution
-// and normalized integers included. All ranges are checked when the view is made; elements are
-// then read in place, so a count that a file claims costs nothing.
-// Errors: the constructor throws Error, which names `what`. Refers to the model.
-// Threads: const.
+// gltf_accessor.h: checked access to the typed arrays of a glTF file, with strides, sparse
+// substitution and normalized integers. The constructor checks all ranges. Elements are then read
+// in place: a count that a file claims costs nothing.
+//
+// Owner: refers to the model.   Threads: const.
+// Errors: the constructor throws Error, which names `what`.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ class Model;
 
 namespace ninefold {
 
-// Bytes of a buffer view, which may be anything; `what` for messages.
+// The bytes of a buffer view. `view` may be any number; `what` is for messages.
 struct BytesOfView {
   const unsigned char* data = nullptr;
   size_t size = 0, stride = 0;  // stride 0 = packed
@@ -25,18 +26,18 @@ BytesOfView bytesOfView(const tinygltf::Model& model, int view, const std::strin
 
 class GltfAccessor {
  public:
-  // `components`: how many an element must have, at least; 16 asks for matrices.
+  // `components`: the least number that an element must have; 16 asks for matrices.
   GltfAccessor(const tinygltf::Model& model, int accessor, int components, std::string what);
 
   size_t count() const { return count_; }
   int components() const { return components_; }
-  // Missing components are 0. Integers as they are, or in [-1, 1] and [0, 1] if normalized.
+  // Missing components are 0. Integers are as they are or, if normalized, in [-1, 1] or [0, 1].
   Vec4 element(size_t i) const;
   DMat4 matrix(size_t i) const;
   // First component of an unsigned integer accessor.
   uint32_t index(size_t i) const;
   bool isUnsignedInteger() const;
-  // Integers are fractions of their largest value, also where the file forgets to say so.
+  // From here on integers are fractions of their largest value, even if the file forgot to say so.
   void takeAsNormalized() { normalized_ = true; }
 
  private:
@@ -50,7 +51,7 @@ class GltfAccessor {
                      int components) const;
   void readSparse(const tinygltf::Model& model, int accessor);
   const unsigned char* bytesOf(size_t i) const;
-  // store(component, value), for none of a zero element.
+  // Calls store(component, value) for each component of element i; never for a zero element.
   template <typename Store>
   void forEachComponent(size_t i, const Store& store) const;
 

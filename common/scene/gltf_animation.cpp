@@ -21,7 +21,7 @@ Kind kindNamed(const std::string& name) {
   fail("the interpolation '{}' is unknown", name);
 }
 
-// At most `most` keys; what a file claims costs no more than what it holds, as times must ascend.
+// At most `most` keys. Times must ascend, so a file's claim costs no more than what it holds.
 AnimationTrack readTrack(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
                          int components, size_t most) {
   AnimationTrack track;
@@ -58,7 +58,7 @@ AnimationTrack orConstant(AnimationTrack track, const std::vector<double>& rest,
   return constant(otherwise);
 }
 
-// Those without a name are told by their number.
+// A clip without a name is called by its number.
 std::string nameOfClip(const tinygltf::Model& model, size_t i) {
   const std::string& name = model.animations[i].name;
   return name.empty() ? std::to_string(i) : name;

@@ -1,8 +1,9 @@
-// gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The others
-// do nothing. Where two of its channels move the same property of a node, the first one does.
+// gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The other
+// clips do nothing. Of two channels that move the same property of a node the first counts. Of
+// morph weights it only knows that they change.
 //
-// Of morph weights it only knows that they change. Refers to the model.
-// Errors: throws Error that names animation and channel. Threads: one owner.
+// Owner: refers to the model.   Threads: one owner.
+// Errors: throws Error that names animation and channel.
 #pragma once
 
 #include <map>
@@ -23,15 +24,15 @@ namespace ninefold {
 
 class GltfAnimations {
  public:
-  // `clip`: the name of the animation; the first if it is not given. Errors: Error for a name that
-  // the file does not have.
+  // `clip`: the name of the animation; nullopt: the first. Throws Error for a name that the file
+  // does not have.
   GltfAnimations(const tinygltf::Model& model, const std::optional<std::string>& clip);
 
   // As read, but invertible where the node has an axis without length (gltf_transform.h).
   DMat4 localMatrix(int node) const;
 
-  // A node that the scene reaches, parents first. Its place in the list of those that move, or -1;
-  // `parent`: that of the node above.
+  // Takes a node that the scene reaches, parents first. Returns its place in the list of those that
+  // move, or -1. `parent`: the place of the node above.
   int enter(int node, int parent, const DMat4& above, const DMat4& toWorld);
   // Whether the weights of a node's morph targets change.
   bool morphs(int node) const { return morphed_.contains(node); }

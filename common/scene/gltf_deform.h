@@ -4,12 +4,12 @@
 //   p' = M p,  n' = normalize(M^-T n),  t' = normalize(M t)
 //   M  = sum_i w_i M_i / sum_i w_i                                     over the joints of a vertex
 //
-// A vertex without any weight hangs on its first joint, as others have it too. What a skin mirrors
-// turns its triangles round, so that their front stays in front.
+// A vertex without any weight hangs on its first joint, as in other programs. Where a skin mirrors,
+// its triangles are turned round, so that their front stays in front.
 //
 // Source:  glTF 2.0 specification, 3.7.2.2 and 3.7.3.
 // Proved:  tests/scene/gltf_deform_test.cpp.
-// Errors:  throws Error, naming the attribute. Threads: pure functions.
+// Threads: pure functions.   Errors: throws Error, naming the attribute.
 #pragma once
 
 #include <string>
@@ -33,11 +33,11 @@ struct GltfVertices {
   std::vector<uint32_t> kept;  // their numbers among these
   std::string what;            // for messages
 
-  // Checked to have one element for each of `count`.
+  // Opens an accessor and checks that it has one element for each of `count`.
   GltfAccessor open(int accessor, int components, const std::string& name) const;
 };
 
-// Missing weights are 0.
+// Adds the morph targets of `from` to the mesh. Missing weights are 0.
 void addMorphs(const GltfVertices& vertices, const tinygltf::Primitive& from,
                const std::vector<double>& weights, Mesh& mesh);
 

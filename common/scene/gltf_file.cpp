@@ -54,8 +54,8 @@ bool writeNothing(std::string*, const std::string&, const std::vector<unsigned c
   return false;
 }
 
-// Keeps the compressed bytes of images from URIs. Those in buffer views are taken from there later,
-// because the parser does not check the view before it makes this pointer of it.
+// Keeps the compressed bytes of images from URIs. Those in buffer views are read later: the parser
+// makes `bytes` of a view that it has not checked.
 bool keepImage(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                const unsigned char* bytes, int size, void*) {
   image->as_is = true;
@@ -90,7 +90,7 @@ void checkRequired(const std::vector<std::string>& extensions) {
       fail("needs the glTF extension {}, which is not supported: export without it", name);
 }
 
-// minVersion decides where it is there, else the major version: glTF 2.0, 3.2.
+// minVersion decides if it is there, else the major version: glTF 2.0, 3.2.
 void checkVersion(const std::string& version, const std::string& minVersion) {
   const std::string& needed = minVersion.empty() ? version : minVersion;
   const bool known =
@@ -99,7 +99,7 @@ void checkVersion(const std::string& version, const std::string& minVersion) {
   if (version != "2.0") warn("glTF version {} is read as 2.0", version);
 }
 
-// What makes a file unreadable often is what it needs; then that is what to say.
+// A file is often unreadable because of an extension that it requires. Then that is the message.
 void explainFailure(const std::string& json) {
   const auto file = nlohmann::json::parse(json, nullptr, false);
   if (!file.is_object()) return;
@@ -138,7 +138,7 @@ std::vector<unsigned char> withJson(std::span<const unsigned char> file, std::st
   return out;
 }
 
-// Of the parser; what it says of files that it could not read has been said better.
+// Logs the parser's warnings. Of files that it could not read something better has been said.
 void passOnWarnings(const std::string& warnings) {
   std::istringstream lines(warnings);
   for (std::string line; std::getline(lines, line);)

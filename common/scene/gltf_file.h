@@ -1,8 +1,8 @@
 // gltf_file.h: the parsed but unchecked content of a glTF file. Every file that it names is read
-// through the SceneFolder; images stay as the compressed bytes that they are.
-// Images that cannot be had are no error here: nothing may use them.
-// Errors: throws Error.
-// Threads: reentrant.
+// through the SceneFolder; images stay the compressed bytes that they are. An image that cannot be
+// had is no error here: perhaps nothing uses it.
+//
+// Threads: reentrant.   Errors: throws Error.
 #pragma once
 
 #include <map>
@@ -23,8 +23,8 @@ struct GltfFile {
   std::map<int, std::string> badImages;  // by index: why it cannot be had
 };
 
-// An unknown required extension, or another version than 2, is an error that names it. One warning
-// names what nobody reads (gltf_unread.h).
+// Throws Error, which names it, for an unknown required extension or another version than 2. One
+// warning names what nobody reads (gltf_unread.h).
 GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folder);
 
 }  // namespace ninefold

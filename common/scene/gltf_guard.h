@@ -1,10 +1,9 @@
 // gltf_guard.h: looks over the bytes of a glTF file before the parser sees them, so that none of
 // them can make it read past the end, recurse without bound or build a tree of unbounded size.
 //
-// Binary glTF: 12-byte header (magic, version 2, length), then chunks of an 8-byte head and a
+// Binary glTF: a 12-byte header (magic, version 2, length), then chunks, each an 8-byte head and a
 // body: one JSON chunk, then at most one BIN chunk that we care for.
-// Errors: throws Error.
-// Threads: pure.
+// Threads: pure.   Errors: throws Error.
 #pragma once
 
 #include <cstddef>

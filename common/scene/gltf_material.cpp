@@ -28,7 +28,7 @@ AlphaMode alphaModeOf(const std::string& name) {
   return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-// ", only that of ..." for who has another image.
+// ", only that of ..." for a texture that has another image.
 std::string extensionsOf(const tinygltf::Texture& texture) {
   std::string names;
   for (const auto& [name, value] : texture.extensions)

@@ -1,7 +1,6 @@
 // gltf_material.h: glTF materials and their textures, read when the first mesh that is used asks
 // for one.
-// Errors: throws Error, naming the material. Refers to file and scene.
-// Threads: one.
+// Owner: refers to file and scene.   Threads: one.   Errors: throws Error, naming the material.
 #pragma once
 
 #include <map>

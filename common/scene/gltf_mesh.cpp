@@ -58,7 +58,7 @@ std::vector<Vec4> colorsOf(const GltfVertices& vertices, const tinygltf::Primiti
   return colors;
 }
 
-// Compressed, and nothing else there to read.
+// Throws Error for a primitive that is compressed and has nothing else to read.
 void checkNotDraco(const tinygltf::Model& model, const tinygltf::Primitive& from, int position,
                    const std::string& what) {
   constexpr const char* kDraco = "KHR_draco_mesh_compression";
@@ -71,7 +71,7 @@ void checkNotDraco(const tinygltf::Model& model, const tinygltf::Primitive& from
 
 }  // namespace
 
-// Without what does not matter, so that nodes share what is the same.
+// Leaves out what does not matter, so that nodes share what is the same.
 GltfMeshes::Use GltfMeshes::useOf(const tinygltf::Node& node) const {
   if (node.mesh < 0 || static_cast<size_t>(node.mesh) >= model_->meshes.size())
     fail("mesh {} does not exist", node.mesh);

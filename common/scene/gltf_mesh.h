@@ -1,8 +1,8 @@
 // gltf_mesh.h: the triangles of glTF meshes. A mesh of the file with several primitives becomes
-// several meshes of the scene. Each is read once for each way of deforming it, when the first node
-// asks.
-// Errors: throws Error, naming mesh and primitive. Refers to model, scene, materials.
-// Threads: one.
+// several meshes of the scene. Each is read when the first node asks, once for each way of
+// deforming it.
+// Owner: refers to model, scene, materials.   Threads: one.
+// Errors: throws Error, naming mesh and primitive.
 #pragma once
 
 #include <map>

@@ -109,7 +109,7 @@ std::vector<int> SceneBuilder::roots() const {
   return nodes;
 }
 
-// Extras are anybody's: what is no exposure is somebody else's, and no error.
+// Anybody may write extras: what is no exposure belongs to somebody else, and is no error.
 std::optional<float> SceneBuilder::exposure() const {
   if (model_->scenes.empty()) return std::nullopt;
   const auto scene = static_cast<size_t>(std::max(model_->defaultScene, 0));
@@ -210,7 +210,7 @@ bool SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& t
   return isCarried;
 }
 
-// By joints that move; a mesh of which only a part is skinned also by its own node.
+// Joints that move deform a mesh; so does its own node if only a part of the mesh is skinned.
 void SceneBuilder::findDeformed() {
   std::set<int> moving;
   for (const AnimatedNode& node : draft_.scene.animated) moving.insert(node.node);
@@ -225,7 +225,7 @@ void SceneBuilder::findDeformed() {
   }
 }
 
-// The first one tells for all.
+// Keeps the first one: it stands for all.
 void SceneBuilder::noteDeformed(int node) {
   std::string& name = draft_.scene.deformed;
   if (name.empty()) name = model_->nodes[static_cast<size_t>(node)].name;

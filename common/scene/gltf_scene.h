@@ -1,8 +1,7 @@
 // gltf_scene.h: the node tree of a glTF file: what stands where. Only what the default scene
-// reaches is read. Matrices are multiplied in double precision.
-// A scene may carry the exposure that it is meant to be shown with, as extras.exposure [EV].
-// Errors: throws Error.
-// Threads: reentrant.
+// reaches is read. Matrices are multiplied in double precision. A scene may carry the exposure that
+// it is meant to be shown with, as extras.exposure [EV].
+// Threads: reentrant.   Errors: throws Error.
 #pragma once
 
 #include <optional>

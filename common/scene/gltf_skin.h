@@ -3,8 +3,7 @@
 //   M_i = world(joint_i) inverseBind_i        takes vertices of a mesh to where joint i holds them
 //
 // The node of a skinned mesh does not move it, as glTF says: its joints alone do.
-// Errors: throws Error, naming the skin. Refers to the model.
-// Threads: one owner.
+// Owner: refers to the model.   Threads: one owner.   Errors: throws Error, naming the skin.
 #pragma once
 
 #include <map>

@@ -1,7 +1,6 @@
 // gltf_transform.h: where glTF nodes stand: a matrix, or scale then rotation then translation; and
 // the copies of EXT_mesh_gpu_instancing.
-// Errors: throws Error.
-// Threads: const.
+// Threads: const.   Errors: throws Error.
 #pragma once
 
 #include <optional>
@@ -17,8 +16,8 @@ namespace ninefold {
 
 DMat4 localMatrix(const tinygltf::Node& node);
 
-// What is scaled to nothing is scaled to almost nothing, since a motion must be invertible: an axis
-// gets at least this share of the largest scale that its node ever has.
+// A motion must be invertible, so a scale of 0 becomes almost 0: an axis gets at least this share
+// of the largest scale that its node ever has.
 inline constexpr double kSmallestScale = 1e-5;
 DVec3 liftedScale(DVec3 scale, double largest);
 double maxAxis(DVec3 scale);  // without its sign
@@ -26,10 +25,11 @@ double maxAxis(DVec3 scale);  // without its sign
 // Scale, then rotation by a quaternion (x, y, z, w) of any length but 0, then translation.
 DMat4 placement(DVec3 translation, DVec4 rotation, DVec3 scale);
 
-// Where cameras and lights look, a column of their matrix: of length 1, or `otherwise` if it has none.
+// v with length 1, or `otherwise` if it has none: the column of a matrix along which a camera or
+// light looks.
 Vec3 unitOr(DVec3 v, Vec3 otherwise);
 
-// Refers to the model.
+// The matrices of a node's copies. Refers to the model.
 class CopyMatrices {
  public:
   CopyMatrices(const tinygltf::Model& model, const tinygltf::Value& extension);

@@ -13,8 +13,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// What is read of attributes, materials and extensions, as paths of member names; arrays do not
-// count. '#' stands for a number, '@' for all of kTextureUse.
+// What is read of attributes, materials and extensions, as paths of member names, arrays left out.
+// '#' stands for a number, '@' for all of kTextureUse.
 constexpr const char* kRead[] = {
     "extensions.KHR_lights_punctual.lights.name",
     "extensions.KHR_lights_punctual.lights.type",
@@ -73,7 +73,7 @@ constexpr const char* kTextureUse[] = {
     ".extensions.KHR_texture_transform.scale",
     ".extensions.KHR_texture_transform.texCoord",
 };
-// It is a promise about the types of attributes, and no object of the file has it.
+// A promise about the types of attributes; no object of the file has it as a member.
 constexpr std::string_view kOnlyNamed = "KHR_mesh_quantization";
 constexpr size_t kMostNames = 30, kLongestName = 60;  // of a message
 
@@ -114,7 +114,7 @@ std::string numberless(std::string_view name) {
   return std::string(name.substr(0, end)) + (end < name.size() ? "#" : "");
 }
 
-// Is told of the file's values one after another, and holds only where it is.
+// Gets the file's values one after another, and remembers only where it is.
 class UnreadFinder : public nlohmann::json_sax<Json> {
  public:
   bool null() override { return true; }
@@ -183,7 +183,7 @@ const Known* UnreadFinder::memberOf(const Level& level, const std::string& name)
   return !members.empty() && tell(name) ? nullptr : &anything;
 }
 
-// Whether a member of the object at path_ is of a kind that matters; then it is noted.
+// Notes a member of the object at path_ if it is of a kind that matters. Returns whether it did.
 bool UnreadFinder::tell(const std::string& name) {
   constexpr std::string_view kExtensions = ".extensions.", kMaterials = ".materials.";
   const std::string path = path_ + '.' + name.substr(0, kLongestName);

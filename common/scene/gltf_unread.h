@@ -1,8 +1,7 @@
 // gltf_unread.h: what a glTF file says that the reader does not read: vertex attributes, material
-// properties and extensions. Found by comparing the file's JSON with the table of all that is read,
-// so that what nobody has thought of is told too.
-// Errors: none; JSON that cannot be parsed is not this file's to tell.
-// Threads: pure.
+// properties and extensions. The file's JSON is compared with the table of all that is read, so
+// that what nobody has thought of is told, too.
+// Threads: pure.   Errors: none; JSON that cannot be parsed is reported elsewhere.
 #pragma once
 
 #include <string>
@@ -13,8 +12,8 @@ namespace ninefold {
 // Whether the reader reads this extension, or need not.
 bool isReadExtension(std::string_view name);
 
-// In one line, without repetition and in order of the alphabet: "vertex attributes COLOR_1;
-// material properties occlusionTexture; extensions KHR_materials_sheen". Empty if all is read.
+// One line, without repetition, in alphabetical order: "vertex attributes COLOR_1; material
+// properties occlusionTexture; extensions KHR_materials_sheen". Empty if all is read.
 // `json`: well-formed and of bounded depth (gltf_guard.h).
 std::string unreadOf(std::string_view json);
 

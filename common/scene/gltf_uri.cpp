@@ -35,7 +35,7 @@ size_t skipBlanks(std::string_view json, size_t at) {
   return at;
 }
 
-// Where the string value of a key that ends at `at` begins; json.size() if that is no key of one.
+// `at`: where a key ends. Returns where its string value begins; json.size() if it has none.
 size_t valueOfKey(std::string_view json, size_t at) {
   at = skipBlanks(json, at);
   if (at == json.size() || json[at] != ':') return json.size();
@@ -49,7 +49,7 @@ int hexDigit(char c) {
   return lower >= 'a' && lower <= 'f' ? lower - 'a' + 10 : -1;
 }
 
-// Of the six bits that a letter of base64, or of its variant for URLs, stands for; -1 for others.
+// The six bits that a letter of base64, or of its variant for URLs, stands for; -1 for others.
 int base64Bits(char c) {
   if (c >= 'A' && c <= 'Z') return c - 'A';
   if (c >= 'a' && c <= 'z') return c - 'a' + 26;

@@ -1,13 +1,13 @@
 // gltf_uri.h: the files and data that a glTF file names. The parser decodes names in its own way (a
-// plus sign becomes a blank) and knows only some data URIs; so it gets tokens in their place, and
-// asks for what stands behind a token.
+// plus sign becomes a blank) and knows only some data URIs. So it gets tokens in place of the URIs,
+// and asks for the content behind a token.
 //
 //   name        percent-decoded as RFC 3986 says: %XX is a byte, all else is itself, also a lone %.
 //               If no such file exists but one with the undecoded name does, that one.
-//   data URI    RFC 2397, data:[media type][;parameters][;base64],... in any case of its letters; the
-//               media type tells nothing: contents are known by their bytes.
+//   data URI    RFC 2397, data:[media type][;parameters][;base64],... in any case of its letters.
+//               The media type is ignored: contents are known by their bytes.
 //
-// Errors: bytesOfUri throws Error. Threads: pure functions.
+// Threads: pure functions.   Errors: bytesOfUri throws Error.
 #pragma once
 
 #include <string>
@@ -24,10 +24,10 @@ struct TokenizedGltf {
 };
 TokenizedGltf tokenizeUris(std::string_view json);
 
-// The place of a token in `uris`, or -1 for what is none.
+// The place of a token in `uris`; -1 if it is no token.
 int placeOfToken(std::string_view token);
 
-// At most `limit` bytes.
+// The content that `uri` names; throws Error if it has more than `limit` bytes.
 std::vector<unsigned char> bytesOfUri(const std::string& uri, const SceneFolder& folder,
                                       uint64_t limit);
 

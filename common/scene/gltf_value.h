@@ -1,7 +1,6 @@
 // gltf_value.h: reading the untyped JSON of glTF extensions. Absent members give the default;
-// members of the wrong type are errors.
-// Errors: throws Error, naming the member.
-// Threads: pure. For the glTF reader's .cpp files only.
+// members of the wrong type are errors. For the glTF reader's .cpp files only.
+// Threads: pure.   Errors: throws Error, naming the member.
 #pragma once
 
 #include <tiny_gltf.h>

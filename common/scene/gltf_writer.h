@@ -1,10 +1,12 @@
-// gltf_writer.h: a scene to a binary glTF file, with the extensions that the reader knows: what is read
-// back has the same values, coordinates to an ulp.
+// gltf_writer.h: a scene to a binary glTF file, with the extensions that the reader knows. Reading
+// it back gives the same values, coordinates to an ulp.
 //
-// Instances of one node become one node with a mesh of several primitives; copies of EXT_mesh_gpu_instancing
-// become nodes. A constant environment has no place in glTF and is left out; animations are, too.
-// Errors: throws Error that names the file. Threads: pure, but for the file.
-// Proved: tests/scene/gltf_writer_test.cpp.
+// Instances of one node become one node with a mesh of several primitives; copies of
+// EXT_mesh_gpu_instancing become nodes. Left out: a constant environment, which has no place in
+// glTF, and animations.
+//
+// Proved:  tests/scene/gltf_writer_test.cpp.
+// Threads: pure, but for the file.   Errors: throws Error that names the file.
 #pragma once
 
 #include <string>

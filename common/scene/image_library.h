@@ -1,7 +1,6 @@
 // image_library.h: the images of a scene while it is read: decoded once each, within one budget of
 // texels. An image used as colour (sRGB) and as data (linear) becomes two.
-// Errors: throws Error, naming the image.
-// Threads: one. Refers to the images it fills.
+// Owner: refers to the images it fills.   Threads: one.   Errors: throws Error, naming the image.
 #pragma once
 
 #include <functional>
@@ -25,8 +24,8 @@ class ImageLibrary {
 
   int add(const ImageSource& source, bool srgb);
 
-  // An image made of others, which `make` gets as they are in their files. `name` tells it from
-  // what else is made of them.
+  // An image made of others. `make` gets those as they are in their files. `name` tells the image
+  // from others that are made of the same parts.
   using Make = std::function<TextureImage(std::span<const TextureImage> parts)>;
   int addMade(const std::string& name, bool srgb, std::span<const ImageSource* const> parts,
               const Make& make);

@@ -41,7 +41,7 @@ void checkMaps(const Scene& scene, const Material& m, const std::string& what) {
   checkUse(scene, m.specularColorMap, true, what, "specular colour");
 }
 
-// Not a number stays for the check.
+// Leaves NaN as it is: the check tells it.
 void clampFactor(float& value, float high, const std::string& what, const char* name) {
   constexpr float kRounding = 1e-3f;
   const float clamped = std::clamp(value, 0.0f, high);

@@ -1,6 +1,5 @@
 // material_check.h: the ranges that a material's numbers may have; part of validate (reader.h).
-// Errors: checkMaterial throws Error, naming `what`.
-// Threads: pure.
+// Threads: pure.   Errors: checkMaterial throws Error, naming `what`.
 #pragma once
 
 #include <string>
@@ -9,8 +8,8 @@
 
 namespace ninefold {
 
-// Fractions of a file that lie outside of 0 to 1 become the nearer end, negative emission 0; by
-// more than a rounding with a warning that names `what`.
+// Brings a file's fractions into [0, 1] and negative emission to 0. Changes larger than a rounding
+// give a warning that names `what`.
 void clampFactors(Material& material, const std::string& what);
 
 void checkMaterial(const Scene& scene, const Material& material, const std::string& what);

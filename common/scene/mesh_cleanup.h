@@ -8,15 +8,13 @@
 
 namespace ninefold {
 
-// Renumbers the vertices so that only those that the triangles use are left, in ascending order;
-// returns their old numbers. Time and memory depend on the triangles alone, not on how many
-// vertices there are.
+// Renumbers the vertices: only those that the triangles use are left, in ascending order. Returns
+// their old numbers. Time and memory depend on the number of triangles alone.
 std::vector<uint32_t> compactVertices(std::vector<Triangle>& triangles);
 
-// Drops triangles of zero area and vertices that no triangle uses; makes normals and tangents unit,
-// zero normals geometric, forgets tangents that are not usable, and clamps colours to [0, 1].
-// Returns how many triangles were dropped. Errors: throws Error (a number that is not finite),
-// naming `what`.
+// Drops triangles of zero area and vertices that no triangle uses. Makes normals and tangents unit
+// and zero normals geometric, forgets unusable tangents, and clamps colours to [0, 1]. Returns how
+// many triangles were dropped. Throws Error, naming `what`, for a number that is not finite.
 size_t cleanMesh(Mesh& mesh, const std::string& what);
 
 }  // namespace ninefold

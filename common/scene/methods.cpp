@@ -1,5 +1,5 @@
-// The table, and what follows from it. Rays of a task, p its pixels, v the VPLs and f the photons
-// of its light set, which is counted, too:
+// The table, and what follows from it. Rays n of a task and its light set: p pixels of the task,
+// v VPLs and f photons of the set:
 //
 //     n = p (2 + v) + v + 4 f        instant radiosity: a photon meets four surfaces
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light

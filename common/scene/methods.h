@@ -1,10 +1,10 @@
 // methods.h: what differs from method to method, as far as one can tell without tracing a ray: one
-// row of facts for each. Master, wire, options, stats, panel, report and help read it, so that none
-// of them asks which method it is. What a method computes lies in common/gi.
+// row of facts for each. Master, wire, options, stats, panel, report and help read the row, so that
+// none of them asks which method it is. What a method computes lies in common/gi.
 //
-// A new method is a value of Method (settings.h) and a row of the table in methods.cpp, see
+// A new method is a value of Method (settings.h) and a row of the table in methods.cpp: see
 // docs/adding-a-method.md.
-// Threads: constant data, pure functions. Errors: none.
+// Threads: constant data, pure functions.   Errors: none.
 #pragma once
 
 #include <cstdint>
@@ -48,13 +48,13 @@ uint8_t layerMaskOf(const Needs& needs, Method method);
 // Whether pictures have light that photons bring.
 bool usesPhotons(const Needs& needs, const Settings& settings);
 
-// Whether light sets that were made with `a` are those of `b`, byte for byte.
+// Whether the light sets of `a` and `b` are the same, byte for byte.
 bool haveSameLight(const Settings& a, const Settings& b);
 
-// For a menu: "a (default), b (slow) or c" with the names of all methods and what helps to choose.
+// Text for a menu, "a (default), b (slow) or c": the names of all methods and what helps to choose.
 std::string describeMethods();
 
-// What these settings leave out of the picture, one line for each: warnings of the log.
+// What these settings leave out of the picture: one line each, for warnings in the log.
 std::vector<std::string> leftOut(const Needs& needs, const Settings& settings);
 
 }  // namespace ninefold

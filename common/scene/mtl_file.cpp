@@ -42,7 +42,7 @@ constexpr MapKey kMaps[] = {
     {"bump", &MtlMaterial::bump},    {"map_bump", &MtlMaterial::bump},
 };
 
-// Exporters write these for every material: at zero sheen, coat and anisotropy say nothing, and the
+// Exporters write these for every material. At zero, sheen, coat and anisotropy say nothing; the
 // coat's roughness and the anisotropy's angle say nothing alone.
 constexpr const char* kNothingAtZero[] = {"ps", "pc", "aniso"};
 constexpr const char* kNothingAlone[] = {"pcr", "anisor"};
@@ -118,8 +118,8 @@ void Parser::statement(std::string_view word, std::string_view rest, MtlMaterial
   unread_.add(word, lines_.number());
 }
 
-// Ambient light is what a renderer of indirect light computes. Only what reflects reads Ka, as how
-// metallic it is.
+// Ambient light is what a renderer of indirect light computes. Only a material that reflects reads
+// Ka: how metallic it is.
 bool leavesAmbientOut(const MtlMaterial& m) {
   const float illum = m.illum.value_or(2);
   return m.Ka && !isBlack(*m.Ka) && illum != 3 && illum != 5 && illum != 6 && illum != 8;
@@ -141,7 +141,7 @@ void Parser::noteLeftOut(const std::vector<MtlMaterial>& materials) {
   }
 }
 
-// The numbers of a line; none and a warning if one of them is none.
+// The numbers of a line; nullopt and a warning if a word is no number.
 std::optional<std::vector<float>> Parser::numbers(std::string_view word, std::string_view rest) {
   std::vector<float> values;
   for (std::string_view w = nextWord(rest); !w.empty() && w[0] != '#'; w = nextWord(rest)) {
@@ -157,7 +157,7 @@ std::optional<std::vector<float>> Parser::numbers(std::string_view word, std::st
   return {};
 }
 
-// Says so of the first lines only: a damaged file has any number of them.
+// Warns of the first lines only: a damaged file has any number of them.
 void Parser::leftOut(const std::string& why) {
   constexpr int kMost = 20;
   if (linesLeftOut_++ < kMost)
@@ -171,7 +171,7 @@ void Parser::colour(std::string_view word, std::string_view rest, std::optional<
   to = v.size() < 3 ? Vec3(v[0]) : Vec3(v[0], v[1], v[2]);
 }
 
-// Of "d -halo 0.5" the number alone: that a surface is clearer where it is seen head-on is not
+// Of "d -halo 0.5" only the number: surfaces that are clearer where they are seen head-on are not
 // modelled.
 void Parser::number(std::string_view word, std::string_view rest, std::optional<float>& to) {
   std::string_view behind = rest;

@@ -1,11 +1,11 @@
 // mtl_file.h: an MTL file as it is written: what each material says, and what it does not say.
-// What it means is mtl_translation.h's business.
+// mtl_translation.h gives it a meaning.
 //
 // Keys count in any case. Colours may be one number (grey) or three; Kt is another name of Tf.
-// Names end with their line; blanks, tabs and quotes are as in text_lines.h.
-// Errors: throws Error (UTF-16, zero bytes). A line that cannot be read is left out with a warning
-// that names file and line; what nobody reads is named in one warning a file.
-// Threads: pure, but for the log.
+// Names end with their line; blanks, tabs and quotes are as in text_lines.h. A line that cannot be
+// read is left out, with a warning that names file and line. One warning a file names what nobody
+// reads.
+// Threads: pure, but for the log.   Errors: throws Error (UTF-16, zero bytes).
 #pragma once
 
 #include <optional>

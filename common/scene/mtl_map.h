@@ -8,11 +8,10 @@
 // -blendu -blendv -boost -texres -type   how old programs filtered and projected: nothing to us
 // -t -cc       turbulence and colour correction are not modelled
 //
-// Options may stand behind the name, too. A name may have blanks, quotes around it, backslashes
-// between folders, and may begin with a number: where a number may belong to an option or to the
+// Options may also stand behind the name. A name may have blanks, quotes around it, backslashes
+// between folders, and may begin with a number. Where a number may belong to an option or to the
 // name, the reading whose file exists is taken.
-// Errors: none; what cannot be read is no option, and so part of the name.
-// Threads: pure.
+// Threads: pure.   Errors: none; what cannot be read is no option, and so part of the name.
 #pragma once
 
 #include <functional>
@@ -35,6 +34,8 @@ struct MtlMap {
 
 using FileExists = std::function<bool(const std::string&)>;
 
+// `rest`: the line behind the map's keyword; `line`: its number. Options that are not modelled go
+// to `unread`.
 MtlMap parseMtlMap(std::string_view rest, const FileExists& exists, UnreadKeys& unread,
                    uint64_t line);
 

@@ -1,10 +1,11 @@
 // needs.h: what a scene asks of the renderer. What is not needed is not set up, not sent and not
 // timed.
 //
-// Two lines are drawn by roughness, here and for all methods. A reflection lobe so rough that it
-// cannot be told from diffuse is folded into D for the whole material, see foldsIntoDiffuse. One
-// that is less rough, but rough enough for VPLs to stand on it, is glossy, see kGlossyRoughness.
-// What is left is the caustic photons' work.
+// Roughness tells three kinds of reflection lobe, here and for all methods:
+//   folded   so rough that it cannot be told from diffuse; part of D for the whole material, see
+//            foldsIntoDiffuse
+//   glossy   less rough, but rough enough for VPLs to stand on it, see kGlossyRoughness
+//   the rest is the caustic photons' work
 // Threads: pure functions.
 #pragma once
 
@@ -15,8 +16,8 @@
 
 namespace ninefold {
 
-// Perceptual roughness from which on the reflection lobe of an opaque surface is glossy: the light
-// that it sends on is found by VPLs. Measured, see glossy_vpl.h.
+// Perceptual roughness from which on the reflection lobe of an opaque surface is glossy: VPLs find
+// the light that it sends on. Measured, see glossy_vpl.h.
 inline constexpr float kGlossyRoughness = 0.4f;
 
 struct Needs {
@@ -34,8 +35,8 @@ struct Needs {
   uint8_t layerMask() const;  // bits of image/layers.h
 };
 
-// True if the material is a dielectric interface that lets light through: no D but for the share
-// that it does not transmit, and a reflection lobe that is never folded.
+// True if the material is a dielectric interface that lets light through. It has a D lobe only for
+// the share that it does not transmit, and its reflection lobe is never folded.
 bool transmits(const Material& material);
 
 // True if the opaque reflection lobe of a material is folded into D: its smallest perceptual
@@ -46,10 +47,11 @@ bool foldsIntoDiffuse(const Scene& scene, const Material& material);
 // True if light passes straight through the material between equal media: blended, or a thin wall.
 bool letsPassStraight(const Scene& scene, const Material& material);
 
-// True if the material has an S lobe that is neither folded nor glossy everywhere; what passes
-// straight on is not focused.
+// True if the material has an S lobe that is neither folded nor glossy everywhere. Passing straight
+// on is not focusing.
 bool focusesLight(const Scene& scene, const Material& material);
 
+// `environment`: the radiance that is rendered with, instead of the scene's own.
 Needs needsOf(const Scene& scene, Radiance environment);
 
 // One line for each need: what is on or off, and why. First lines of the log.

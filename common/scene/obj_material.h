@@ -1,11 +1,11 @@
 // obj_material.h: the material libraries of an OBJ file, and the materials it uses of them.
 // What a material means: mtl_translation.h, obj_textures.h.
 //
-// A name is looked up as normalizedName (text_lines.h) tells it; if no library has it, without a
-// comment behind it. Of two materials of one name the first counts, as of
-// two libraries of a line the format has it.
-// Errors: throws Error (a missing or bad texture, a library that leads outside the scene's folder).
+// A name is looked up as normalizedName (text_lines.h) tells it and, if no library has it, without
+// a comment behind it. Of two materials of one name the first counts, as does the first of two
+// libraries of a line.
 // Threads: one.
+// Errors: throws Error (a missing or bad texture, a library that leads outside the scene's folder).
 #pragma once
 
 #include <map>
@@ -22,12 +22,12 @@ class ObjMaterials {
  public:
   ObjMaterials(const SceneFolder& folder, Scene& scene);
 
-  // Adds the materials of what follows mtllib: one file name or several, with blanks or quotes.
-  // A missing library gives a warning: its materials are then the default grey.
+  // Adds the materials of `line`, the words behind mtllib: one file name or several, with blanks or
+  // quotes. A missing library gives a warning: its materials are then the default grey.
   void addLibraries(std::string_view line);
 
-  // Index into scene.materials. A name that no library has gives a grey, white under vertex
-  // colours, and, once, a warning.
+  // Index into scene.materials. A name that no library has gives a grey (white under vertex
+  // colours) and one warning.
   int use(const std::string& name, bool hasColours);
 
  private:

@@ -10,10 +10,9 @@
 //                write and read it; a seventh number, its opacity, is left out
 // vt u           is on the line v = 0
 //
-// What is read by nobody (lines, points, curves, ...) is named in one warning.
-// Source: Wavefront's Advanced Visualizer manual, appendix B1.
-// Errors: throws Error, naming the line.
-// Threads: pure, but for the log.
+// One warning names what nobody reads (lines, points, curves, ...).
+// Source:  Wavefront's Advanced Visualizer manual, appendix B1.
+// Threads: pure, but for the log.   Errors: throws Error, naming the line.
 #pragma once
 
 #include <span>

@@ -1,6 +1,5 @@
 // obj_reader.h: Wavefront OBJ with MTL materials.
-// Errors: throws Error.
-// Threads: reentrant.
+// Threads: reentrant.   Errors: throws Error.
 #pragma once
 
 #include <span>

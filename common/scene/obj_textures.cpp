@@ -50,7 +50,7 @@ TextureImage white() {
   return image;
 }
 
-// A gain that never leaves [0, limit] is a factor; another goes into the texels, times a factor
+// A gain that never leaves [0, limit] is a factor. Any other goes into the texels, times a factor
 // that brings their largest to 1.
 struct SplitGain {
   float factor;

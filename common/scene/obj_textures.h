@@ -5,14 +5,14 @@
 //                         luminance; what it half covers is half there (alpha blending)
 //   map_Pr map_Pm         roughness and metallic, each a scalar, times Pr and Pm
 //   norm                  tangent-space normal map; -bm scales its slopes
-//   bump                  heights, or a normal map, which is what Blender writes so: which, its
-//                         texels tell; left out beside norm
+//   bump                  heights, or a normal map, which is what Blender writes so: the texels
+//                         tell which; left out beside norm
 //   -o -s -clamp -mm -bm -imfchan  are followed; -clamp repeats the edge. v grows upwards in the
-//                         file, downwards here. Two that become one image:
+//                         file, downwards here. Two maps that become one image:
 //                         shared_coordinates.h. Names of files: file_search.h.
 //
+// Owner: refers to the folder and the images it fills.   Threads: one.
 // Errors: throws Error (a missing or bad texture).
-// Threads: one. Refers to the folder and the images it fills.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ class ObjTextures {
   ObjTextures(const SceneFolder& folder, std::vector<TextureImage>& images)
       : folder_(&folder), images_(images) {}
 
-  // Adds the maps of `from`, which a library in the folder `beside` has, to its translation.
+  // Adds the maps of `from` to its translation `m`. `beside`: the folder of its library.
   void addMaps(const MtlMaterial& from, const std::string& beside, Material& m);
 
  private:

@@ -1,9 +1,9 @@
 // polygon.h: simple polygons in space to triangles, by cutting off ears in the polygon's mean
 // plane. A polygon that crosses itself, or whose ears are not found within 64 tries a corner, ends
 // as a fan: all of its corners are used, and the work is bounded.
-// Source: Meisters, "Polygons Have Ears", 1975.
-// Threads: pure.
-// Errors: none.
+//
+// Source:  Meisters, "Polygons Have Ears", 1975.
+// Threads: pure.   Errors: none.
 #pragma once
 
 #include <span>

@@ -1,14 +1,14 @@
 // reader.h: scene files to plain data. glTF 2.0 (.gltf, .glb) and Wavefront OBJ (.obj + .mtl).
 //
-// Errors: throws Error with one line (file, place, remedy) on anything bad: truncated, indices out
-// of range, NaN, no geometry, counts over the limits below, a URI that leads outside the scene's
-// folder, an unknown required extension. Warnings (unknown optional extension, missing camera,
-// ...) go to the log, one line each.
+// A scene may stand up to 2^28 times its size from the file's origin: places are read in double
+// precision and moved to the origin before they become floats. The vertices of a glTF mesh are
+// floats in the file already, so a far mesh must be far by its node's transform.
+// Warnings (unknown optional extension, missing camera, ...) go to the log, one line each.
 //
-// Position: scenes may stand up to 2^28 times their size from the file's origin: places are read in
-// double precision and moved to the origin before they become floats. The vertices of a glTF mesh
-// are floats in the file already, so what is far away must be so by its node's transform.
 // Threads: reentrant.
+// Errors:  throws Error with one line (file, place, remedy) on anything bad: truncated, indices out
+//          of range, NaN, no geometry, counts over the limits below, a URI that leads outside the
+//          scene's folder, an unknown required extension.
 #pragma once
 
 #include <filesystem>
@@ -30,7 +30,7 @@ inline constexpr uint64_t kMaxInstances = 1'000'000;
 Scene readScene(const std::filesystem::path& file,
                 const std::optional<std::string>& clip = std::nullopt);
 
-// The checks that every scene passes, from a file or from the wire; throws Error. Used by both.
+// The checks that every scene passes, from a file or from the wire. Throws Error.
 void validate(const Scene& scene);
 
 }  // namespace ninefold

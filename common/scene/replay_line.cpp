@@ -18,7 +18,7 @@ std::string flagOf(const Setting<T>& row, const T& value) {
 
 std::string flagOf(const Setting<Camera>&, const Camera&) { return ""; }
 
-// By its number, if it is one of the scene's: that is exact.
+// A camera of the scene by its number: that is exact.
 std::string cameraOf(const Scene& scene, const Camera& camera) {
   const auto found = std::ranges::find(scene.cameras, camera);
   if (found == scene.cameras.end()) return specOf(scene, camera);

@@ -1,8 +1,9 @@
-// replay_line.h: the command that does a task again, alone, for whoever looks for what went wrong in it.
+// replay_line.h: the command that does one task again, alone, to find what went wrong in it.
 //
 // The scene's file is named SCENE: clients do not know it. The flags besides the task are those of
-// ninefold-master; jitter and compensation are those of the preset that is named, if the settings are of one.
-// A camera that is not one of the scene's is told as numbers, and may differ in its last bits.
+// ninefold-master. Jitter and compensation are those of the preset that is named, if the settings
+// are of one. A camera that is not one of the scene's is told as numbers, and may differ in its
+// last bits.
 // Threads: pure.
 #pragma once
 

@@ -1,12 +1,12 @@
 // scene.h: a scene as plain data, as the readers make it, the wire carries it and the tracer eats
 // it.
 //
-// Coordinates: right-handed, y up, metres. Readers move the scene so that the middle of its bounds
-// is the origin (`origin` keeps what was subtracted): float precision is then best where it
-// matters. Everything in a Scene that left a reader or the wire is valid: finite numbers, indices
-// in range, unit directions, at least one triangle.
-// Owner: value type; copies share images and meshes.
-// Threads: plain data, shared read-only.
+// Coordinates: right-handed, y up, metres. Readers move the middle of the scene's bounds to the
+// origin (`origin` keeps what was subtracted), where float precision is best. Every Scene that left
+// a reader or the wire is valid: finite numbers, indices in range, unit directions, at least one
+// triangle.
+//
+// Owner: value type; copies share images and meshes.   Threads: plain data, shared read-only.
 #pragma once
 
 #include <array>

@@ -9,15 +9,14 @@
 
 namespace ninefold {
 
-// In file coordinates. The places of lights and cameras are kept in double precision beside them,
-// so that a scene far from the file's origin loses nothing.
+// In file coordinates. Places of lights and cameras are also kept in double precision, so that a
+// scene far from the file's origin loses nothing.
 struct SceneDraft {
   Scene scene;
   std::vector<DVec3> lightPositions;  // one per scene.lights
   std::vector<DVec3> eyes;            // one per scene.cameras
 
-  // Appends an instance, unless its matrix flattens it. Errors: Error beyond the limits of
-  // reader.h.
+  // Appends an instance, unless its matrix flattens it. Throws Error beyond the limits of reader.h.
   void addInstance(int mesh, int node, const std::string& name, const DMat4& toWorld);
 
   uint64_t triangles = 0;    // of all instances

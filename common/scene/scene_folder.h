@@ -1,8 +1,7 @@
 // scene_folder.h: the only way from a path written in a scene file to bytes. What a file names
 // resolves to a regular file beneath the scene's folder (after symbolic links) or to nothing.
 //
-// Errors: throws Error (missing, outside, not a regular file, too big).
-// Threads: reentrant.
+// Threads: reentrant.   Errors: throws Error (missing, outside, not a regular file, too big).
 #pragma once
 
 #include <cstddef>
@@ -26,8 +25,8 @@ class SceneFolder {
   std::vector<unsigned char> read(std::string_view reference, uint64_t limit) const;
   // False if there is no such file; what leads outside is an Error all the same.
   bool exists(std::string_view reference) const;
-  // The reference as its folder spells it: a file whose name differs in case alone; an empty string
-  // if there is none. Errors as exists.
+  // The reference as its folder spells it: a file whose name may differ in case; empty if there is
+  // none. Errors as exists.
   std::string spelled(std::string_view reference) const;
 
  private:

@@ -1,6 +1,7 @@
-// settings.h: everything besides the scene that decides the bytes of a picture. Part of every
-// task's key. Value types; the same on master and clients. Names, ranges and texts of all members:
-// settings_table.h. Ranges are enforced where values enter (command line, panel, wire).
+// settings.h: everything besides the scene that decides the bytes of a picture; part of every
+// task's key. Names, ranges and texts of all members: settings_table.h. Ranges are enforced where
+// values enter (command line, panel, wire).
+// Threads: value types, the same on master and clients.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +39,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
-// What changes from frame to frame. At rest, frame i has randomization i and rotation i; while
-// anything moves both stay put, so that nothing flickers.
+// What changes from frame to frame. At rest frame i has randomization i and rotation i. While
+// anything moves both stay, so that nothing flickers.
 struct FrameKey {
   uint32_t frame = 0;          // counts frames of a run; names a task on the wire
   uint32_t randomization = 0;  // randomization index

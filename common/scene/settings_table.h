@@ -1,6 +1,7 @@
 // settings_table.h: all settings, once: for each its name, member, range, unit, help, the parts of
 // light that it is about, and its slider. Flags, their help and variables, the wire, ranges, JSON,
-// the panel and replay lines visit this table. A new setting is a member of Settings and a row here.
+// the panel and replay lines visit this table. A new setting is a member of Settings and a row
+// here.
 //
 //   type of the member   range            flag, JSON                      wire
 //   int, float           low to high      a number                        a number
@@ -10,7 +11,7 @@
 //   Radiance             low to high      none or R,G,B; [r, g, b]        three numbers
 //   Camera               its own rules    by the scene; an object         a message of its own
 //
-// Errors: checkRange throws Error naming what is out of range. Threads: constant data.
+// Threads: constant data.   Errors: checkRange throws Error naming what is out of range.
 #pragma once
 
 #include <cstdint>
@@ -42,7 +43,7 @@ struct Setting {
   double low = 0, high = 0;  // of each number
   const char* unit = "";
   const char* value = nullptr;  // what stands for it in the help; null: no flag of that name
-  // {0} and {1} are low and high, and the names of methods; what it is by default is added.
+      // {0} and {1} are low and high, and the names of methods. The default is added at the end.
   const char* help = "";
   uint8_t parts = 0;  // LightParts that it is about; 0: it is about any light
   Slider slider = {};
@@ -158,7 +159,7 @@ inline constexpr std::tuple kSettings{
                   .slider = {"compensate the bound"}},
 };
 
-// Calls visit(row) for each.
+// Calls visit(row) for each setting.
 template <typename Visit>
 void forEachSetting(const Visit& visit) {
   std::apply([&](const auto&... rows) { (visit(rows), ...); }, kSettings);
@@ -176,7 +177,7 @@ constexpr Setting<T> settingOf(T Settings::*member) {
   return found;
 }
 
-// Width and height of --size WxH, by their rows. Error: UsageError.
+// "WxH" of --size to width and height, in the ranges of their rows. Throws UsageError.
 std::pair<int, int> parseSize(std::string_view text);
 
 // Names of an enum's values, in their order.
@@ -195,7 +196,7 @@ requires std::is_enum_v<Enum> std::string textOf(Enum value) {
   return namesOf(value)[static_cast<size_t>(value)];
 }
 
-// Throws if a value is out of its row's range. Enums: the number that is to become one.
+// Throws Error if a value is out of its row's range. An enum is checked as its number.
 void checkRange(const Setting<int>& row, int value);
 void checkRange(const Setting<float>& row, float value);
 void checkRange(const Setting<Interleave>& row, Interleave value);

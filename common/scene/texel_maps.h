@@ -1,8 +1,9 @@
 // texel_maps.h: images made from images, texel by texel, for what a map of a material says beyond
-// "these are its texels". Where two images differ in size, the larger counts and the other is
-// looked up at its nearest texel.
-// Units: values are 0..1. Colours are decoded (sRGB) before they are changed and encoded after.
-// Threads: pure. Errors: none; images have at least one texel.
+// "these are its texels". Where two images differ in size, the larger counts; the other is looked
+// up at its nearest texel.
+//
+// Units:   values are 0..1. Colours are decoded (sRGB) before they are changed and encoded after.
+// Threads: pure.   Errors: none; images have at least one texel.
 #pragma once
 
 #include "common/scene/scene.h"
@@ -27,21 +28,21 @@ TextureImage coloursOf(const TextureImage& image, char channel, Gain gain);
 // R, G, B of `colours`, alpha of `coverage`, which has one channel.
 TextureImage coveredBy(const TextureImage& colours, const TextureImage& coverage);
 
-// The image as a square of texture coordinates 0..1 shows it that looks it up by `use`, at the
-// nearest texels. It repeats as the image does if the scales are whole numbers.
+// The image as looked up by `use` over the square of texture coordinates 0..1, at the nearest
+// texels. It repeats as `image` does if the scales are whole numbers.
 TextureImage asSeenBy(const TextureUse& use, const TextureImage& image);
 
 // G = roughness, B = metallic, of one channel each; null counts as 1.
 TextureImage metallicRoughness(const TextureImage* roughness, const TextureImage* metallic);
 
-// A normal map (glTF's: G points up) of heights, one channel, after Blinn 1978. From black to white
-// within the width of a texel is a slope of `strength`: MTL tells no unit of height.
+// glTF's normal map (G points up) of heights in one channel, after Blinn 1978. From black to white
+// within the width of a texel is a slope of `strength`: MTL has no unit of height.
 TextureImage normalsOfHeights(const TextureImage& heights, float strength, Wrap wrap);
 
-// Blue is the largest channel nearly everywhere: directions about a surface's own, no heights.
+// True if blue is the largest channel nearly everywhere: normals about a surface's own, no heights.
 bool isNormalMap(const TextureImage& image);
 
-// Slopes times `strength`.
+// The normal map with its slopes times `strength`.
 TextureImage scaledNormals(const TextureImage& normals, float strength);
 
 }  // namespace ninefold

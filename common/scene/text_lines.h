@@ -1,10 +1,9 @@
 // text_lines.h: the lines, words and numbers of OBJ and MTL files.
 //
-// Lines end with \n, \r or both. A backslash as a line's last character continues it; in a comment
-// it does not, because comments may end in a path. A byte order mark (UTF-8) is skipped wherever a
-// line begins: files that were put together have several. UTF-16 is refused.
-// Errors: throws Error (UTF-16, zero bytes).
-// Threads: one. Refers to the text.
+// Lines end with \n, \r or both. A backslash as a line's last character continues it, but not in a
+// comment: comments may end in a path. A byte order mark (UTF-8) is skipped wherever a line begins:
+// files that were put together have several. UTF-16 is refused.
+// Owner: refers to the text.   Threads: one.   Errors: throws Error (UTF-16, zero bytes).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +19,7 @@ class TextLines {
 
   // False at the end. The line is valid until the next call.
   bool next(std::string_view& line);
-  // Of that line, from 1; of its first part if it is continued.
+  // Number of that line, from 1; of its first part if it is continued.
   uint64_t number() const { return number_; }
 
  private:
@@ -36,15 +35,16 @@ std::string_view trimmed(std::string_view text);
 // Cuts the next word off `line`; empty at its end.
 std::string_view nextWord(std::string_view& line);
 
-// A name as it is compared: without quotes around it, each run of blanks and tabs one blank.
+// A name in the form in which names are compared: without quotes, each run of blanks and tabs one
+// blank.
 std::string normalizedName(std::string_view text);
 
-// Without quotes around it.
+// `text` without quotes around it.
 std::string_view unquoted(std::string_view text);
 
 std::string lowerCase(std::string_view text);
 
-// A number that is finite in single precision; what is too small for it counts as 0.
+// A number that is finite in single precision; one too small for it counts as 0.
 std::optional<double> finiteNumber(std::string_view word);
 
 }  // namespace ninefold

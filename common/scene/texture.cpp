@@ -19,8 +19,8 @@ const std::array<float, 256> kSrgbToLinear = makeSrgbTable();
 
 float linear(uint8_t code) { return static_cast<float>(code) / 255.0f; }
 
-// Brings u to where `size` texels, or two mirrored copies of them, cover all of it; far away and
-// non-finite coordinates included, so that the conversion to int is safe.
+// Brings u to where `size` texels, or two mirrored copies of them, cover all of it. Far away and
+// non-finite coordinates are safe, too, to convert to int afterwards.
 float fold(float u, Wrap wrap) {
   if (wrap == Wrap::clamp) return u > 0 ? std::min(u, 1.0f) : 0.0f;
   const float folded = wrap == Wrap::mirror ? u - 2.0f * std::floor(0.5f * u) : u - std::floor(u);

@@ -1,7 +1,6 @@
 // texture.h: texture lookup. Returns linear values (sRGB images are decoded before interpolation).
 // Missing channels read as: grey spreads to R, G, B; alpha 1.
-// Threads: pure.
-// Errors: none for valid scenes.
+// Threads: pure.   Errors: none for valid scenes.
 #pragma once
 
 #include "common/scene/scene.h"

@@ -1,8 +1,7 @@
 // texture_peaks.h: the largest value that a texture can have over a range of texture coordinates;
-// never too small, so that no light that shines anywhere is taken for dark. Kept as maxima over at
+// never too small, so that no light that shines anywhere is taken for dark. It keeps maxima over at
 // most 64 x 64 cells.
-// Owner: value type.
-// Threads: const after construction.
+// Owner: value type.   Threads: const after construction.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
 // unread_keys.h: what a scene file says and nobody reads, for one warning a file.
-// Owner: value type. Threads: one.
+// Owner: value type.   Threads: one.
 #pragma once
 
 #include <map>

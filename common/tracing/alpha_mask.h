@@ -1,6 +1,6 @@
 // alpha_mask.h: lets rays pass through the texels of a masked material (glTF alphaMode MASK).
-// Private to this folder. Threads: called from any thread that traces. Owner: refers to its
-// arguments.
+// Private to this folder.
+// Owner: refers to its arguments.   Threads: called from any thread that traces.
 #pragma once
 
 #include "common/scene/scene.h"
@@ -14,6 +14,7 @@ struct AlphaMask {
   const Mesh* mesh;
   const Material* material;
 
+  // True if a ray passes through at barycentrics (u, v).
   bool isOpen(uint32_t triangle, float u, float v) const;
 };
 

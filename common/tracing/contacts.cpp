@@ -10,7 +10,7 @@ namespace {
 
 // Errors of triangles that are no slivers stay below this share of the scene's radius.
 constexpr float kMargin = 100 * kUnitRoundoff;
-// How far outside of a triangle, in barycentrics, a point still is in it: none falls between two.
+// A point this far outside of a triangle [barycentrics] is still in it: none falls between two.
 constexpr double kSlack = 1e-6;
 // Cosine to a surface's normal below which a view counts as along the surface.
 constexpr float kAlong = 1e-3f;
@@ -94,7 +94,7 @@ Contacts::Contacts(const Scene& scene, const Geometries& geometries,
   }
 }
 
-// Where something is, or was, that has moved.
+// Bounds of everything that has moved, where it was and where it is.
 std::vector<Bounds> Contacts::changedSince(const Contacts& before) const {
   std::vector<Bounds> boxes;
   for (size_t i = 0; i < geometries_.size(); ++i) {

@@ -1,22 +1,24 @@
 // contacts.h: surfaces that lie in one another, of which at least one lets light pass or sends it
 // out: a glass that stands on a table, water in a glass, a lamp in the plane of the ceiling.
+// Private to this folder.
 //
 // A ray meets one of them, whichever rounding puts first, and the next ray starts beyond both
 // (surface.h). So at the hit all of them must be known:
-//   which()   the hit is on the one that lets least pass: opaque before solid before thin or
-//             blended; among equals on one that emits towards the ray, then on one that shows it
-//             its front, then on the one that comes first in the scene
+//   which()   moves the hit to the one that lets least pass: opaque before solid before thin or
+//             blended; then one that emits towards the ray, then one that shows it its front, then
+//             the first in the scene
 //   addTo()   names the solids at a point, so that all are left and entered together, and widens
 //             the point's error so that new rays start outside all of them
 // Two triangles are in contact at a point if both hold it and their planes there are no further
-// apart than the sum of their errors (math/rounding.h). Triangles of one instance are if they look
-// in opposite directions.
+// apart than the sum of their errors (math/rounding.h). Triangles of one instance must also look in
+// opposite directions.
 //
-// Which triangles touch any is found at load; a hit on another one costs a look-up. After an edit,
-// only what is near to something that moved is looked at anew.
+// Triangles that touch any are found at load; a hit on another one costs a look-up. After an edit
+// only the neighbourhood of what moved is looked at anew.
+//
 // Proved:  tests/tracing/contacts_test.cpp, tests/gi/glass_test.cpp.
-// Private to this folder. Threads: const after construction. Owner: refers to its arguments.
-// Errors: none; of more than SurfacePoint::kMaxContacts solids at one point the rest is forgotten.
+// Owner:   refers to its arguments.   Threads: const after construction.
+// Errors:  none; of more than SurfacePoint::kMaxContacts solids at a point the rest is forgotten.
 #pragma once
 
 #include <memory>
@@ -30,7 +32,7 @@ namespace ninefold {
 
 class Contacts {
  public:
-  // `parts` hold all geometries, are committed, and their triangles are numbered as theirs.
+  // `parts` hold all geometries, are committed, and number their triangles as the geometries do.
   // `before`: of the same scene before an edit, or null.
   Contacts(const Scene& scene, const Geometries& geometries, const std::vector<AlphaMask>& masks,
            const Hierarchies& parts, const Contacts* before);
@@ -78,8 +80,8 @@ class Contacts {
   const std::vector<AlphaMask>* masks_;
   const Hierarchies parts_;
   float margin_;  // larger than any two errors [m]
-  std::vector<std::shared_ptr<const Marks>>
-      from_;                                 // by instance: what is in contact with it; or null
+  // By instance: what is in contact with it; or null.
+  std::vector<std::shared_ptr<const Marks>> from_;
   std::vector<std::vector<bool>> touching_;  // [instance][triangle]; empty where nothing touches
 };
 

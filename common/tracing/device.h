@@ -1,7 +1,8 @@
 // device.h: Embree's device for one instruction set. Private to this folder.
-// Owner: the device and, through Hierarchy, the scene; both are released with the value.
-// Threads: one builds, any number trace. Errors: throws Error if the machine lacks the instruction
-// set or memory.
+//
+// Owner:   the device and, through Hierarchy, the scene; both are released with the value.
+// Threads: one builds, any number trace.
+// Errors:  throws Error if the machine lacks the instruction set or memory.
 #pragma once
 
 #include <memory>
@@ -28,7 +29,7 @@ Device makeDevice(Isa isa);
 // "avx2" or "avx512": what the device really runs.
 std::string isaOf(RTCDevice device);
 
-// Throws Error if the device has met one; `doing` says at what.
+// Throws Error if the device has met one; `doing`: what was being done.
 void throwOnError(RTCDevice device, const char* doing);
 
 }  // namespace ninefold

@@ -2,8 +2,8 @@
 // triangles. Knows nothing of Embree. Corners keep the mesh's order, so that barycentrics mean the
 // same everywhere.
 //
-// Owner: world-space vertices; refers to the Scene. Threads: const after construction. Errors: none
-// for valid scenes.
+// Owner:   world-space vertices; refers to the Scene.
+// Threads: const after construction.   Errors: none for valid scenes.
 #pragma once
 
 #include <vector>
@@ -13,8 +13,7 @@
 
 namespace ninefold {
 
-// How far [m] geometry may reach from the origin: products of three lengths stay in the range of
-// floats.
+// How far geometry may reach from the origin [m]: products of three lengths stay in floats' range.
 inline constexpr float kMaxDistance = 1e11f;
 
 class InstanceGeometry {
@@ -22,20 +21,19 @@ class InstanceGeometry {
   InstanceGeometry(const Scene& scene, const Instance& instance);
 
   const Mesh& mesh() const { return *mesh_; }
-  // World-space positions of the mesh's vertices; one more follows as the padding that Embree
-  // reads.
+  // World-space positions [m] of the mesh's vertices; one more follows, as padding for Embree.
   const Vec3* vertices() const { return vertices_.data(); }
   const Bounds& bounds() const { return bounds_; }
+  // In world space, in the mesh's order.
   Tracer::Corners corners(uint32_t triangle) const;
   // Unit; 0 for a triangle without area.
   Vec3 frontNormal(uint32_t triangle) const { return planes_[triangle].normal; }
 
-  // The surface at barycentrics (u, v); they are clamped into the triangle. Leaves p.instance
-  // alone.
+  // The surface at barycentrics (u, v), clamped into the triangle. Leaves p.instance alone.
   void surface(uint32_t triangle, float u, float v, SurfacePoint& p) const;
 
  private:
-  // What every hit asks of a triangle, so that it is worked out once.
+  // What every hit asks of a triangle, worked out once.
   struct Plane {
     Vec3 normal;         // of the front, unit; 0 for a triangle without area
     float error;         // planeError, see math/rounding.h [m]

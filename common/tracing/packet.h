@@ -1,10 +1,12 @@
-// packet.h: sixteen rays through the hierarchies of a scene's parts, one after another: the nearest
+// packet.h: sixteen rays through the hierarchies of a scene's parts, one after another. The nearest
 // hit so far is the next part's far end, and blocked lanes drop out. Private to this folder.
 //
-// Without AVX-512 Embree has no 16-wide kernels: version 3 then forgets which lanes are active and
+// Without AVX-512 Embree has no 16-wide kernels: version 3 then forgets which lanes are active, and
 // version 4 traces ray by ray. So the halves are made here, and both versions use their 8-wide
-// kernels. Debian's Embree aborts on rays that are not finite; such lanes are left out, and hit
-// nothing. Threads: pure functions of their arguments.
+// kernels. Debian's Embree aborts on rays that are not finite: such lanes are left out and hit
+// nothing.
+//
+// Threads: pure functions of their arguments.
 #pragma once
 
 #include <vector>

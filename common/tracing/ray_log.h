@@ -1,8 +1,8 @@
 // ray_log.h: the ray calls of a stretch of work, kept so that the same rays can be traced again
 // alone: the floor of any program that wants these answers from Embree (tools/client_benchmark).
 //
-// Owner: whoever measures; a Tracer refers to it while it is attached (Tracer::logTo). Threads: one
-// tracing thread at a time.
+// Owner:   whoever measures; a Tracer refers to it while it is attached (Tracer::logTo).
+// Threads: one tracing thread at a time.
 #pragma once
 
 #include <vector>

@@ -1,11 +1,13 @@
 // surface.h: a hit, the surface point at it, and where rays from it may safely start.
 //
-// Robust origins: how far rounding may put the point, or the ray test's idea of it, off its surface
-// is bounded from the triangle's corners (math/rounding.h), and a new ray starts outside that bound
-// along the geometric normal. There is no scene-dependent epsilon. A segment needs the same care at
-// its far end, where the ray test errs in proportion to the length too: end it at offsetOrigin(y,
-// n, error + kRayRounding * length, x - y), farT = 1. Source: Pharr, Jakob, Humphreys, "Physically
-// Based Rendering" 3.9 (error bounds of intersection points). Threads: plain values.
+// Robust origins: rounding may put the point, or the ray test's idea of it, off its surface. The
+// triangle's corners bound how far (math/rounding.h), and a new ray starts outside that bound along
+// the geometric normal. There is no scene-dependent epsilon. At the far end of a segment the ray
+// test also errs in proportion to the length: end a segment from x to y at
+// offsetOrigin(y, n, error + kRayRounding * length, x - y), farT = 1.
+//
+// Source:  Pharr, Jakob, Humphreys, "Physically Based Rendering" 3.9 (errors of intersections).
+// Threads: plain values.
 #pragma once
 
 #include <array>
@@ -48,7 +50,7 @@ struct SurfacePoint {
   int contactCount = 0;
 };
 
-// Start of a ray from `p` into `direction`: moved to the side of the surface into which it goes.
+// Start of a ray from `p` into `direction`: moved off, to the side into which it goes.
 Vec3 offsetOrigin(const SurfacePoint& p, Vec3 direction);
 // The same for raw values: n = unit geometric normal, error as above.
 Vec3 offsetOrigin(Vec3 position, Vec3 n, float error, Vec3 direction);

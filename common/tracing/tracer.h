@@ -1,17 +1,17 @@
 // tracer.h: closest hit and occlusion on a whole scene. The only door to Embree (versions 3 and 4).
 //
 // All instances are flattened to world-space triangles, one geometry per instance (geomID =
-// instance index). The hierarchy is built by one thread with fixed quality, so that all clients of
-// a class have the same one. After an edit, instances that were ever moved have hierarchies of
-// their own beside the rest's, and what the edit left alone is shared with the tracer before; which
-// are moved is told by the caller, so that the result does not depend on how it came about.
-// Alpha-masked texels are passed through by filter functions; back faces are hit like front faces.
-// The robust traversal is used: no cracks between triangles that share an edge.
+// instance index). One thread builds the hierarchy with fixed quality: all clients of a class have
+// the same one. After an edit, instances that ever moved have hierarchies of their own beside the
+// rest's, and what the edit left alone is shared with the tracer before. The caller names the moved
+// ones, so that the result does not depend on how it came about.
+// Filter functions pass through alpha-masked texels. Back faces are hit like front faces. The
+// robust traversal is used: no cracks between triangles that share an edge.
 //
-// Threads: const functions are reentrant. Owner: holds flattened geometry, refers to the Scene,
-// which must outlive it. Errors: constructor throws Error when memory or the instruction set is
-// missing, or when the scene is larger than rays can be traced in. A ray with NaN or infinite
-// coordinates hits nothing.
+// Owner:   holds flattened geometry; refers to the Scene, which must outlive it.
+// Threads: const functions are reentrant.
+// Errors:  constructor throws Error when memory or the instruction set is missing, or when the
+//          scene is larger than rays can be traced in. A ray that is not finite hits nothing.
 #pragma once
 
 #include <cstdint>
@@ -51,21 +51,22 @@ struct RayLog;  // ray_log.h
 class Tracer {
  public:
   Tracer(const Scene& scene, Isa isa);
-  // Of `scene` after an edit: instances have other places or materials than in `before`. `moved`: by
-  // instance, true for all that are elsewhere than in the scene that was read, and for no less than in
-  // `before`. The scene of the first Tracer must outlive all that come from it.
+  // Of `scene` after an edit: instances have other places or materials than in `before`. `moved`,
+  // by instance: true for all that are elsewhere than in the scene that was read, and at least for
+  // those of `before`. The scene of the first Tracer must outlive all that come from it.
   Tracer(const Tracer& before, const Scene& scene, const std::vector<bool>& moved);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
 
-  // Closest hit of one ray; Hit::none() if there is none.
+  // Closest hit of origin + t * direction, t in [0, tFar]; Hit::none() if there is none. direction
+  // need not be unit.
   Hit closest(Vec3 origin, Vec3 direction, float tFar) const;
-  // Closest hits of the lanes in `active` (bit i = lane i). hits[lane] of inactive lanes is
-  // untouched.
-  // `coherent`: the rays start together and go the same way.
+  // Closest hits of the lanes in `active` (bit i = lane i); hits[lane] of other lanes stays as it
+  // is. `coherent`: the rays start together and go the same way.
   void closest16(RayPacket& rays, uint32_t active, Hit* hits, bool coherent = true) const;
 
+  // True if anything blocks that ray.
   bool occluded(Vec3 origin, Vec3 direction, float tFar) const;
   // Bits of the active lanes whose segment is blocked. `coherent`: the rays share an end or are
   // parallel.
@@ -74,14 +75,13 @@ class Tracer {
   // The surface at a hit, in world space, with its error bound.
   SurfacePoint surface(const Hit& hit) const;
 
-  // p, moved off the surfaces that lie within rounding of it, so that rays may start there. It stays
-  // on its side; from exactly in a surface it goes to where `direction` goes, or to the front if
-  // that is along the surface.
+  // p, moved off the surfaces that lie within rounding of it, so that rays may start there. It
+  // stays on its side. From exactly in a surface it goes to where `direction` goes, or to the front
+  // if `direction` is along the surface.
   Vec3 clearOf(Vec3 p, Vec3 direction) const;
 
-  // World-space corners of a triangle of an instance in the mesh's order, as barycentrics count
-  // them. The front sees them counterclockwise, or clockwise if the instance is mirrored: see
-  // surface().
+  // World-space corners of an instance's triangle in the mesh's order, as barycentrics count them.
+  // The front sees them counterclockwise, or clockwise if the instance is mirrored: see surface().
   struct Corners {
     Vec3 a, b, c;
   };

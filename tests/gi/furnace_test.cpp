@@ -80,6 +80,23 @@ TEST(Furnace, VirtualPointLightsStopAtThePathLength) {
   }
 }
 
+// Without light straight from the lamps the term of one bounce is missing, and no other:
+// L = L_e (1 + a^2 + a^3 + ...). In the corners, which the picture shows, the compensation brings
+// most of it, from surfaces that lamps light.
+TEST(Furnace, WithoutDirectLightTheTermOfOneBounceIsMissing) {
+  const float a = 0.5f;
+  const Scene scene = furnace(a);
+  const Tracer tracer(scene, Isa::automatic);
+  for (const Method method : {Method::pathTrace, Method::instantRadiosity}) {
+    Settings s = testing::small(method);
+    s.directVpls = 0, s.bound = 3;
+    const auto image = testing::render(tracer, s, 64);
+    EXPECT_NEAR(image.grey(), 1 / (1 - double{a}) - double{a}, 4 * image.error() + 1e-5)
+        << "method " << static_cast<int>(method);
+    EXPECT_LT(image.error(), 0.01 * image.grey());
+  }
+}
+
 // Basic radiance: a clear dielectric in a furnace changes nothing, seen from outside or from
 // inside.
 TEST(Furnace, GlassBallIsInvisible) {

@@ -1,17 +1,20 @@
 // eye_path.h: paths from the eye, E S* D. They split once, at the first hit, into one path for each
-// lobe that is there; later vertices pick one lobe at random.
+// lobe that is there. Later vertices pick one lobe at random.
 //
 //   layer radiance = throughput (rho/pi) E(x) gain + U
 //
-// throughput is the product of the lobes' weights, each in [0, 1]; gain = 1 / product of the
-// probabilities of the random choices, and goes into E and U, so that reflectance stays <= 1. U
-// gathers emission met along E S*, and at S vertices of non-zero roughness the lights sampled
-// directly (balance heuristic against meeting them by the lobe). Chains longer than specular-depth
-// end black.
+//   throughput  product of the lobes' weights, each in [0, 1]
+//   rho         reflectance of D at x, where the path ends
+//   gain        1 / product of the probabilities of the random choices; goes into E and U, so that
+//               reflectance stays <= 1
+//   U           emission met along E S*, and at rough S vertices the lights sampled directly
+//               (balance heuristic against meeting them by the lobe)             [W/(m^2 sr)]
 //
-// Dimensions of vertex j of a layer: 8j direction; 8j+2 choice of lobe; 8j+3 inside the lobe; 8j+4,
-// 5 light. Source:  Wald et al. 2002; DESIGN section 2.   Proved: tests/gi (glass in a furnace is
-// invisible; mirrors). Threads: pure functions.   Errors: none.
+// Chains longer than specular-depth end black. Dimensions of vertex j of a layer: 8j direction;
+// 8j+2 choice of lobe; 8j+3 inside the lobe; 8j+4, 8j+5 light.
+//
+// Source:  Wald et al. 2002.   Proved: tests/gi (glass in a furnace is invisible; mirrors).
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include "common/base/counters.h"
@@ -33,9 +36,9 @@ struct EyePathEnd {
   Radiance unfiltered{0};  // U
 };
 
-// Follows `lobe` of the first hit, which lies `distance` from the eye, to the end of its chain. through:
-// what the medium around the eye leaves of the light on the way from there.
-// firstDimension: 0 mod 8, apart from the other layers' dimensions by eyePathDimensions(settings).
+// Follows `lobe` of the first hit to the end of its chain. The first hit lies `distance` metres
+// from the eye. through: share of light that the medium around the eye leaves on that way.
+// firstDimension: 0 mod 8; layers lie eyePathDimensions(settings) apart.
 EyePathEnd followLobe(const Transport& transport, const ShadingPoint& first, Lobe lobe,
                       float distance, Reflectance through, const MediumStack& media,
                       const PixelSampler& sampler, uint32_t firstDimension, RayCounts& rays);

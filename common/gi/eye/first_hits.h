@@ -1,8 +1,9 @@
-// first_hits.h: what the eye sees, the same for every method: sixteen eye rays a packet, 4x4
-// neighbours of the sub-plane, shaded; and the extra planes of the first hit.
+// first_hits.h: what the eye sees, the same for every method: the first hits, shaded, and their
+// extra planes. A packet is sixteen eye rays of 4x4 neighbours of the sub-plane.
 //
 // Film positions are jittered per pixel by the frame's randomization (anti-aliasing), or at the
 // centre. Where a pixel has several paths, its extra planes are those of the first.
+//
 // Threads: reentrant with one TaskContext a thread.   Errors: none.
 #pragma once
 
@@ -22,7 +23,7 @@ struct FirstHit {
 
 inline constexpr int kBlockSide = 4;  // a packet is a block of 4 x 4 pixels
 
-// The rays of path number `path` of a block's pixels, whose upper left corner is (bi, bj).
+// The eye rays of path number `path` of a block's pixels. (bi, bj): the block's upper left corner.
 struct EyeBlock {
   int bi = 0, bj = 0;
   uint32_t active = 0;

@@ -1,5 +1,5 @@
-// layer_receivers.h: what a task's pixels want to know of the light: the diffuse points at the ends
-// of their eye paths, by layer.
+// layer_receivers.h: what a task's pixels ask of the light: the diffuse points at the ends of their
+// eye paths, by layer.
 //
 //   layer radiance = reflectance * E + U,   reflectance = throughput rho/pi
 //
@@ -21,12 +21,12 @@ class LayerReceivers {
   // Follows the eye paths of the task's pixels. Fills all planes of its result but E.
   void find(TaskContext& context);
 
-  // Of a layer, without irradiance so far.
+  // The receivers of a layer; after find() without irradiance.
   Receivers& of(int layer) { return receivers_[static_cast<size_t>(layer)]; }
 
   // Writes the irradiance of a layer's receivers, each times its gain, to the result.
   void putIrradiance(TaskContext& context, int layer) const;
-  // The part of it that came by way of S, one a receiver of the diffuse layer.
+  // Writes the part of E that came by way of S: one value for each receiver of the diffuse layer.
   void putCaustic(TaskContext& context, const std::vector<Irradiance>& caustic) const;
 
  private:

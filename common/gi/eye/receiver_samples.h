@@ -1,8 +1,8 @@
-// receiver_samples.h: the random numbers of a task's receivers, addressed by pixel, layer and level.
+// receiver_samples.h: the random numbers of a task's receivers, by pixel, layer and level.
 //
-// A receiver is one sample of its pixel and frame: there is nothing to stratify it against, so the
-// numbers are plain hashes and no points of a Sobol' sequence.
-// Level: the number of D vertices between the eye and the receiver, pathVertices of layered_method.h.
+// Level: the number of D vertices between the eye and the receiver, pathVertices of
+// layered_method.h. A receiver is one sample of its pixel and frame, with nothing to stratify it
+// against. So the numbers are plain hashes, no points of a Sobol' sequence.
 // Threads: pure functions.
 #pragma once
 
@@ -18,7 +18,7 @@ class ReceiverSamples {
         layer_(layer),
         glossyPaths_(seed, SampleUse::glossyPath, randomization, 1, Randomization::owen) {}
 
-  // pixel: any number that names the pixel in the whole image.
+  // pixel: x + width * y in the whole image, as in Receiver.
   Vec2 compensationDirection(uint32_t pixel, int level) const {
     const uint64_t w = word(pixel, level, 0);
     return Vec2(unitFloat(static_cast<uint32_t>(w >> 32)), unitFloat(static_cast<uint32_t>(w)));

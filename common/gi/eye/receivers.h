@@ -1,5 +1,6 @@
-// receivers.h: the points x of a task that gather irradiance, planar, so that sixteen go to one VPL
-// at once. One array a component; capacity is kept between tasks. Threads: one thread's scratch.
+// receivers.h: the points x of a task that gather irradiance. Planar, one array a component, so
+// that sixteen go to one VPL at once. Capacity is kept between tasks.
+// Threads: one thread's scratch.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +51,7 @@ class Receivers {
       for (auto* plane : planes()) (*plane)[i] = (*plane)[i - 1];
   }
 
-  // Longer than size(): room for what is added, and a multiple of sixteen.
+  // Longer than size(): there is room for more, and the length is a multiple of sixteen.
   std::vector<float> px, py, pz;  // position [m]
   std::vector<float> gx, gy, gz;  // geometric normal
   std::vector<float> sx, sy, sz;  // shading normal

@@ -3,7 +3,7 @@
 namespace ninefold {
 namespace {
 
-// Solids around the eye: those whose back face a ray to the outside meets first.
+// Solids around the eye: those of which a ray from the eye meets the back face first.
 MediumStack mediaAround(const Transport& t, Vec3 eye) {
   MediumStack media, entered;
   Vec3 origin = eye;

@@ -19,15 +19,15 @@ struct Task {
   std::optional<TaskRect> rect = {};  // other pixels of the phase than the tile's own
 };
 
-// Whose pixels they are. The settings of the Transport may be those of another view.
+// Whose pixels they are: the settings of the Transport may be those of another view.
 struct View {
   Camera camera;
   int width, height;
   MediumStack eyeMedia;  // the solids that the eye is inside of
 };
 
-// The view of these settings. An eye exactly on a surface would see nothing but it, at no
-// distance: it is moved off.
+// The view of these settings. An eye exactly on a surface is moved off: at no distance it would see
+// nothing else.
 View viewOf(const Transport& transport, const Settings& settings);
 
 }  // namespace ninefold

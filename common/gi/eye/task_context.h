@@ -1,6 +1,6 @@
 // task_context.h: what every step of one task needs, gathered once, so that the steps stay short.
 //
-// Threads: one thread's value. Refers to its arguments.
+// Owner: refers to its arguments.   Threads: one thread's value.
 #pragma once
 
 #include "common/gi/eye/task.h"
@@ -38,7 +38,7 @@ struct TaskContext {
   PixelSampler sampler(int x, int y, uint32_t path) const {
     return PixelSampler(eyePaths, static_cast<uint32_t>(x), static_cast<uint32_t>(y), path);
   }
-  // In the image, of a pixel of the task's rectangle.
+  // Place in the image of pixel (i, j) of the task's rectangle.
   int pixelX(int i) const { return grid.pixelX(task.phase, rect.i0 + i); }
   int pixelY(int j) const { return grid.pixelY(task.phase, rect.j0 + j); }
 };

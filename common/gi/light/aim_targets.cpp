@@ -36,8 +36,8 @@ Group joined(Group a, const Group& b) {
   return a;
 }
 
-// Joins the two boxes whose union grows least, until few enough are left. Candidates are thinned
-// first by joining neighbours in file order, so that thousands of objects cost no cubic time.
+// Joins the two boxes whose union grows least, until few enough are left. Neighbours in file order
+// are joined first, so that thousands of objects cost no cubic time.
 void mergeTo(std::vector<Group>& groups, size_t limit) {
   while (groups.size() > 8 * limit) {
     std::vector<Group> halved;

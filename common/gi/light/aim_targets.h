@@ -1,9 +1,8 @@
 // aim_targets.h: what caustic photons aim at: spheres around the objects that focus light.
 //
-// In a gesture each target goes with its objects, and the photons' directions with it; but the share
-// of photons that each gets is the one it would have where the gesture found it (emission.h), so that
-// those of the others stay as they are. When another set of objects focuses light than then,
-// targets are made anew.
+// In a gesture each target moves with its objects, and the photons' directions with it. Its share
+// of the photons stays as the gesture found it (emission.h), so that photons of the others stay as
+// they are. When another set of objects focuses light than then, targets are made anew.
 //
 // Threads: pure function.   Errors: none.   Proved: tests/gi/gesture_test.cpp.
 #pragma once

@@ -1,9 +1,14 @@
-// direct_light.h: lights sampled from one surface point, for the S vertices of eye paths (and D
-// vertices of the reference path tracer). Emitter as light_streams.h says, then a place on it.
+// direct_light.h: lights sampled from one surface point x, for the S vertices of eye paths and the
+// D vertices of the reference path tracer. First an emitter (light_streams.h), then a place on it.
 //
-//   area          density per solid angle = P / A * d^2 / cos_y      (P = probability of the
-//   emitter) environment   P / (4 pi) punctual      delta: no other technique finds it, radiance
-//   stands for I/d^2 or E0, pdf = 0
+//   area          pdf = (P/A) d^2 / cos_y     weight = L / pdf
+//   environment   pdf = P / (4 pi)            weight = L / pdf
+//   point, spot   pdf = 0                     weight = I(w) / (d^2 P)
+//   directional   pdf = 0                     weight = E0 / P
+//
+//   P, A   probability of the emitter, area of its triangle [m^2]
+//   cos_y  cosine at the emitter
+//   pdf    per solid angle [1/sr]; 0 stands for delta: no other technique finds such a light
 //
 // Multiple importance sampling with the balance heuristic, see balance().
 // Source:  Veach and Guibas 1995.   Threads: pure functions.   Errors: none.
@@ -25,13 +30,13 @@ struct LightSample {
   float tFar = 1;
 };
 
-// A light sample of a stream on p's viewed side or behind it (`through`: lobes that transmit); nullopt
-// if dark or behind. All streams together are the light.
+// A light sample of a stream, on p's viewed side or behind it (for lobes that transmit). nullopt if
+// it is dark, or the emitter looks away. All streams together are the light.
 std::optional<LightSample> sampleLight(const Transport& transport, size_t stream,
                                        const ShadingPoint& p, Vec2 u);
 
-// Share of the sample's light that the medium on its way leaves: the one on wo's side of p or,
-// `through`, the one behind it.
+// Share of the sample's light that the medium on its way leaves. The medium is the one on wo's side
+// of p or, with `through`, the one behind p.
 Vec3 lightTransmittance(const Transport& transport, const ShadingPoint& p, const MediumStack& media,
                         bool through, const LightSample& light);
 

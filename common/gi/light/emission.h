@@ -1,25 +1,22 @@
 // emission.h: particles leave the lights, in the ordinary way or aimed at specular objects.
 //
-// Ordinary: emitter by power (probability P), then position and direction in proportion to what it
-// emits:
+// Ordinary: an emitter by power, then position and direction in proportion to what it emits.
 //   triangle     A uniform, cos/pi         flux = sides pi A L / P
 //   point        uniform directions        flux = 4 pi I / P
 //   spot         uniform in the cone       flux = 2 pi (1-cos outer) I(omega) / P
 //   directional  disk of the scene's R     flux = pi R^2 E0 / P
 //   environment  directions, then disk     flux = 4 pi pi R^2 L / P
+// P: probability of the emitter in its stream (light_streams.h). A sample of an emitter that is off
+// now carries nothing.
 //
-// The emitter is one of a stream's (light_streams.h); a sample of one that is off now carries nothing.
-//
-// Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q of the
-// ordinary density, with share kOrdinaryShare, and of the cones (disks) that the targets' bounds
-// subtend:
-//   flux = J(omega) / q(omega),  J = emitted W/sr (parallel light: W/m^2) divided by P.
-// In a gesture a target's share of the mixture is what it was from here when the gesture began, its
-// cone is that of now; where one of the two is not there the target gets nothing.
+// Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q.
+//   flux = J(omega) / q(omega),  J = emitted W/sr (parallel light: W/m^2) divided by P
+//   q    = kOrdinaryShare of the ordinary density, the rest in cones (disks) around the targets
 // So every direction that emits has density > 0, and no flux exceeds 1/kOrdinaryShare of the
-// ordinary one.
+// ordinary one. In a gesture a target's share of q is that of its beginning, its cone that of now.
+// A target without one of the two gets nothing.
 //
-// Units: flux [W], not yet divided by the number of particles.
+// Units:   flux [W], not yet divided by the number of particles.
 // Source:  Jensen 1996 (projection maps, here as cones with a mixture density).
 // Proved:  tests/gi (mean flux into a closed box equals the emitters' power, ordinary and aimed).
 // Threads: pure functions.   Errors: none; a black flux means nothing was emitted there.

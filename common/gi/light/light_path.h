@@ -1,17 +1,18 @@
 // light_path.h: the random walk of particles from the lights, written once. Visitors say what
 // becomes of it.
 //
-// At each hit the visitor is told; then one lobe is chosen, D or S, with probability in proportion
-// to its albedo, and the walk survives with the albedos' sum (largest channel, at most
-// kMaxSurvival):
+// Each hit is told to the visitor. Then one lobe, D or S, is chosen in proportion to its albedo.
+// The walk survives with a probability of the albedos' sum (largest channel, at most kMaxSurvival):
 //   flux *= lobe weight / probability
-// so flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's
-// factor (see shading.h); for S lobes see particle_scatter.h.
+// So flux stays of one order along the walk. Arrival on an interpolated normal carries Veach's
+// factor (shading.h); for S lobes see particle_scatter.h. Walks end after kMaxVertices at the
+// latest (survival 0.99^k is nil).
 //
-// Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival; 4j+3
-// inside the lobe. Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
-// Threads: reentrant.   Errors: none. Walks end after kMaxVertices at the latest (survival 0.99^k
-// is nil).
+// Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival;
+// 4j+3 inside the lobe.
+//
+// Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
+// Threads: reentrant.   Errors: none.
 #pragma once
 
 #include "common/base/counters.h"
@@ -25,8 +26,8 @@ namespace ninefold {
 inline constexpr float kMaxSurvival = 0.99f;
 inline constexpr int kMaxVertices = 4096;
 
-// Where a particle arrives. flux is that of the arriving particle [W], attenuated by the medium; what
-// it adds to the (basic) irradiance there is flux / n^2.
+// Where a particle arrives. flux: of the arriving particle [W], attenuated by the medium. It adds
+// flux / n^2 to the (basic) irradiance there.
 struct Arrival {
   const ShadingPoint* point;
   Flux flux;
@@ -51,8 +52,9 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
   return c;
 }
 
-// visit(const Arrival&) returns whether the walk goes on after a D scattering here; it always goes
-// on after S.
+// Follows a particle that starts in `media` after `diffuseBefore` D vertices. Its numbers are those
+// of sample `index`, from `firstDimension` on. visit(const Arrival&) returns whether the walk goes
+// on after a D scattering here; after S it always does.
 template <typename Visit>
 void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
                    const LightSampler& sampler, uint32_t index, uint32_t firstDimension,

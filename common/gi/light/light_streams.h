@@ -1,13 +1,14 @@
-// light_streams.h: which lamp each sample of a light set starts from. Pure.
+// light_streams.h: which lamp each sample of a light set starts from.
 //
-//   at rest        one stream of n samples; lamps are chosen in proportion to power (emitters.h)
-//   in a gesture   the same choice with the probabilities that the gesture began with: a sample stays
-//                  with its lamp, whatever is done to the others, and finds no light if that is off now.
-//                  Lamps that were off then have a second stream of their own, beside the first:
-//                  n' = n Phi'/Phi samples, 1 to n;   Phi', Phi: power of the second's, the first's lamps
+//   at rest        One stream of n samples. Lamps are chosen in proportion to power (emitters.h).
+//   in a gesture   The first stream chooses with the probabilities that the gesture began with. So
+//                  a sample stays with its lamp, whatever is done to the others; it finds no light
+//                  if that lamp is off now. Lamps that were off then have a second stream:
+//                  n' = n Phi'/Phi samples, 1 to n
+//                  Phi, Phi': power of the first and of the second stream's lamps [W]
 //
-// Each emitter is in one stream, and is divided by the probability with which it is chosen there: what
-// was frozen costs noise, never energy.
+// Each emitter is in one stream, and is divided by its probability there. So frozen probabilities
+// cost noise, never energy.
 //
 // Threads: const after construction.   Errors: none.   Proved: tests/gi/gesture_test.cpp.
 #pragma once
@@ -27,9 +28,9 @@ class LightStreams {
   size_t count() const { return streams_.size(); }
   // The emitter that sample u of a stream takes; nothing if it is off now.
   std::optional<Distribution::Choice> choose(size_t stream, float u) const;
-  // With which an emitter is chosen in its stream.
+  // Probability of an emitter in its stream.
   float probability(uint32_t emitter) const;
-  // Of a stream, where the first has n.
+  // Number of samples of a stream; n: of the first.
   int samples(size_t stream, int n) const;
   // Streams share no random numbers.
   static uint64_t seedOf(size_t stream, uint64_t seed);

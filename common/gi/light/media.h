@@ -1,12 +1,13 @@
-// media.h: which solid transmitting materials a path is inside of, so that nested dielectrics (a glass
-// ball in water) meet with the right relative index of refraction. Where two overlap, the one of the
-// higher rank counts (solid_ranks.h), whatever came first on the path, and the surface of the other one
-// is passed straight on, as one more step of a specular chain; where two touch, both are crossed at once
-// (tracing/contacts.h).
+// media.h: the solid transmitting materials that a path is inside of, so that nested dielectrics (a
+// glass ball in water) meet with the right relative index of refraction. Around all is air (1).
 //
-// Air (index 1) is around everything. Leaving what was never entered (a light inside glass) changes
-// nothing, so a light inside two nested solids is taken for one in the inner solid alone. Of more than
-// kMaxNested solids those of the lowest ranks are forgotten. Threads: plain value.
+// Where two solids overlap, the higher rank counts (solid_ranks.h), whatever came first on the
+// path. The surface of the other is passed straight on, as one more step of a specular chain. Where
+// two touch, both are crossed at once (tracing/contacts.h).
+//
+// Fails:   leaving what was never entered changes nothing: a light inside two nested solids is taken
+//          for one in the inner alone. Beyond kMaxNested solids the lowest ranks are forgotten.
+// Threads: plain value.
 #pragma once
 
 namespace ninefold {

@@ -1,19 +1,19 @@
 // particle_scatter.h: how particles from the lights scatter at an S lobe: the exact adjoint of what
-// eye paths do there, where normals are interpolated, too.
+// eye paths do there, also where normals are interpolated.
 //
-// An eye path that comes from v has its lobe about ns if v is in front of ns, else about the true
-// normal ng, so that no silhouette is black (ShadingPoint::frame). A particle from l must scatter
-// with that very f, which depends on where it will go:
+// An eye path from direction v has its lobe about ns if v is in front of ns, else about the true
+// normal ng, so that no silhouette is black (ShadingPoint::frame). A particle from direction l must
+// scatter with the same f, which depends on its outgoing direction v:
 //
 //   v in front of ns   f about ns (none if l is behind ns),  factor |l.ns v.ng| / (|l.ng v.ns|)
 //   v behind ns        f about ng,                           factor 1
 //
-// The two sets of v are sampled apart, each by its own lobe; a direction that falls into the other
-// set ends the particle. The second set is small, as the angle between ns and ng is, and so is its
-// probability, |ns - ng|/2.
+// Each of the two sets of v is sampled by its own lobe; a direction that falls into the other set
+// ends the particle. The second set is as small as the angle between ns and ng. It is chosen with
+// probability |ns - ng|/2.
 //
 // Source:  Veach 1997, 5.3 (shading normals); the split was written for this project.
-// Proved:  tests/gi (flux there and back between all pairs of directions; agreement of the methods).
+// Proved:  tests/gi (flux there and back between all pairs of directions; methods agree).
 // Threads: pure functions.   Errors: none; nullopt means "no light goes there".
 #pragma once
 
@@ -29,7 +29,8 @@ struct ScatteredParticle {
   bool smooth;  // no other direction was possible
 };
 
-// At `p`, met from p.wo. uLobe as for sampleLobe; uNormal chooses between the two sets of directions.
+// At `p`, met from p.wo. uLobe as for sampleLobe; uNormal chooses between the two sets of
+// directions.
 std::optional<ScatteredParticle> scatterParticle(const ShadingPoint& p, Lobe lobe, Vec2 u,
                                                  float uLobe, float uNormal);
 

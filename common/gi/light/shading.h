@@ -1,18 +1,19 @@
 // shading.h: what light meets at a surface point: materials and textures turned into a Bsdf.
 //
-// Opaque      f0 = mix(((n-1)/(n+1))^2 specular, baseColor, metallic)
-//             f90 = mix(specular factor, 1, metallic)
-//             D  = baseColor (1-metallic) (1 - mean reflection of the dielectric part)
-//             The mean, not the directional, albedo couples D to the lobe: D's weight stays free of
-//             directions.
-// Transmitting (KHR_materials_transmission): exact Fresnel; (1-F) T baseColor goes through, D keeps
-// (1-T). Folded      a lobe for which foldsIntoDiffuse holds adds its mean reflection to D and is
-// gone. Colours of vertices multiply baseColor and the opacity.
-// Blended     every part times the opacity; the rest passes straight on. Attenuation
-// exp(-sigma t), sigma = -ln(attenuationColor)/attenuationDistance [1/m], inside solids.
+// Opaque        f0  = mix(((n-1)/(n+1))^2 specular, baseColor, metallic)
+//               f90 = mix(specular factor, 1, metallic)
+//               D   = baseColor (1-metallic) (1 - mean reflection of the dielectric part)
+//               The mean albedo, not the directional one, couples D to the lobe: D's weight stays
+//               free of directions.
+// Transmitting  KHR_materials_transmission T: exact Fresnel; (1-F) T baseColor goes through, D
+//               keeps the share 1-T.
+// Folded        A lobe for which foldsIntoDiffuse holds adds its mean reflection to D and is gone.
+// Blended       Every part times the opacity; the rest passes straight on.
+// Attenuation   exp(-sigma t) inside solids, sigma = -ln(colour)/attenuationDistance [1/m]
+// Vertices      Their colours multiply baseColor and the opacity.
 //
-// Source:  glTF 2.0, appendix B, and the KHR_materials extensions.
-// Threads: const, reentrant. Refers to the Scene.   Errors: none for valid scenes.
+// Source:  glTF 2.0, appendix B, and the KHR_materials extensions.   Owner: refers to the Scene.
+// Threads: const, reentrant.   Errors: none for valid scenes.
 #pragma once
 
 #include <array>
@@ -27,7 +28,7 @@
 
 namespace ninefold {
 
-// Whether w is in front of n: not so far at its horizon that a lobe about n could not be told from none.
+// Whether w is in front of n. At n's horizon it is not: a lobe about n would be as good as none.
 inline bool facesNormal(Vec3 n, Vec3 w) { return glm::dot(n, w) > 1e-4f; }
 
 // Whether VPLs stand on the surface's reflection lobe.
@@ -48,8 +49,7 @@ struct ShadingPoint {
   Vec3 localWo() const { return frame.toLocal(wo); }
 };
 
-// Mean reflection of the opaque lobe, linear in f0 for each roughness: a table, because every hit
-// asks.
+// Mean reflection of the opaque lobe, linear in f0 for each roughness. A table: every hit asks.
 class MeanReflection {
  public:
   MeanReflection();
@@ -67,11 +67,10 @@ class Shader {
  public:
   explicit Shader(const Scene& scene);
 
-  // wo: unit, not in the surface's plane (dot(wo, geometricNormal) != 0). media: where wo's side
-  // is.
+  // wo: unit, not in the surface's plane (dot(wo, geometricNormal) != 0). media: on wo's side.
   ShadingPoint shade(const SurfacePoint& surface, Vec3 wo, const MediumStack& media) const;
 
-  // Share of radiance left after `distance` metres (infinite ones too) in a solid; all of it in air.
+  // Share of radiance left after `distance` [m] (may be infinite) in a solid; 1 in air.
   Vec3 transmittance(int material, float distance) const;
   // ... inside the medium of a ray that ended on this point.
   Vec3 attenuation(const ShadingPoint& end, const MediumStack& media, float distance) const {
@@ -82,15 +81,15 @@ class Shader {
   // The medium on wo's side.
   int before(const ShadingPoint& point, const MediumStack& media) const;
 
-  // Adds a solid to what a path is inside of.
+  // The path enters a solid of this material.
   void enter(MediumStack& media, int material) const;
 
   // The media after passing through the surface away from wo, and through all in contact with it.
   MediumStack pass(const ShadingPoint& point, MediumStack media) const;
 
-  // Calls visit(material, enters) for each solid that a path through `surface` crosses, what it
-  // leaves before what it enters: between solids in contact there is no air. fromFront: the path
-  // comes from the front of the surface.
+  // Calls visit(material, enters) for each solid that a path through `surface` crosses: first those
+  // that it leaves, then those that it enters, as between solids in contact there is no air.
+  // fromFront: the path comes from the front of the surface.
   template <typename Visit>
   void forEachCrossed(const SurfacePoint& surface, bool fromFront, Visit&& visit) const {
     for (const bool enters : {false, true}) {
@@ -102,11 +101,11 @@ class Shader {
     }
   }
 
-  // True if `point` leaves a solid that the path is not known to be in: it started there.
+  // True if `point` leaves a solid that the path never entered: it started inside.
   bool neverEntered(const ShadingPoint& point, const MediumStack& media) const;
 
-  // n^2 of the innermost medium. Radiance is basic radiance L/n^2, but particles carry flux [W]: what
-  // they bring to a D vertex, or an emitter gives them, is n^2 times what basic radiance says.
+  // n^2 of the innermost medium. Radiance is basic radiance L/n^2; particles carry flux [W], n^2
+  // times what basic radiance says at a D vertex or an emitter.
   float squaredIndex(const MediumStack& media) const;
 
   // True if the material has an S lobe that is not glossy: photons aim at it.
@@ -165,9 +164,9 @@ inline Reflectance straightPass(const ShadingPoint& p) {
   return straightPass(p.bsdf, p.localWo().z);
 }
 
-// The factor that a particle's flux takes for interpolated normals on arrival from unit direction w
-// (away from the surface): |w.n| / |w.ng|, 0 where the two normals see w on different sides. n is
-// ns for D, the frame's normal for S. Veach 1997, 5.3.
+// The factor |w.n| / |w.ng| on a particle's flux, for interpolated normals, on arrival from unit
+// direction w (away from the surface); 0 where n and ng see w on different sides. n is ns for D,
+// the frame's normal for S. Veach 1997, 5.3.
 inline float shadingFactor(const ShadingPoint& p, Vec3 n, Vec3 w) {
   const float g = glm::dot(w, p.ng), s = glm::dot(w, n);
   return g * s <= 0 ? 0.0f : s / g;

@@ -3,9 +3,9 @@
 //
 //   V(x, y) = product of straightPass over what the segment meets      0 if anything else blocks it
 //
-// Light that is not bent is no caustic: what lights a point through a pane is found like what
-// lights it without one, by shadow rays, and photons that have only passed straight on are not
-// stored (light_path.h). Media on both sides are the same: solids bend, and are not passed.
+// Light that is not bent is no caustic. Shadow rays find what lights a point through a pane as they
+// find what lights it without one. Photons that have only passed straight on are not stored
+// (light_path.h). The media on both sides are the same: solids bend, so they block here.
 //
 // Only blocked segments are walked, surface by surface, and only those that meet the bounds of
 // something that lets light pass.
@@ -17,8 +17,8 @@
 
 namespace ninefold {
 
-// V of the segment origin + t * segment, t in [0, tFar], which something blocks; black too if it
-// meets more surfaces than specular-depth. Adds its rays to `rays`.
+// V of the segment origin + t * segment, t in [0, tFar], which something blocks. Black if it meets
+// more surfaces than specular-depth. Adds its rays to `rays`.
 Vec3 straightVisibility(const Transport& transport, Vec3 origin, Vec3 segment, float tFar,
                         uint64_t& rays);
 

@@ -12,7 +12,8 @@ float fluxOf(const Emitters& emitters) {
   return flux;
 }
 
-// A light exactly in a ceiling would be hidden by it: spots go where they shine, points to the front.
+// A light exactly in a ceiling would be hidden by it. Spots move to where they shine, points to the
+// front of the surface.
 std::vector<PunctualLight> offSurfaces(const Tracer& tracer) {
   std::vector<PunctualLight> lights = tracer.scene().lights;
   for (PunctualLight& light : lights)
@@ -25,7 +26,7 @@ Bounds boundsOf(const Scene& scene, const Instance& instance) {
   Bounds bounds;
   for (const Vec3& p : scene.meshes[static_cast<size_t>(instance.mesh)].positions)
     bounds.add(worldPoint(instance.toWorld, p));
-  // A flat box is thick enough for rays in its plane.
+  // A flat box needs some thickness, for rays in its plane.
   const float margin = 1e-4f * bounds.radius();
   bounds.low -= margin, bounds.high += margin;
   return bounds;
@@ -64,7 +65,7 @@ Transport::Transport(const Tracer& t, const Settings& s, const Transport* begun)
       straightBounds(boundsOfPassing(t.scene(), shader)) {}
 
 float Transport::lightBound(uint32_t emitter) const {
-  if (!settings.compensate) return bound;  // the paper's: what is cut off stays away
+  if (!settings.compensate) return bound;  // as in the paper: nothing gives back what is cut off
   const Emitter& e = emitters[emitter];
   const float sides = e.doubleSided ? 2 : 1;
   return std::max(bound, streams.probability(emitter) / (sides * e.area));

@@ -1,11 +1,11 @@
-// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters and the
-// streams that sample them, the bound of the geometry term, and the targets that caustic photons aim at.
+// transport.h: what every estimator needs of a scene, gathered once: tracer, shader, emitters and
+// the streams that sample them, the bound of the geometry term, and the targets of caustic photons.
 //
-// In a gesture, the state that it began with decides what would otherwise change for all when one
-// thing is touched: which share of the samples a lamp and a target get, b, and how far photons are
-// spread (photon_radii.h). A gesture that began in the dark has nothing to go by: all is as at rest.
+// In a gesture one thing is touched, and the samples of all others shall stay. So the state that it
+// began with decides the share of the samples that a lamp and a target get, b, and how far photons
+// are spread (photon_radii.h). A gesture that began in the dark decides nothing.
 //
-// Threads: const after construction. Refers to the Tracer and its Scene.
+// Owner:   refers to the Tracer and its Scene.   Threads: const after construction.
 #pragma once
 
 #include <vector>
@@ -39,9 +39,14 @@ struct Transport {
   std::vector<AimTarget> targets;
   std::vector<Bounds> straightBounds;  // of what lets light pass straight on; few
 
-  // Bound of the geometry term at an area emitter, from all of which one point was taken with probability P:
-  // where G < P/A, such a point adds at most L to E, less than the emitter seen near by does; and a
-  // small lamp's light comes back by no ray that meets it by chance.
+  // Bound of the geometry term G at an area emitter [1/m^2]; b without compensation.
+  //
+  //   max(b, P/A)   P: probability of the emitter in its stream, A: its area, of both sides if both
+  //                 emit [m^2]
+  //
+  // One VPL stands for the whole emitter, so it carries the intensity A L/P, L: the emitter's
+  // radiance. Where G <= P/A it adds at most L to E, less than the emitter itself does near by: no
+  // need to cut. And the light of a small lamp, once cut, is hardly ever met again by a short ray.
   float lightBound(uint32_t emitter) const;
 
   // Whether a path whose D vertices number `count` (x included) is within the length limit.

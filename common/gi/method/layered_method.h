@@ -1,5 +1,5 @@
-// layered_method.h: a method that answers a query: what is E at these points? Eye paths and their
-// layers are common (layer_receivers.h); this joins the two.
+// layered_method.h: a method that answers one query: what is E at these points? Eye paths and their
+// layers are the same for all such methods (layer_receivers.h); this joins the two.
 //
 // Threads, owner, errors: as method.h says.
 #pragma once
@@ -24,9 +24,9 @@ class LayeredMethod : public GiMethod {
               TileResult& out) const final;
 
  protected:
-  // Adds E [W/m^2] to the receivers. pathVertices: D vertices from the eye up to these receivers,
-  // they included. caustic: if not null, the part that came by way of S is added there, one a
-  // receiver. `scratch`: one that makeScratch made.
+  // Adds E [W/m^2] to the receivers. pathVertices: number of D vertices from the eye to these
+  // receivers, which are counted. caustic: if not null, one value a receiver, to which the part of
+  // E that came by way of S is added. `scratch`: one that makeScratch made.
   virtual void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
                      LayeredScratch& scratch, Receivers& receivers,
                      std::vector<Irradiance>* caustic, RayCounts& rays) const = 0;

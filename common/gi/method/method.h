@@ -1,6 +1,6 @@
 // method.h: the computing half of a method: where its light comes from. What all methods share (eye
-// paths, layers, filter, film, wire) lies outside. The other half, its facts, is plain data that the
-// master reads, too (scene/methods.h).
+// paths, layers, filter, film, wire) lies outside. The other half, its facts, is plain data, which
+// the master reads, too (scene/methods.h).
 //
 //   light      of one interleaved set: a pure function of (scene, settings, key, set, view)
 //   render     one task, lit by it
@@ -25,7 +25,7 @@ struct FrameLight {
   FrameLight() = default;
   FrameLight(FrameLight&&) = default;
   virtual ~FrameLight() = default;
-  // The first value that is no number, for people: "VPL 3 has a power of (nan, 0, 0)". Empty: none.
+  // The first value that is no number, as text: "VPL 3 has a power of (nan, 0, 0)". Empty: none.
   virtual std::string oddValue() const { return {}; }
 
   RayCounts rays;  // what making it cost
@@ -43,6 +43,8 @@ class GiMethod {
   GiMethod(const GiMethod&) = delete;
   GiMethod& operator=(const GiMethod&) = delete;
 
+  // Light of set `set` of a frame. `view` counts only for methods whose light needs it
+  // (scene/methods.h).
   virtual std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
                                                   const View& view) const = 0;
   // `light`: of the task's frame and set. `scratch`: one that makeScratch made.

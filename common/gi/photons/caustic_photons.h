@@ -3,14 +3,17 @@
 //   E(x) = 1/(pi r^2) sum Phi_i/f_i   over photons within r that landed on x's side, normals within
 //                                     60 degrees   [W/m^2]
 //
-// Phi = flux / n^2 in a medium of index n; f: what the photon's disk covers (photon_footprint.h).
+//   r   radius of the photons (photon_radii.h): wider for photons that would be bright alone,
+//       narrower where they do not lie evenly, as the first thousand of a set tell
+//       (photon_spread.h)                                                                    [m]
+//   Phi flux / n^2 in a medium of index n                                                    [W]
+//   f   area of surface that the photon's disk covers, over pi r^2 (photon_footprint.h)
+//
 // Photons leave the emitters aimed at the S objects (emission.h), pass through S vertices and are
-// stored at the first D vertex if there was an S before it. With `all`, half of them leave the
-// set's indirect VPLs instead (chosen by flux, a tenth alike), aimed in the same way: those are D
-// vertices with every prefix, so ...D S+ D is whole. Each half of n photons is divided by n:
-// emission counts, not landings. r is wider for photons that would be bright alone, and narrower
-// where they do not lie evenly (photon_radii.h, photon_spread.h), told by the first thousand of a
-// set.
+// stored at the first D vertex if an S came before it. With `all`, half of them leave the set's
+// indirect VPLs instead (chosen by flux, a tenth alike), aimed in the same way: VPLs are D vertices
+// with every prefix, so ...D S+ D is whole. Each half of n photons is divided by n: emissions
+// count, not landings.
 //
 // Source:  Jensen 1996.   Proved: tests/gi (caustic energy balance; no photon in a diffuse scene).
 // Fails:   flux is blurred over r, which goes with r.   Threads: pure functions.

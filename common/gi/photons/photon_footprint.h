@@ -1,13 +1,13 @@
 // photon_footprint.h: how much surface a photon's disk covers. At the edge of a wall or on a narrow
-// board part of the disk is empty, and flux over pi r^2 would lose energy there: to first order in
-// r, everywhere where walls meet. So flux is divided by
+// board part of the disk is empty. Flux over pi r^2 would lose energy there, to first order in r
+// wherever walls meet. So flux is divided by
 //
 //   f = A/(pi r^2),   A = area of the surface that accepts the photon
 //
-// estimated with a packet of rays along -n through a fixed pattern on the disk, each counting 1/cos
-// of the normal to n at all layers that it meets: what is under a table accepts light as well as the
-// table does. Receivers that accept the photon are those of caustic_photons.h: within r, normals
-// within 60 degrees, and not of clear glass or bare metal, which have no D lobe.
+// A packet of rays along -n through a fixed pattern on the disk estimates f. Each ray counts 1/cos
+// of the normal to n at every layer that it meets: what is under a table accepts light as the table
+// does. Receivers accept a photon within r, with normals within 60 degrees, and only with a D lobe:
+// not clear glass or bare metal.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; the division conserves energy for
 //          each photon alone.
@@ -24,8 +24,8 @@ namespace ninefold {
 
 inline constexpr float kPhotonNormalCosine = 0.5f;
 
-// f >= 1/16, for a photon that landed at `at`. `turn` in [0, 1) turns the pattern. Its rays count as
-// photon rays.
+// f >= 1/16 for a photon that landed at `at`. `turn` in [0, 1) turns the pattern. Adds its
+// rays to the photon rays.
 float photonFootprint(const Transport& transport, const ShadingPoint& at, Metres r, float turn,
                       RayCounts& counts);
 

@@ -1,13 +1,13 @@
-// photon_grid.h: photons in a hashed grid of cells a hair wider than 2r: a sphere of radius r meets at
-// most eight cells (27 where rounding is as large as r), and a cell's photons lie side by side.
-// Queries are for boxes of points that lie together, so that the cells are looked up once for all.
-// Knows nothing of light: items are (position, index).
+// photon_grid.h: photons in a hashed grid of cells a hair wider than 2r. A sphere of radius r meets
+// at most eight cells (27 where rounding is as large as r), and a cell's photons lie side by side.
+// Queries are for boxes of points that lie together: cells are looked up once for all. The grid
+// knows nothing of light: items are (position, index).
 //
 // Cells are hashed into a table of twice the photon count (a power of two). Two cells that collide
-// share a slot; a query visits each slot once, so nothing is met twice, and the distance test
-// rejects strangers. Coordinates: cells are numbered by 64-bit integers from floor(position / 2r),
-// so negative and huge coordinates are safe as long as |position| / 2r < 2^62. A radius below
-// kMinRadius counts as that: r^2, by which flux is divided, stays a normal float.
+// share a slot. A query visits each slot once, so nothing is met twice, and the distance test
+// rejects strangers. Cells are numbered by 64-bit integers, floor(position / 2r): any coordinates
+// are safe while |position| / 2r < 2^62. A radius below kMinRadius counts as kMinRadius: r^2, by
+// which flux is divided, stays a normal float.
 //
 // Source:  Teschner et al. 2003 (spatial hashing).   Proved: tests/gi (against brute force).
 // Threads: const after build.   Errors: none; an empty grid finds nothing.
@@ -42,8 +42,8 @@ class PhotonGrid {
   Metres radius() const { return radius_; }
   std::span<const Photon> photons() const { return photons_; }
 
-  // Calls visit(const Photon&) for each photon within the radius of the box [low, high], in a fixed
-  // order, and perhaps for some that are a little further. False, and nothing visited, if the box
+  // Calls visit(const Photon&) in a fixed order for each photon within the radius of the box
+  // [low, high], and perhaps for some a little further. False, and nothing visited, if the box
   // covers too many cells: halve it. A point is never too large.
   template <typename Visit>
   bool near(Vec3 low, Vec3 high, Visit&& visit) const {

@@ -11,9 +11,11 @@
 //
 // Then j falls by up to 2 where the lamp's photons do not lie evenly within r_j (photon_spread.h).
 //
-// R: radius of the scene's bounds, E_0 and it as a gesture found them (transport.h); r: the
-// frame's radius, r_first: the first frame's. j depends on the first radii alone, so that all r_j
-// shrink with r: the estimate stays consistent, and blur goes with r^2 (image/radius_bias.h).
+//   r, r_first   radius of this frame and of the first frame                                   [m]
+//   R            radius of the scene's bounds; R and E_0 as a gesture found them (transport.h)  [m]
+//
+// j depends on the first radii alone, so all r_j shrink with r: the estimate stays consistent, and
+// blur goes with r^2 (image/radius_bias.h).
 //
 // Source:  written for this project; the same end as photon differentials (Schjoth et al. 2007).
 // Fails:   light that is spread wide leaks to neighbours on the same side, which goes with r.

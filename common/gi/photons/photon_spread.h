@@ -37,6 +37,7 @@ class PhotonSpread {
     uint32_t lamp = 0;
   };
   void add(const Landing& landing);
+  // Whether the photons of at.lamp within r of `at` lie unevenly, as above.
   bool isUneven(const Landing& at, Metres r) const;
 
  private:

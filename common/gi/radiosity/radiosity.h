@@ -19,7 +19,7 @@ struct RadiosityScratch final : LayeredScratch {
 
 class Radiosity final : public LayeredMethod {
  public:
-  // `begun`: of the scene that a gesture began with, null at rest: m stays what it is there.
+  // `begun`: of the scene that a gesture began with, null at rest; m stays as it is there.
   Radiosity(const Transport& transport, const Radiosity* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,

@@ -5,16 +5,20 @@
 //   L = sum over vertices of  T (L_e weighted + lights sampled directly weighted)
 //   T *= lobe weight / probability
 //
-// At each vertex one lobe, D or S, is chosen first, and both techniques work for that lobe alone:
-// so D vertices are counted exactly as by the virtual point lights, and path-length cuts both
-// methods alike. So do --caustics (no lobe that focuses after D; no D after that) and --direct-vpls
-// 0 (no light straight to the first D). The first kSureVertices vertices survive for sure; later
-// ones with the probability of the lobes' albedo. It cannot find a caustic of a punctual light (L
-// is a point, S is smooth): those paths are missing, and the log says so (leftOut in
-// scene/methods.h).
+//   T     throughput, the product of lobe weights over probabilities
+//   L_e   emission that the path meets; like the lights weighted by the balance heuristic
 //
-// Dimensions of vertex j, from 1 on: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4, 5 light.
+// At each vertex one lobe, D or S, is chosen first, and both techniques work for that lobe alone.
+// So D vertices are counted exactly as by the virtual point lights, and limits cut both methods
+// alike: path-length, --caustics (no lobe that focuses after D; no D after that) and --direct-vpls
+// 0 (no light straight to the first D). The first kSureVertices vertices survive for sure, later
+// ones with the probability of the lobes' albedo.
 //
+// Dimensions of vertex j = 1, 2, ...: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4,
+// 8j+5 light.
+//
+// Fails:   caustics of punctual lights (L is a point, S is smooth): no path finds them, and the log
+//          says so (leftOut in scene/methods.h).
 // Source:  Kajiya 1986; Veach 1997.
 // Proved:  tests/gi (furnace, polygon light, agreement with photons and VPLs).
 // Threads: pure functions.   Errors: none.
@@ -26,15 +30,15 @@
 
 namespace ninefold {
 
-inline constexpr uint32_t kPathsPerPixel =
-    4;  // paths a pixel and frame, so that a task is worth its message
+// Paths a pixel and frame, so that a task is worth its message.
+inline constexpr uint32_t kPathsPerPixel = 4;
 
 struct PathLight {
   Radiance all{0};
-  Radiance caustic{0};  // of `all`, what the point scattered diffusely after it came by way of S
+  Radiance caustic{0};  // part of `all`: what came by way of S and the point scattered diffusely
 };
 
-// Light that `first`, seen in `media`, scatters towards the eye; what it emits is not in it.
+// Light that `first`, seen in `media`, scatters towards the eye; without its own emission.
 PathLight scatteredLight(const Transport& transport, const ShadingPoint& first,
                          const MediumStack& media, const PixelSampler& sampler, RayCounts& rays);
 

@@ -1,10 +1,10 @@
-// reference.h: the path tracer as a method: whole radiance as U of the diffuse layer, which no filter
-// touches. It has a pixel loop of its own and no light sets: its independence makes it a reference.
+// reference.h: the path tracer as a method: whole radiance as U of the diffuse layer, which no
+// filter touches. It has its own pixel loop and no light sets: it is independent, so a reference.
 //
-//   irradiance, caustic   E at the first hit, all of it or what came by way of S: pi times the radiance
-//                         that a white matte surface there would send. Paths of their own, and only if
-//                         asked for: nobody's picture changes.
-//   reflectance           with the caustic plane, for who shows its share of the picture
+//   irradiance, caustic   E at the first hit, all of it or what came by way of S: pi times the
+//                         radiance that a white matte surface there would send. They take paths of
+//                         their own, only if asked for: the picture does not change.
+//   reflectance           with the caustic plane, for whoever shows its share of the picture
 //
 // Threads, owner, errors: as method.h says.
 #pragma once

@@ -6,23 +6,24 @@
 //               density cos_s/pi
 //
 //   G, b, cos_s   as in vpl_gather.h; W_e with an emitter's own b
-//   E(y)          from VPLs and photons, of paths one D vertex longer, itself compensated (recursion)
+//   E(y)          from VPLs and photons, of paths one D vertex longer, compensated in turn
 //
-// W is zero beyond t = sqrt(cos_x / b): the rays are short, and few of them hit anything. A hit is
-// followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided by it: as
-// often as it takes, for in a narrow gap all of the light comes this way. The number xi < q that
-// decides this is known before the ray is: as q <= W <= 1 - b t^2/cos_x, nothing farther than
-// sqrt((1-xi) cos_x / b) can be followed, and the ray ends there. What a hit emits is divided by the
-// probability 1 - b t^2/cos_x that the ray was long enough for it.
-// Where y has a glossy lobe (needs.h), a second part of the numbers below 1 - b t^2/cos_x chooses
-// it: an eye path goes on from there, and brings what it meets, and E at its end, times W. Light
-// that is not bounded (punctual lights, environment, photons) takes no part at x, so a ray that
-// meets nothing, and other S lobes at y, return nothing.
+// Short rays: W is zero beyond t = sqrt(cos_x / b), and few rays hit anything before. A hit is
+// followed with probability q = min(kMaxSurvival, largest channel of W rho_y) and divided by q, as
+// often as it takes: in a narrow gap all of the light comes this way. The number xi that decides,
+// xi < q, is drawn before the ray. As q <= W <= 1 - b t^2/cos_x, no hit beyond
+// sqrt((1-xi) cos_x / b) can be followed, and the ray ends there. The emission of a hit is divided
+// by the probability 1 - b t^2/cos_x of a ray that long.
+//
+// A glossy lobe of y (needs.h) is chosen by another part of the numbers xi below 1 - b t^2/cos_x.
+// An eye path goes on from there, and brings what it meets, and E at its end, times W. Light that
+// is not bounded at x (punctual lights, environment, photons) lacks nothing: rays that meet
+// nothing, and other S lobes at y, return nothing.
 //
 // Source:  Kollig and Keller, "Illumination in the Presence of Weak Singularities", 2004.
 // Proved:  tests/gi (furnace in a corner and in a slit: exact with it, too dark without; agreement
-// with the path tracer). Threads: reentrant with one scratch a thread.   Errors: none; at most
-// kMaxVertices levels.
+//          with the path tracer).
+// Threads: reentrant with one scratch a thread.   Errors: none; at most kMaxVertices levels.
 #pragma once
 
 #include <deque>
@@ -36,7 +37,7 @@
 
 namespace ninefold {
 
-// What one level's rays met, and where its irradiance goes: `factor` times it to `receiver`.
+// What one level's rays met. `factor` times its irradiance goes to `receiver`.
 struct Bounces {
   struct Parent {
     size_t receiver;
@@ -50,7 +51,7 @@ struct Bounces {
 
 using CompensationScratch = std::deque<Bounces>;  // one level a bounce, as deep as it ever went
 
-// Adds E(y) to the receivers, whose paths have that many D vertices, compensated by this again.
+// Adds E(y) to receivers whose paths have `pathVertices` D vertices. E(y) is compensated in turn.
 using IrradianceQuery = std::function<void(int pathVertices, Receivers& receivers)>;
 
 // Adds compensation to receivers.er/eg/eb. pathVertices as in layered_method.h.

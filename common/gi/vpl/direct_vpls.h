@@ -1,9 +1,12 @@
 // direct_vpls.h: VPLs on the lamps: N samples of the emitters in proportion to power.
 //
-// Equal punctual ones are merged into one. In a gesture N is what it was when it began, and there
+// N = 0: no lamp lights the first D vertex of an eye path. Those further on, which the compensation
+// meets, are lit by as many as by default.
+// Equal punctual ones are merged into one. In a gesture N stays as the gesture found it, and there
 // may be a second stream: light_streams.h.
 //
-// Source:  Keller 1997; Wald et al. 2002, section 4.   Proved: tests/gi (polygon light, point, spot, sun).
+// Source:  Keller 1997; Wald et al. 2002, section 4.
+// Proved:  tests/gi (polygon light, point, spot, sun).
 // Threads: pure function.   Errors: none.
 #pragma once
 
@@ -12,7 +15,7 @@
 
 namespace ninefold {
 
-// Adds those of set k.
+// Adds the direct VPLs of set k.
 void addDirectVpls(const Transport& transport, const FrameKey& frame, int k,
                    std::vector<Vpl>& vpls);
 

@@ -4,13 +4,12 @@
 //   E(x) += flux A(v) min(cos_x cos_y/d^2, b) cos_s/cos_x      v: from the VPL to x
 //   A(v)  = f(v, l) |l.n| / |l.ng|                             [1/sr]
 //
-// l: where the light came from; n: the normal about which an eye path from v has its lobe, so that
-// A is the adjoint of what eye paths do there (particle_scatter.h). The bound is that of G alone: a
-// lobe that counts as rough (needs.h) peaks at 1/(4 alpha^2) of a diffuse one, so f needs none.
+// l: direction to where the light came from. n: normal of the lobe of an eye path from v. So A is
+// the adjoint of what eye paths do there (particle_scatter.h). The bound is that of G alone; f
+// needs none, as a lobe that counts as rough (needs.h) peaks at 1/(4 alpha^2) of a diffuse one.
 //
-// Where the line is drawn (kGlossyRoughness): a room with a floor of that roughness, metallic 0.75,
-// under steps, 128x96, 256 frames; error of blocks of 16x16 and of pixels in % of the mean, time of
-// a frame:
+// Measured for kGlossyRoughness: a room with a floor of that roughness, metallic 0.75, under steps,
+// 128x96, 256 frames. Error of blocks of 16x16 and of pixels in % of the mean, time of a frame:
 //
 //   roughness       0.2                0.25               0.3                0.5 (128 frames)
 //   VPLs            0.94  8.2  13 ms   0.72  5.6  13 ms   0.58  4.1  14 ms   0.64  2.24  14 ms

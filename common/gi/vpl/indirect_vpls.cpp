@@ -41,9 +41,9 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
   return vpl;
 }
 
-// One VPL for both lobes, D and glossy. What its bound cuts off comes back by eye paths
-// (compensation.h): where they cannot find the light, the glossy lobe has a VPL of its own,
-// without.
+// One VPL for both lobes, D and glossy. Eye paths give back what its bound cuts off
+// (compensation.h). Where they cannot find the light, the glossy lobe has a VPL of its own, without
+// a bound.
 void depositVpls(const Transport& t, const Arrival& a, float share, VplSet& set) {
   Vpl vpl = indirectVpl(t, a, share);
   const ShadingPoint& p = *a.point;

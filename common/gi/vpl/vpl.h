@@ -1,6 +1,7 @@
 // vpl.h: virtual point lights: points that light others as what stands there does.
 //
-// Kinds and their part of the irradiance at x, w = unit direction from x to the VPL:
+// Kinds and their part of the irradiance at x. Symbols as in vpl_gather.h, which also has what
+// shading normals change. w: unit direction from x to the VPL.
 //   surface      V (Phi/pi) min(cos_x cos_y / d^2, b)   area emitters, D vertices of light paths
 //   point, spot  V I(w) cos_x / d^2                     never bounded
 //   directional  V E0 cos_x                             sun, and samples of the environment
@@ -30,8 +31,9 @@ struct Vpl {
   int diffuseCount = 0;  // surface: D vertices of the light path, this one too; 0 on an emitter
   int glossy = -1;       // surface: what its S lobe sends on, in VplSet::glossy; -1: nothing
   MediumStack media;     // surface: around the VPL
+  int firstVertex = 1;   // D vertices of an eye path from which on it counts
 
-  // The D vertices that a path by way of the VPL has at least: none here if it is glossy.
+  // Least number of D vertices that a path by way of the VPL has; a glossy VPL is none itself.
   int leastCount() const { return glossy >= 0 ? diffuseCount - 1 : diffuseCount; }
 };
 

@@ -8,8 +8,8 @@
 namespace ninefold {
 namespace {
 
-// Where shadow rays to a surface VPL end: off its surface, on the emitting side, by what rounding
-// may do on the way from anywhere in the scene.
+// Where shadow rays to a surface VPL end: off its surface on the emitting side, by as much as
+// rounding may do on the way from anywhere in the scene.
 Vec3 rayTarget(const Transport& t, const Vpl& vpl) {
   if (vpl.kind != Vpl::Kind::surface) return vpl.position;
   return offsetOrigin(vpl.position, vpl.normal, vpl.error + t.farRounding, vpl.normal);

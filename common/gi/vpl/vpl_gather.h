@@ -6,20 +6,21 @@
 //          + sum_i V Phi_i A_i min(G, b) cos_s/cos_x               glossy lobes (glossy_vpl.h)
 //
 //   G       cos_x cos_y / d^2 with geometric normals               [1/m^2]
-//   b       bound of G: the energy above it is missing here (compensation gives it back) [1/m^2];
+//   b       bound of G: the energy above it is missing here; compensation gives it back [1/m^2].
 //           c/R^2, on small emitters more: see Transport::lightBound
 //   cos_s   cosine at x with the shading normal; both cosines at x must be positive
 //   V       1 if the segment is free (one shadow ray), between origins moved off the two surfaces
 //
 // In an absorbing solid each term is attenuated over d, as shading.h says.
 //
-// Factors without V first (vpl_weights.h), then the choice of VPLs that are worth a ray
-// (vpl_roulette.h), then rays, VPL-major, sixteen receivers a packet. Lanes without contribution
-// cast no ray. Sums run in the VPLs' order for each receiver.
+// First come the factors without V (vpl_weights.h), then the choice of VPLs that are worth a ray
+// (vpl_roulette.h), then the rays: VPL by VPL, sixteen receivers a packet. Lanes without
+// contribution cast no ray. Each receiver's sum runs in the VPLs' order.
 //
-// Source:  Keller 1997; Wald et al. 2002.   Proved: tests/gi (plates, polygon light, bound only
-// takes away). Threads: reentrant with one scratch a thread.   Errors: none; a receiver on a VPL
-// (d = 0) gets nothing from it.
+// Source:  Keller 1997; Wald et al. 2002.
+// Proved:  tests/gi (plates, polygon light, bound only takes away).
+// Threads: reentrant with one scratch a thread.
+// Errors:  none; a receiver on a VPL (d = 0) gets nothing from it.
 #pragma once
 
 #include "common/gi/vpl/vpl_roulette.h"
@@ -36,8 +37,8 @@ struct VplGatherScratch {
   }
 };
 
-// Adds to receivers.er/eg/eb; receivers must be padded to kPacket. VPLs whose path would exceed the
-// limit on D vertices are left out; pathVertices as in layered_method.h. `shadowRays` counts active
+// Adds to receivers.er/eg/eb; receivers must be padded to kPacket. Leaves out VPLs whose path would
+// exceed the limit on D vertices; pathVertices as in layered_method.h. `shadowRays` counts active
 // lanes.
 void gatherVpls(const Transport& transport, const VplSet& lights, const ReceiverSamples& samples,
                 int pathVertices, VplGatherScratch& scratch, Receivers& receivers,

@@ -5,12 +5,12 @@
 namespace ninefold {
 namespace {
 
-// VPLs that are taken on average at least, if there are so many: a few are not worth any noise.
+// So many VPLs are taken on average at least, if there are any: fewer are too noisy.
 constexpr int kLeast = 5;
 // Nobody's chance is less: what would add next to nothing may be all that is not hidden.
 constexpr float kLeastChance = 1.0f / 16;
 
-// Weights are not negative: their bits are ordered as they are, and whole numbers are compared by
+// Weights are not negative, so their bits are ordered as they are; whole numbers are compared by
 // whole vectors.
 float largest(const float* weight) {
   uint32_t most = 0;
@@ -28,7 +28,7 @@ float brightness(const VplSet& lights, const Vpl& vpl, Vec3 x) {
   const float diffuse = maxComponent(vpl.power);
   if (vpl.glossy < 0 || x == vpl.position) return diffuse;
   const GlossyVpl& glossy = lights.glossy[static_cast<size_t>(vpl.glossy)];
-  // Not less than diffuse scattering of a twentieth: the rest of the packet is seen from elsewhere.
+  // At least a twentieth of diffuse scattering: the rest of the packet is seen from elsewhere.
   return diffuse +
          std::max(maxComponent(glossy.intensityOverCosine(glm::normalize(x - vpl.position))),
                   0.05f * kInvPi * maxComponent(glossy.flux));

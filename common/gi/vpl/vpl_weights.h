@@ -1,5 +1,5 @@
-// vpl_weights.h: what a VPL's power is multiplied by at a receiver if nothing is in between, with the
-// symbols of vpl_gather.h:
+// vpl_weights.h: the factors on a VPL's power at a receiver if nothing is in between; symbols as in
+// vpl_gather.h:
 //
 //   surface            min(G, b) cos_s/cos_x   [1/m^2]
 //   point, spot        falloff(w) cos_s / d^2  [1/m^2]
