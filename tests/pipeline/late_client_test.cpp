@@ -1,8 +1,7 @@
 // Clients that come while somebody drags a lamp about: one who was there from the start, one who
 // joins in the middle, one whose scene is still being built, and one who lost the line and is back.
 // All of them render the same bytes from then on. The master's offer, the client's session and its
-// builder are the real ones; only the wire between them is left out. So by
-// every method.
+// builder are the real ones; only the wire between them XX
 #include <gtest/gtest.h>
 
 #include <condition_variable>

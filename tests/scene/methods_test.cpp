@@ -42,7 +42,10 @@ TEST(Methods, EachHasARowInTheOrderOfTheirNumbers) {
     EXPECT_EQ(std::string(facts.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz-"),
               std::string::npos)
         << facts.name << " is a word of the command line";
+    const bool isDefault = facts.method == Settings{}.method;
     EXPECT_NE(describeMethods().find(facts.name), std::string::npos);
+    EXPECT_NE(describeMethods().find(isDefault ? "(default)" : facts.help), std::string::npos)
+        << facts.name;
   }
 }
 
