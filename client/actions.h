@@ -1,8 +1,7 @@
 // actions.h: what the client's session asks the program around it to do. Plain values, in order.
 //
 // `load` numbers the scene that is being fetched and built, `line` the connection that tasks came
-// by: answers carry them back, so that those to a question of the past can be told apart and
-// dropped.
+// by. Answers carry both back, so that answers to a question of the past can be dropped.
 #pragma once
 
 #include <string>

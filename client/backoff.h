@@ -1,7 +1,7 @@
 // backoff.h: how long to wait before dialling a master again. Pure.
 //
-//   delay = min(kLongest, kFirst 2^n) (1/2 + u/2)      n failures in a row, u in [0, 1) from the
-//   seed
+//   delay = min(kLongest, kFirst 2^n) (1/2 + u/2)     n  failures in a row
+//                                                     u  in [0, 1), from the seed
 //
 // The random half keeps a room full of clients from dialling a restarted master in step.
 #pragma once

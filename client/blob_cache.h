@@ -4,9 +4,10 @@
 // as computed here; no name ever comes from the wire. Every load decompresses and verifies; a
 // damaged file is deleted and counts as absent. Files appear whole (written aside, then renamed).
 // When the folder would exceed its bound, the blobs used longest ago go. Private: folder mode 0700,
-// files 0600; a folder that others may enter is refused. Threads: one at a time; several processes
-// may share a folder. Errors: the constructor throws Error; the first failure to write later is a
-// warning: the cache is a help only.
+// files 0600; a folder that others may enter is refused.
+// Threads: one at a time; several processes may share a folder.
+// Errors: the constructor throws Error; the first failure to write later is a warning: the cache is
+// a help only.
 #pragma once
 
 #include <filesystem>

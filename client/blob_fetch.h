@@ -1,9 +1,9 @@
 // blob_fetch.h: which piece of which missing blob to ask for next, and the pieces put together.
 // Pure.
 //
-// Up to kActive blobs are fetched side by side, each with one piece in flight: a line with latency
-// stays full, neither side's queues grow. Errors: chunk() throws Error on a piece that was not
-// asked for, or on a size that cannot be right.
+// Up to kActive blobs are fetched side by side, each with one piece in flight. That keeps a line
+// with latency full and both sides' queues short.
+// Errors: chunk() throws Error on a piece that was not asked for, or whose size cannot be right.
 #pragma once
 
 #include <optional>

@@ -1,6 +1,6 @@
 // identity.h: how this process introduces itself to a master: its release, its threads, and its
-// pixel class, proved by rendering the probe scene. Errors: Error if the instruction set cannot be
-// had on this machine. Threads: pure. Takes some ms.
+// pixel class, which it finds by rendering the probe scene. That takes some milliseconds.
+// Errors: Error if this machine lacks the instruction set.   Threads: pure function.
 #pragma once
 
 #include "client/options.h"

@@ -1,10 +1,11 @@
 // light_set_cache.h: light sets that the worker threads of one client share.
 //
-// The first thread that needs a set makes it; others that need it meanwhile wait for it. The sets
-// of the `frames` frame keys used last are kept, older ones dropped (a task that still uses one
-// keeps it alive). A set does not depend on the frame's number or rotation, so frames that differ
-// in nothing else share. Threads: get from any thread.   Errors: what `make` throws reaches
-// everyone who waits for that set.
+// The first thread that needs a set makes it; others that need it meanwhile wait. The sets of the
+// `frames` frame keys used last are kept, older ones dropped; a task keeps the set that it uses
+// alive. A set does not depend on the frame's number or rotation: frames that differ in nothing
+// else share.
+// Threads: get from any thread.
+// Errors: what `make` throws reaches everyone who waits for that set.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,7 @@
-// options.h: the command line of ninefold-client. Flags, then environment (NINEFOLD_*), then
-// defaults. Errors: UsageError with one line that names the flag. Threads: pure but for reading the
-// environment.
+// options.h: the command line of ninefold-client: flags, then environment (NINEFOLD_*), then
+// defaults.
+// Errors: UsageError with one line that names the flag.
+// Threads: pure but for reading the environment.
 #pragma once
 
 #include <filesystem>

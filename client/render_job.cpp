@@ -8,8 +8,8 @@
 namespace ninefold {
 namespace {
 
-// Frames whose light sets are kept: at rest a client's sets are of one frame after another, some of
-// whose tasks its threads are still at, and one that stragglers may be of.
+// Frames whose light sets are kept. At rest a client goes from frame to frame; its threads may
+// still be at tasks of an earlier one, and stragglers may be of yet another.
 constexpr size_t kFramesKept = 4;
 
 }  // namespace
@@ -131,7 +131,7 @@ void RenderJob::traceAndFilter(const Task& task, float neighbourWeight, Desk& de
     desk.patch.place(part.phase, rect, desk.tile);
   };
   for (part.phase = 0; part.phase < settings_.interleave.sets(); ++part.phase) {
-    // The tile's own pixels as the master would have them traced: what share a packet stay together.
+    // The tile's own pixels first, in the packets in which a task of layers has them.
     place(grid_.rect(task.tile, part.phase));
     for (const TaskRect& strip : borderOf(grid_, task.tile, part.phase)) place(strip);
   }

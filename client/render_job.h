@@ -1,16 +1,19 @@
-// render_job.h: a scene and settings made ready, and one task of it from key to encoded tile.
+// render_job.h: a scene and settings made ready, and a task of it done: from key to encoded tile.
 //
-// A task is a phase of a tile, sent as it was traced; or, if the job's tiles are filtered here, a
-// whole tile: all its phases are traced, with the pixels around it that the filter reaches, and what
-// is sent is the radiance that the master would have made of them, or the codes that it would have
-// shown; but that VPL roulette chooses for other packets of receivers, around the tile.
+// A task is one phase of a tile: it is traced, and its layers are sent. If clients filter
+// (Delivery), a task is a whole tile: all its phases are traced, with the pixels around it that the
+// filter reaches, then filtered. Sent is the finished radiance, or its codes for a display. Both
+// are what the master would have made, but for VPL roulette at the tile's border, where packets are
+// other ones.
 //
-// Jobs that differ in nothing but camera, size and form share their light: what was worked out about the
-// lamps, the light sets that were made, and the threads' working memory.
+// Jobs that differ only in camera, size and form share their light: what was worked out about the
+// lamps, the light sets made so far, and the threads' working memory.
+// Where a method makes its light for a view, only jobs of one camera and size share.
 //
-// Threads: run may be called at once for different `thread` numbers, each has its own working
-// memory; light sets are shared through the cache. Owner: shared_ptr, tasks in progress keep it
-// alive. Errors: the constructor throws Error (settings that the scene cannot serve); run what the
+// Threads: run() at once for different `thread`; each has its own working memory, light sets are
+// shared through the cache.
+// Owner: shared_ptr; tasks in progress keep it alive.
+// Errors: the constructor throws Error (settings that the scene cannot serve); run() what the
 // renderer does.
 #pragma once
 
@@ -27,12 +30,12 @@
 
 namespace ninefold {
 
-// A scene with the hierarchy that refers to it, as it was fetched or after edits; and in a gesture what
-// it was when that began.
+// A scene, as fetched or edited, and the hierarchy that traces it; in a gesture also the one that
+// it was at the gesture's beginning.
 struct TracedScene {
   TracedScene(std::shared_ptr<const Scene> fetched, Isa isa)
       : asFetched(std::move(fetched)), scene(asFetched), tracer(*scene, isa) {}
-  // `all`: edits of the scene as it was fetched. What `before` has is shared as far as it is the same.
+  // `all`: all edits since the scene was fetched. What these leave alone is shared with `before`.
   TracedScene(const TracedScene& before, const SceneEdit& all,
               std::shared_ptr<const TracedScene> itBegan = nullptr)
       : asFetched(before.asFetched),
@@ -40,8 +43,8 @@ struct TracedScene {
         tracer(before.tracer, *scene, movedInstances(*asFetched, all)),
         begun(std::move(itBegan)) {}
 
-  // What an edit makes of `before`. `all`: edits of the scene as it was fetched, this one included;
-  // `moving`: a gesture goes on.
+  // What an edit makes of `before`. `all`: as above, the edit included. `moving`: a gesture goes
+  // on.
   static std::shared_ptr<const TracedScene> after(const std::shared_ptr<const TracedScene>& before,
                                                   const SceneEdit& all, bool moving) {
     const auto settled = before->begun ? before->begun : before;
@@ -55,11 +58,11 @@ struct TracedScene {
 
 class RenderJob {
  public:
-  // What was worked out for the gesture's beginning is taken from `before`, if that is of the same
-  // gesture and settings.
+  // `before`: an earlier job. In the same gesture, with the same light, it lends what was worked
+  // out for the gesture's beginning.
   RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion, const Settings& settings,
             const Delivery& delivery, int threads, const RenderJob* before = nullptr);
-  // The light of `lit` under settings for which lit.hasLightOf(scene, settings, delivery).
+  // Another view of the light of `lit`. Needs lit.hasLightOf(its scene, settings, delivery).
   RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings,
             const Delivery& delivery);
   bool hasLightOf(const std::shared_ptr<const TracedScene>& scene, const Settings& settings,
@@ -69,10 +72,11 @@ class RenderJob {
     msg::Result result;
     size_t rawBytes = 0;  // of the result, had it not been compressed
   };
-  // `level`: of zstd, if the job leaves that to the client.
+  // `neighbourWeight`: of the filter, in [0, 1]. `level`: of zstd, where the job is adaptive.
+  // `thread`: 0..threads-1.
   Done run(const FrameKey& frame, const msg::TaskItem& item, float neighbourWeight, int level,
            int thread, Time (*now)());
-  // A task of it, for people, and the command that does it again.
+  // Names a task for people, with the command that does it again.
   std::string describe(const FrameKey& frame, const msg::TaskItem& item) const;
 
  private:

@@ -1,15 +1,15 @@
 // result_group.h: results on their way from the workers to the loop, in groups.
 //
-// Whoever hands a result over wakes the loop's thread, the master's and one of its workers, each time
-// with code that rays have driven out of the caches: on a machine that renders with all its cores
-// that costs several times as much as the bytes. So a result waits for others, unless
-//   - it is urgent,
-//   - its task took kResultsTogether or more, or the last group went that long ago,
-//   - the task that is next here is of another frame, or there is none.
-// So it waits for kResultsTogether and the tasks that are at work then, at most; the end of a task of
-// its frame that is queued takes it along.
+// Handing over a result wakes three threads: the loop's, the master's and one of its workers. Each
+// has lost its code from the caches to rays. On a machine whose cores all render, waking costs
+// several times as much as the bytes do. So a result waits for others, unless
+//   - it is urgent, or
+//   - its task, or the time since the last group went, took kResultsTogether or more, or
+//   - the next task here is of another frame, or there is none.
+// It waits for kResultsTogether and the tasks then at work, at most: a task of the same frame that
+// is still to be done here will take it along.
 //
-// Threads: add from workers, take from the loop's thread. Errors: none.
+// Threads: add from workers, take from the loop's thread.   Errors: none.
 #pragma once
 
 #include <mutex>
@@ -30,9 +30,9 @@ class ResultGroup {
     RenderJob::Done done;
   };
 
-  // True if somebody is to take the group; not again before that is done. nextFrame() is the frame of
-  // the task that is next here, or nothing. It is asked while no other result can be added: a task
-  // that it saw is not finished yet, and will take this result along.
+  // True if the caller must have the group taken; then false until that is done. nextFrame() gives
+  // the frame of the next task here, or nothing. It runs under the lock: the task that it saw has
+  // not added its result yet, and will take this one along.
   template <typename NextFrame>
   bool add(Finished finished, NextFrame nextFrame, Time now) {
     const std::lock_guard lock(mutex_);

@@ -1,11 +1,10 @@
-// scene_builder.h: all that takes long about a scene, on a thread of its own, so that the network
-// thread goes on answering the master: looking into the cache, verifying, decoding, building the
-// hierarchy.
+// scene_builder.h: a thread for what takes long about a scene: looking into the cache, verifying,
+// decoding, building the hierarchy. The network thread goes on answering the master meanwhile.
 //
-// Questions are the session's actions, answered in their order. Blobs that were fetched stay in
-// memory until a scene was built of them, so that a connection lost in mid-transfer costs nothing
-// again. Threads: ask from one thread; answers come on the builder's thread. Owner: joins when
-// destroyed. Errors: everything that goes wrong is answered by `failed`.
+// Questions are the session's actions, answered in their order. Fetched blobs stay in memory until
+// a scene was built of them, so that a connection lost in mid-transfer costs nothing again.
+// Threads: ask from one thread; answers come on the builder's thread.
+// Owner: joins when destroyed.   Errors: everything that goes wrong is answered by `failed`.
 #pragma once
 
 #include <functional>

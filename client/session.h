@@ -3,14 +3,14 @@
 //
 //   offline -> connecting -> greeting (Hello sent) -> syncing (fetch, build, prepare) -> ready
 //
-// Once ready it stays so: later jobs are prepared while tasks of earlier ones go on, and tasks may come
-// before their job is prepared.
-// A lost connection leads back to offline: a remote client dials again, ever more rarely, and keeps
-// its scene, so that a restarted master gets it back without sending the scene again; a local one
-// ends, its master will start another. Refuse and Goodbye end the program. Deadlines: Welcome, each
-// piece of the scene, any sign of life of the master, patience without a master. Errors: none
-// thrown; a master that says something impossible is left. Use: call the event functions, then
-// carry takeActions() out in order; tick() every 100 ms or so.
+// Once ready it stays so: later jobs are prepared while tasks of earlier ones go on. Tasks may come
+// before their job is prepared. A lost connection leads back to offline. A remote client then dials
+// again, ever more rarely, and keeps its scene, which a restarted master need not send again. A
+// local one ends, and its master starts another. Refuse and Goodbye end the program.
+// Deadlines: Welcome, each piece of the scene, any sign of life of the master, patience without
+// one.
+// Errors: none thrown; a master that says something impossible is left.
+// Use: call the event functions, then carry takeActions() out in order; tick() every 100 ms or so.
 #pragma once
 
 #include <deque>

@@ -1,14 +1,15 @@
-// watchdog.h: notices that a task does not end. Nothing comes back from a native library that does
-// not return, so what is left is to end the process; whoever started it may start it again.
+// watchdog.h: notices that a task does not end. A native library that does not return gives nothing
+// back, so all that is left is to end the process. Whoever started it may start it again.
 //
-// A task has what its master allows it (msg::Tasks::allowed) and kGrace more, in time in which this
-// process runs: a stopped process or a machine that sleeps is not the task's fault.
+//   limit = msg::Tasks::allowed + kGrace      in time in which this process runs
 //
-//   TaskClock   the times of the tasks at work; a pure value, it is told how much time has passed
+// A stopped process or a machine that sleeps is not the task's fault.
+//
+//   TaskClock   the times of the tasks at work; a pure value that is told how much time has passed
 //   Watchdog    a thread that tells it and calls `onHang`, once
 //
-// Threads: begin and end from the workers, onHang on the watchdog's own.   Owner: joins its thread when
-// destroyed.   Errors: none.
+// Threads: begin and end from the workers, onHang on the watchdog's own.
+// Owner: joins its thread when destroyed.   Errors: none.
 #pragma once
 
 #include <condition_variable>
@@ -34,7 +35,7 @@ class TaskClock {
 
   void begin(int thread, Duration limit, std::function<std::string()> describe);
   void end(int thread) { tasks_[static_cast<size_t>(thread)].reset(); }
-  // All tasks at work have had `time` more; one that has had its limit, if any.
+  // Adds `time` to all tasks at work. Gives one that has had its limit, else null.
   const AtWork* pass(Duration time);
 
  private:

@@ -1,8 +1,8 @@
-// workers.h: the threads of a client that render. They know tasks by frame only, so that the tasks
-// of a superseded frame can be dropped; what a task does is the caller's.
+// workers.h: the threads of a client that render. Of a task they know its frame, so that tasks of a
+// superseded frame can be dropped; what a task does is the caller's.
 //
 // Threads: start and cancel from one thread (the network thread); jobs run on the workers.
-// Owner: joins its threads when destroyed; what waits is dropped, what runs is finished.
+// Owner: joins its threads when destroyed; waiting tasks are dropped, running ones finished.
 // Errors: a job must not throw.
 #pragma once
 
@@ -32,7 +32,7 @@ class Workers {
   std::optional<uint32_t> nextFrame() const {
     return queue_.front([](const Entry& entry) { return entry.frame; });
   }
-  // Drops the waiting tasks of frames for which `drop` is true; how many those were.
+  // Drops the waiting tasks of frames for which `drop` is true. Gives their number.
   size_t cancel(const std::function<bool(uint32_t frame)>& drop);
 
  private:

@@ -1,5 +1,5 @@
 // asio.h: the parts of Boost.Asio that the connection uses, and the names it uses them by.
-// Internal.
+// Internal to the connection.
 #pragma once
 
 #include <utility>  // Boost 1.74's awaitable.hpp needs it and does not say so

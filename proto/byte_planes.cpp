@@ -35,9 +35,9 @@ void writeDifferences(std::span<const uint8_t> plane, size_t width, Bytes& out) 
     to[row] = static_cast<uint8_t>(plane[row] - plane[row - width]);
 }
 
-// Running sums of eight bytes, the first one in the lowest bits, that begin at `sum`; adds them all to it.
-// Bytes of even and of odd places are summed apart, in lanes of sixteen bits, where no sum runs over. The
-// next eight have to wait for one addition only.
+// Running sums of eight bytes, the first one in the lowest bits, that begin at `sum`; adds them all
+// to it. Bytes of even and of odd places are summed apart, in lanes of sixteen bits, where no sum
+// runs over. The next eight have to wait for one addition only.
 uint64_t runningSums(uint64_t bytes, uint64_t& sum) {
   constexpr uint64_t kLow = 0x00ff00ff00ff00ff, kOnes = 0x0001000100010001;
   const uint64_t even = (bytes & kLow) * kOnes, odd = (bytes >> 8 & kLow) * kOnes;

@@ -1,11 +1,10 @@
-// bytes.h: raw bytes and how numbers become bytes: little-endian, field by field, never a cast
+// bytes.h: raw bytes, and how numbers become bytes: little-endian, field by field, never a cast
 // struct.
 //
-// ByteWriter appends to a buffer; ByteReader walks over one and never beyond its end. Both
-// understand the same calls (u8 ... f64, text, array), so that a type's layout is written down
-// once, as one function template for both directions (see scene_archive.h). Errors: ByteReader
-// throws Error naming the field when bytes are missing or a count is larger than what is left could
-// hold; nothing is allocated before that check. Threads: plain values.
+// ByteWriter appends to a buffer. ByteReader walks over one and never beyond its end.
+// Errors: ByteReader throws Error that names the field, if bytes are missing or a count is larger
+// than what is left can hold. It checks before anything is allocated.
+// Threads: plain values.
 #pragma once
 
 #include <bit>
@@ -26,7 +25,7 @@ namespace ninefold {
 static_assert(std::endian::native == std::endian::little,
               "the wire is little-endian; add a swap here");
 
-// What resize() adds is not set: it is to be overwritten, and often.
+// resize() leaves new bytes unset: callers overwrite them, and zeroing would cost.
 using Bytes = std::vector<std::byte, boost::noinit_adaptor<std::allocator<std::byte>>>;
 using ByteView = std::span<const std::byte>;
 
@@ -73,7 +72,7 @@ class ByteReader {
     if (size > 0) std::memcpy(data, in_.data(), size);
     in_ = in_.subspan(size);
   }
-  // A count of things that take at least `bytesEach` of the remaining bytes.
+  // Checks a number of things, each of at least `bytesEach` > 0 of the remaining bytes.
   size_t count(uint64_t claimed, size_t bytesEach, const char* field) const {
     if (claimed > in_.size() / bytesEach)
       fail("{}: {} claims {} entries, more than the data holds; it is damaged", what_, field,

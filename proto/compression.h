@@ -1,6 +1,7 @@
-// compression.h: zstd frames of large blobs. Decompression is streamed: memory grows as bytes
-// appear and never beyond the declared size. Internal to scene_blobs. Errors: throw Error with one
-// line. Threads: reentrant.
+// compression.h: zstd frames of large blobs. Internal to scene_blobs.
+//
+// Decompression is streamed: memory grows as bytes appear, never beyond the declared size.
+// Errors: throw Error with one line.   Threads: reentrant.
 #pragma once
 
 #include "proto/bytes.h"
@@ -9,7 +10,8 @@ namespace ninefold {
 
 Bytes compressBlob(ByteView raw, int level);
 
-// Exactly `declared` bytes, or an Error: damaged data, data behind the frame, more or fewer bytes.
+// Exactly `declared` bytes. Throws Error on damaged data, on data behind the frame, and on more or
+// fewer bytes.
 Bytes decompressBlob(ByteView compressed, uint64_t declared);
 
 }  // namespace ninefold

@@ -1,20 +1,22 @@
-// connection.h: messages over TCP, inside TLS 1.3 with a pre-shared key. The only place that
-// touches sockets.
+// connection.h: messages over TCP, inside TLS 1.3 with a pre-shared key. Sockets are touched here
+// only.
 //
 //   master: Listener -> Connection          client: connect(...) -> Connection
 //
-// A Connection exists only after the TLS handshake: its peer has proved that it holds the key.
-// There are two keys: every listener knows a one-time key for the local clients that it starts
-// itself, and may know the cluster key (without it, only loopback addresses can be listened on).
-// The master always listens and the client always dials; both roles go into the key that TLS sees
-// (tls.h), so that nothing one side says can be played back to it.
+// A Connection exists only after the TLS handshake: its peer has proved that it holds a key. There
+// are two. The one-time key is for the clients that the master starts itself. The cluster key is
+// for all others; without it a listener takes loopback addresses only. The master always listens
+// and the client always dials. Both roles go into the key that TLS sees (tls.h), so nothing that
+// one side says can be played back to it.
 //
-// Deadlines: handshake, first message, silence of the peer, a write that does not move. Bounds:
-// connections that have not proved themselves (the oldest one is dropped), their bytes, the
-// out-queue (when it is full the connection closes: credit windows keep a healthy peer far below).
-// Threads: callbacks run in the loop's thread. send(), finish() and close() may be called from any
-// thread, everything else in the loop's. Owner: shared_ptr; the connection keeps itself alive while
-// it is open. Errors: none are thrown by a running connection; onClosed gets one line.
+// Deadlines: handshake, first message, silence of the peer, a write that does not move.
+// Bounds: peers that have not proved themselves (the oldest is dropped), their bytes, and the queue
+// of what is to be sent. A full queue closes the connection: the scheduler's credit keeps a healthy
+// peer far below.
+// Threads: callbacks run in the loop's thread. send(), finish() and close() from any thread,
+// everything else in the loop's.
+// Owner: shared_ptr; an open connection keeps itself alive.
+// Errors: a running connection throws none; onClosed gets one line.
 #pragma once
 
 #include <cstdint>

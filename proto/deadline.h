@@ -1,5 +1,6 @@
-// deadline.h: closes something when time is up, unless it is dropped before. Internal to the
-// connection. Threads: the loop's.
+// deadline.h: closes something when time is up, unless the Deadline dies before. Internal to the
+// connection.
+// Threads: the loop's.
 #pragma once
 
 #include "proto/asio.h"

@@ -1,6 +1,6 @@
-// edit_wire.h: SceneEdit as a protobuf message. Internal to messages_decode/encode. What exists in
-// which scene is not known here: scene/edit.h checks that.
-// Errors: fromWire throws Error on numbers that no scene can have. Threads: pure.
+// edit_wire.h: SceneEdit as a protobuf message. Internal to messages_decode and messages_encode.
+// Whether a scene has what an edit names is checked by scene/edit.h, not here.
+// Errors: fromWire throws Error on numbers that no scene can have.   Threads: pure functions.
 #pragma once
 
 #include "common/scene/edit.h"

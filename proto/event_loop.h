@@ -1,10 +1,11 @@
-// event_loop.h: the one thread that talks to the network: a program's main makes it and runs it.
+// event_loop.h: the one thread that talks to the network. A program's main makes it and runs it.
 //
-// Everything that connections, timers and signals call back runs inside run(), one at a time, so
-// that what these callbacks touch needs no lock. Asio stays behind this header and connection.h.
+// Connections, timers and signals call back inside run(), one at a time: what only these callbacks
+// touch needs no lock. Asio stays behind this header and connection.h.
 // Threads: run() in one thread; post() and stop() from any thread (not from a signal handler); the
-// rest in the loop's thread or before run(). Owner: outlives every Connection, Listener and
-// connect() made on it. Errors: an Error that a callback lets out ends run() and comes out of it.
+// rest in the loop's thread or before run().
+// Owner: outlives every Connection, Listener and connect() made on it.
+// Errors: an Error that a callback throws ends run(), which throws it on.
 #pragma once
 
 #include <functional>

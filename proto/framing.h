@@ -1,12 +1,13 @@
 // framing.h: a pure machine that cuts a byte stream into frames. PROTOCOL.md has the grammar.
 //
-//   frame := magic u32 | version u16 | type u16 | header length u32 | payload length u32 | header |
-//   payload
+//   frame := magic u32 | version u16 | type u16 | header length u32 | payload length u32
+//            | header | payload
 //
-// All little-endian. `header` is a serialized protobuf message, `payload` raw bytes.
+// All numbers are little-endian. `header` is a protobuf message, `payload` raw bytes.
 // Errors: FrameParser throws Error on the first byte that cannot be right: wrong magic or version,
-// or a length over the limit for its type (checked before anything is allocated). After that it is
-// broken and the connection must close. Threads: plain values, no clock, no socket.
+// or a length over the limit for its type. It checks before anything is allocated. After an Error
+// the connection must close.
+// Threads: plain values, no clock, no socket.
 #pragma once
 
 #include <array>
@@ -34,8 +35,7 @@ struct FrameLimit {
   uint32_t payload = 0;  // most bytes of the payload
 };
 
-// Limit for a frame of `type`. Before the peer has said its first word, `first` holds for all
-// types.
+// Limit for a frame of `type`. The peer's first frame is under kFirstFrameLimit as well.
 using FrameLimits = FrameLimit (*)(uint16_t type);
 
 // No peer needs more to introduce itself.

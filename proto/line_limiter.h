@@ -1,6 +1,6 @@
-// line_limiter.h: keeps a peer that nobody knows from filling the log: so many lines in a period,
-// the others are counted and mentioned with the next one. Pure: the time is told. Threads: plain
-// value.
+// line_limiter.h: keeps unknown peers from filling the log. It lets through so many lines a period;
+// the next line of a later period says how many more there were. Pure: the time is told.
+// Threads: plain value.
 #pragma once
 
 #include <fmt/core.h>

@@ -1,4 +1,5 @@
-// line_rate.h: what a TCP line takes, as the kernel has measured it. Threads: any.
+// line_rate.h: what a TCP line can take, as the kernel has measured it.
+// Threads: any.
 #pragma once
 
 namespace ninefold {

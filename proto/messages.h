@@ -5,8 +5,9 @@
 //
 // A message's fields travel as Protocol Buffers (messages.proto), its bulk bytes raw behind them
 // (framing.h). Nothing outside proto/ sees either: state machines eat and give Message values.
-// Errors: decodeMessage throws Error naming the message and field for anything malformed or out of
-// range, so every Message that came from a peer is in range. Threads: plain values, pure functions.
+// Errors: decodeMessage throws Error that names message and field, for anything malformed or out of
+// range. Every Message that came from a peer is in range.
+// Threads: plain values, pure functions.
 #pragma once
 
 #include <array>
@@ -83,8 +84,8 @@ enum class Phase : uint8_t { fetching = 0, building = 1 };
 // How results are to be sent.
 struct Delivery {
   static constexpr int kAdaptive = -1, kHighestLevel = 19;
-  // layers: a task is one phase of a tile. Else it is a whole tile, filtered, and sent as radiance or
-  // as a display's codes.
+  // layers: a task is one phase of a tile. Else it is a whole tile, filtered, and sent as radiance
+  // or as a display's codes.
   enum class Form : uint8_t { layers, radiance, display };
 
   int level = kAdaptive;  // of zstd; kAdaptive: what suits the client's line
@@ -141,9 +142,9 @@ struct Progress {
   uint64_t done = 0, total = 0;  // bytes when fetching, steps when building; done <= total
 };
 struct TaskItem {
-  uint32_t tile = 0;
-  uint32_t phase = 0;
-  uint8_t extraMask = 0;
+  uint32_t tile = 0;      // 0..TileGrid::tiles()-1
+  uint32_t phase = 0;     // 0..Interleave::sets()-1; 0 if tiles are whole
+  uint8_t extraMask = 0;  // bits of ExtraPlane
   bool operator==(const TaskItem&) const = default;
 };
 struct Tasks {

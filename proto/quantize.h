@@ -1,13 +1,14 @@
 // quantize.h: single values to small codes with unbiased rounding, and back. Internal to the tile
 // codec; tile_codec.h states the bounds.
 //
-//   code = lower + [u < (v - level(lower)) / (level(lower + 1) - level(lower))],   u uniform in (0,
-//   1)
+//   code = lower + [u < (v - level(lower)) / (level(lower + 1) - level(lower))]
 //
-// so that E[level(code)] = v. The levels are exactly those that the decoder gives back, and only
-// sums, products, divisions and square roots are used: the same bits on every machine. Source of
-// the octahedral code: Cigolle et al., "Efficient Representations for Independent Unit Vectors",
-// JCGT 2014. Threads: pure functions.
+// with u uniform in (0, 1), so that E[level(code)] = v. The levels are those that the decoder gives
+// back, exactly. Only sums, products, divisions and square roots are used: the same bits on every
+// machine.
+// Source: Cigolle et al., "Efficient Representations for Independent Unit Vectors", JCGT 2014 (the
+// octahedral code).
+// Threads: pure functions.
 #pragma once
 
 #include <algorithm>

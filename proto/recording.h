@@ -1,11 +1,10 @@
-// recording.h: a client's work kept in a file: to be sent again by a replay client, or done again, task by
-// task.
+// recording.h: a client's work kept in a file, to be sent again or done again, task by task.
 //
-//   recording := frames (PROTOCOL.md): the client's Hello, then in the order in which they came the master's
+//   recording := frames (PROTOCOL.md): the client's Hello, then as they came the master's
 //                SceneOffer, Edit, Configure and Tasks, and the client's Result for each task
 //
-// The file is whole or as it was before (written_file.h). Errors: throw Error that names the file.
-// Threads: a Recorder from any thread; the rest pure.
+// The file is whole or as it was before (written_file.h).
+// Errors: throw Error that names the file.   Threads: a Recorder from any thread; the rest pure.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +23,7 @@ class Recorder {
   void add(const msg::Result& result);
   // A message of the master's: kept if it says what tasks there are and how they are done.
   void heard(const Message& message);
-  // The file is there from now on; what comes later is left out.
+  // Puts the file into its place. What comes later is left out.
   void finish();
 
  private:
@@ -34,7 +33,7 @@ class Recorder {
   std::unique_ptr<WrittenFile> file_;  // guarded by mutex_; null once finished
 };
 
-// In the file's order. The last message may be cut short, as when a disk was full: it is left out.
+// In the file's order. A last message that was cut short (a full disk) is left out.
 std::vector<Message> readRecording(const std::filesystem::path& file);
 std::vector<msg::Result> readResults(const std::filesystem::path& file);
 

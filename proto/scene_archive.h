@@ -1,11 +1,13 @@
 // scene_archive.h: the byte layout of a scene's parts, written down once for both directions.
 // Internal to scene_blobs.
 //
-//   archive(value) for numbers, enums, texts, vectors: little-endian, lists as count u64 and
-//   elements. describe(archive, x) names the fields of x in their order; x is const when writing.
+//   archive(value)         numbers, enums, texts, vectors; little-endian; a list is its count u64
+//                          and its elements
+//   describe(archive, x)   names the fields of x in their order; x is const when writing
 //
-// Errors: ReadArchive throws Error on anything that cannot be a value (lists longer than the data,
-// enums and bools out of range); scene-level checks are validate()'s work. Threads: plain values.
+// Errors: ReadArchive throws Error on what cannot be a value (lists longer than the data, enums and
+// bools out of range). What cannot be a scene is found by validate().
+// Threads: plain values.
 #pragma once
 
 #include <type_traits>

@@ -1,14 +1,14 @@
-// scene_blobs.h: a scene as content-hashed blobs and back, bit for bit.
+// scene_blobs.h: a scene as blobs, named by their content, and back, bit for bit.
 //
-// Each texture image is a blob; meshes, in order, are gathered into blobs of about kMeshBlobBytes
-// (a larger mesh has its own); everything else (materials, instances, lights, cameras, ...) is the
-// last one. A blob's name is the SHA-256 of its raw bytes, so that a client that has seen it, in
-// this scene or another, need not fetch it. On the wire and in caches a blob is one zstd frame of
-// its raw bytes.
+// Each texture image is a blob. Meshes, in order, are gathered into blobs of about kMeshBlobBytes;
+// a larger mesh has its own. Everything else (materials, instances, lights, cameras, ...) is the
+// last blob. A blob's name is the SHA-256 of its raw bytes: a client need not fetch what it has
+// seen, in this scene or another. On the wire and in caches a blob is one zstd frame of its raw
+// bytes.
 //
-// Limits: a blob is at most kMaxBlobBytes raw, a scene kMaxSceneBytes; decompression is streamed,
-// takes memory only as bytes appear, and stops at the declared size. Errors: all throw Error with
-// one line. Threads: reentrant. Owner: values.
+// Limits: a blob has at most kMaxBlobBytes raw, a scene kMaxSceneBytes. Decompression takes memory
+// only as bytes appear, and stops at the declared size.
+// Errors: all throw Error with one line.   Threads: reentrant.   Owner: values.
 #pragma once
 
 #include <vector>

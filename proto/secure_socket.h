@@ -1,6 +1,7 @@
 // secure_socket.h: a TCP socket with its TLS session, for coroutines of one loop. Internal to the
-// connection. Errors: coroutines throw Error (TlsError from TLS); a socket that was closed on
-// purpose also reads so. Threads: the loop's. Owner: shared by the coroutines that use it.
+// connection.
+// Errors: coroutines throw Error (TlsError from TLS), also when the socket was closed on purpose.
+// Threads: the loop's.   Owner: shared by the coroutines that use it.
 #pragma once
 
 #include <atomic>

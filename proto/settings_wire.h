@@ -1,6 +1,7 @@
-// settings_wire.h: Settings and FrameKey as protobuf messages. Internal to messages_decode/encode.
-// Errors: the fromWire functions throw Error naming what is out of range, unknown, missing or there
-// twice. Threads: pure.
+// settings_wire.h: Settings and FrameKey as protobuf messages. Internal to messages_decode and
+// messages_encode.
+// Errors: fromWire throws Error that names what is out of range, unknown, missing or there twice.
+// Threads: pure functions.
 #pragma once
 
 #include "common/scene/settings.h"

@@ -1,4 +1,5 @@
-// sha256.h: SHA-256 as the name of content. Threads: reentrant. Errors: none.
+// sha256.h: SHA-256 as the name of content.
+// Threads: reentrant.   Errors: none.
 #pragma once
 
 #include <array>

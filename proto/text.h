@@ -1,5 +1,6 @@
 // text.h: texts that travel end up on other people's terminals and in logs: they are printable
-// UTF-8 of a bounded length. Senders make theirs so, receivers refuse others. Threads: pure.
+// UTF-8 of a bounded length. Senders make theirs so, receivers refuse others.
+// Threads: pure functions.
 #pragma once
 
 #include <string>

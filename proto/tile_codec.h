@@ -1,23 +1,21 @@
 // tile_codec.h: a task's planes to few bytes and back. The format is in PROTOCOL.md.
 //
-//   field                          code                                   |decoded - value| at most
-//   reflectance in [0, 1/pi]       8 bit, levels (q/255)^2 / pi           (2 sqrt(t) + 1/255)/(255
-//   pi), t = pi value albedo in [0, 1]               8 bit, levels (q/255)^2                (2
-//   sqrt(t) + 1/255)/255,      t = value E, U, caustic >= 0             8:8:8:8, common exponent
-//   max(r, g, b)/127.5, or 2^-134 if larger distance, depth > 0            16 bit between the
-//   tile's min and max  value * ceil(D/65534) 2^-23, where D
-//                                  of float bit patterns (a stepwise      is the distance of max
-//                                  and min in logarithm); 0 stays exactly 0          floats;
-//                                  max/min = 2^k gives k/65534
-//   normals, unit                  octahedral 2 x 16 bit; 0 stays 0       6.5e-5 rad
-//   chain, object                  as they are                            0
+//   field                      code                           |decoded - value| at most
+//   reflectance in [0, 1/pi]   8 bit, levels (q/255)^2 / pi   (2 sqrt(t) + 1/255)/255/pi, t = pi v
+//   albedo in [0, 1]           8 bit, levels (q/255)^2        (2 sqrt(t) + 1/255)/255,    t = v
+//   E, U, caustic >= 0         8:8:8:8, a common exponent     max(r, g, b)/127.5, at least 2^-134
+//   distance, depth > 0        16 bit, even steps of the      v ceil(D/65534) 2^-23, D floats from
+//                              floats' bits from the tile's   min to max; max/min = 2^k gives
+//                              min to its max; 0 stays 0      about v k/65534
+//   normal, unit               octahedral, 2 x 16 bit         6.5e-5 rad; 0 stays 0
+//   chain, object              as they are                    0
 //
-// Rounding is stochastic between the two neighbouring *decoded* levels, so that the mean over
-// dithers is the value itself: quantization never biases a film. (Normals round to nearest: they
-// steer a filter, are not summed.) The dither is a hash of (dither key, field, pixel), so that a
-// task that is repeated anywhere gives the same bytes. No transcendental functions: the code is the
-// same on every machine. E, U range over all floats up to 3.39e38 (larger ones are clamped to it);
-// values that are not finite, or negative, are replaced by 0 and counted.
+// v is the value. Rounding is stochastic, between the two neighbouring *decoded* levels, and v its
+// mean: quantization never biases a film. (Normals round to nearest: they steer a filter and are
+// not summed.) The dither is a hash of (dither key, field, pixel): a task that is repeated anywhere
+// gives the same bytes. No transcendental functions: the code is the same on every machine. E and U
+// go up to 3.39e38; larger ones become that. Values that are not finite, or negative, become 0 and
+// are counted.
 //
 // Owner: one encoder or decoder per thread (they keep compression state between tiles).
 // Errors: encode CHECKs its limits; decode throws Error on anything malformed, before it allocates.
@@ -35,18 +33,18 @@ namespace ninefold {
 
 inline constexpr int kMaxTilePixels = 1 << 14;
 
-// What a decoder must find; everything follows from the task and the scene's needs. kRadianceMask
-// or kDisplayMask instead of layers: the tile's finished pixels.
+// What a decoder must find, as the task and the scene's needs say. layerMask kRadianceMask or
+// kDisplayMask: the tile's finished pixels instead of layers.
 struct TileShape {
   int width = 0, height = 0;  // width * height <= kMaxTilePixels; both 0 for an empty task
   uint8_t layerMask = kDiffuseBit;
   uint8_t extraMask = 0;
 };
 
-// The dither key of a task: stands still while the picture moves, like all randomness.
+// The dither key of a task. It is the same in all frames of a gesture, as all randomness is.
 uint64_t ditherKey(uint64_t seed, const FrameKey& frame, uint32_t tile, uint32_t phase);
 
-// Values that were not finite, or negative where nothing is, and became 0.
+// Values that became 0: they were not finite, or negative where nothing can be.
 struct Replaced {
   uint64_t count = 0;
   uint32_t fields = 0;  // they were in (tile_names.h)
@@ -55,7 +53,7 @@ struct Replaced {
     return *this;
   }
 };
-// What encoding does to such values, for who looks at the tile before.
+// Does to such values what encoding does, for whoever filters the tile before.
 Replaced replaceUnusable(TileResult& tile);
 
 class TileEncoder {
@@ -72,8 +70,8 @@ class TileEncoder {
   Encoded encode(const TileResult& tile, uint64_t dither, int level);
   // A tile's finished radiance, as one field of light.
   Encoded encode(const RgbImage& radiance, uint64_t dither, int level);
-  // The same as a display takes it: exactly the tone map's codes of what is finite and not negative.
-  // Master-mapped, the field of light above gives codes of a radiance that is off by its own bound.
+  // The same as a display's codes, exactly the tone map's. (A master that maps the radiance above
+  // maps a rounded one.)
   Encoded encode(const RgbImage& radiance, const ToneMap& toneMap, int level);
 
  private:
@@ -126,8 +124,8 @@ class TileDecoder {
   TileDecoder();
   ~TileDecoder();
 
-  // Takes the bytes apart: decompresses, checks, finds the fields. Throws Error if the bytes are not
-  // exactly one tile of this shape.
+  // Takes the bytes apart: decompresses, checks, finds the fields. Throws Error if the bytes are
+  // not exactly one tile of this shape.
   UnpackedTile unpack(Bytes&& bytes, const TileShape& expected);
 
  private:

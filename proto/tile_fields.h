@@ -1,6 +1,6 @@
-// tile_fields.h: the fields of a tile in the order in which they travel, for both directions, and
-// the two coders that turn a field into byte planes and back. Internal to the tile codec. Threads:
-// plain values, one per tile.
+// tile_fields.h: the fields of a tile in the order in which they travel, once for both directions,
+// and the coders that turn a field into byte planes and back. Internal to the tile codec.
+// Threads: plain values, one per tile.
 #pragma once
 
 #include <array>
@@ -58,7 +58,7 @@ struct BytePlanes {
 
 class FieldWriter {
  public:
-  // differences: planes may be written as differences, which costs time and helps zstd only.
+  // `differences`: planes may be written as differences. That costs time and helps zstd only.
   FieldWriter(int width, size_t pixels, uint64_t dither, bool differences, BytePlanes& scratch,
               Bytes& out)
       : width_(static_cast<size_t>(width)),

@@ -1,7 +1,9 @@
-// tile_names.h: which fields of tiles something is said about, as bits, and their names for people.
+// tile_names.h: fields of tiles as bits, and their names for people.
 //
 //   bit 6 l + f   field f (reflectance, E, U, distance, normal, chain) of layer l (layers.h)
-//   bit 18 + x    extra plane x (bits of ExtraPlane)          bit 24   finished radiance, or its codes
+//   bit 18 + x    extra plane x (bits of ExtraPlane)
+//   bit 24        finished radiance, or its codes
+//
 // Threads: pure functions.
 #pragma once
 

@@ -1,16 +1,16 @@
-// tls.h: TLS 1.3 with a pre-shared key as a machine without a socket: encrypted bytes in and out,
+// tls.h: TLS 1.3 with a pre-shared key, as a machine without a socket: encrypted bytes in and out,
 // plain bytes in and out. Internal to the connection.
 //
-// There are no certificates: both sides know a 32-byte key. What TLS is given is derived from it,
+// There are no certificates: both sides know a 32-byte key. TLS gets a key derived from it,
 //
-//   psk = HKDF-SHA256(key, info = "ninefold 1: client dials, master listens: " use)     use =
-//   "local" | "cluster"
+//   psk = HKDF-SHA256(key, info = "ninefold 1: client dials, master listens: " use)
+//   use = "local" | "cluster"
 //
 // so that a key works in one role and for one use only. The key exchange is always ephemeral
-// (psk_dhe_ke, X25519 or P-256): recorded traffic stays closed if the key is lost later. Neither
-// tickets, early data, renegotiation nor older versions are allowed. Sources: RFC 8446 (TLS 1.3),
-// RFC 5869 (HKDF), RFC 9257 (external PSKs: bind roles). Errors: TlsError. Threads: a session
-// belongs to one thread; contexts are shared read-only.
+// (psk_dhe_ke, X25519 or P-256): recorded traffic stays closed if the key is lost later. Tickets,
+// early data, renegotiation and older versions are off.
+// Sources: RFC 8446 (TLS 1.3), RFC 5869 (HKDF), RFC 9257 (external PSKs: bind roles).
+// Errors: TlsError.   Threads: a session belongs to one thread; contexts are shared read-only.
 #pragma once
 
 #include <memory>

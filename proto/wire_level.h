@@ -2,10 +2,12 @@
 //
 //   share = (b / B) / (t / T)
 //
-// is how long the line takes for an uncompressed result of b bytes at B bytes a second, over the
-// time from one result to the next of T threads that take t each; b and t as moving averages. Below
-// kIdle the line has nothing to gain; above 1 it is what the client waits for, and processor time is
-// free. What a result decodes to does not depend on the level.
+//   b   bytes of an uncompressed result, a moving average       B   what the line takes [bytes/s]
+//   t   one thread's time for a result, a moving average [s]    T   threads
+//
+// The line needs b/B for a result, and t/T passes from one result to the next. Below kIdle the line
+// has nothing to gain. Above 1 the client waits for the line, and processor time is free. What a
+// result decodes to does not depend on the level.
 //
 // Proved: tests/proto/wire_level_test.cpp.   Threads: plain value.
 #pragma once

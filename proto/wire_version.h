@@ -1,12 +1,12 @@
-// wire_version.h: the number of the language that master and clients speak, and how its change is noticed.
+// wire_version.h: the number of the language that master and clients speak, and how its change is
+// noticed.
 //
-// A cluster is one release, so that another number is another release, too; the number says to people which
-// of both is older. tests/proto/wire_version_test.cpp compares what is spoken with the digests here:
-//   messages   the text of messages.proto without comments and spaces, and the names of all settings
+// A cluster is one release, so another number always means another release. The number tells people
+// which of two is older. tests/proto/wire_version_test.cpp compares what is spoken with the digests
+// here, each the beginning of a SHA-256:
+//   messages   the text of messages.proto without comments and spaces, and the settings' names
 //   tiles      stored tiles of all layers and planes, of radiance and of a display's codes
 //   scenes     the raw blobs of a scene with one of everything
-//
-// Each is the beginning of a SHA-256.
 #pragma once
 
 #include <cstdint>

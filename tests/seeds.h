@@ -4,8 +4,9 @@
 //     const Repeatable repeatable(seed);
 //     ...
 //
-// NINEFOLD_TEST_SEED=17 makes 17 the only seed, of all randomized tests that are run. While a Repeatable
-// lives, a failure says the command that repeats it, and so does an abort (NINEFOLD_CHECK).
+// NINEFOLD_TEST_SEED=17 makes 17 the only seed, of all randomized tests that are run. While a
+// Repeatable lives, a failure says the command that repeats it, and so does an abort
+// (NINEFOLD_CHECK).
 // Threads: one Repeatable at a time, in the test's own thread.
 #pragma once
 

@@ -1,5 +1,6 @@
 // command.h: what the command lines of all tools have in common: words and flags, --help,
-// --version, the exit status. Errors: UsageError in one line. Threads: main.
+// --version, the exit status.
+// Errors: UsageError in one line.   Threads: main.
 #pragma once
 
 #include <boost/program_options.hpp>

@@ -1,6 +1,7 @@
-// recorded_run.h: a task of a recording: how it was asked for, in which state of the scene, and what came of
-// it. The messages are followed as a client follows them (client/session.h): a job sees all edits before it.
-// Threads: plain values. Errors: Error that names what is not there.
+// recorded_run.h: a task of a recording: how it was asked for, in which state of the scene, and
+// what came of it. Messages are followed as a client follows them (client/session.h): a job sees
+// all edits before it.
+// Threads: plain values.   Errors: Error that names what is not there.
 #pragma once
 
 #include <map>

@@ -1,12 +1,11 @@
-// ninefold-replay-client --master ADDR:PORT --key-file FILE --recording FILE [options]: clients that
-// trace nothing: they answer each task with the result that a real client gave (its --record).
+// ninefold-replay-client --master ADDR:PORT --key-file FILE --recording FILE [options]: clients
+// that trace nothing. They answer each task with the result that a real client gave (its --record).
 //
 // They load the master and the network as real clients do, at any number, without a core for each.
-// With --pace recorded an answer takes as long as it took when recorded, light sets included: the
-// first task of each light set of a frame takes so much longer as it did on average in the
-// recording; --slower makes all of it so many times as long, so that many clients need little of the
-// machine that they share with the master. Recorded frames repeat. One thread serves all of them.
-// Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
+// With --pace recorded an answer takes the recorded time; the first task of each light set of a
+// frame takes longer, by what light sets took in the mean. --slower F makes all times F times as
+// long, so that the clients leave the machine to the master. Recorded frames repeat. One thread
+// serves all. Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
 
 #include <map>
 #include <set>

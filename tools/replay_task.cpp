@@ -1,9 +1,10 @@
-// ninefold-replay-task SCENE --frame F --tile T --phase P [options]: one task of a run once more, alone in
-// one thread of one process: for a debugger, and for whoever looks for where a value came from.
+// ninefold-replay-task SCENE --frame F --tile T --phase P [options]: one task of a run once more,
+// alone in one thread of one process: for a debugger, and to find where a value came from.
 //
-//   --recording FILE   as a real client was asked for it (ninefold-client --record FILE): edits and gestures
-//                      included, to the bit; what it gave then is held against what comes now
-//   else               by the flags of ninefold-master, as its headless run or a client's replay line has them
+//   --recording FILE   as a real client was asked for it (ninefold-client --record FILE), to the
+//                      bit, edits and gestures included; its result then is compared with this one
+//   else               by the flags of ninefold-master, as its headless run or a client's replay
+//                      line has them
 //
 // Prints what it is, a hash of the decoded tile, values that were no light, and times.
 // Exit status: 0 done, 1 a failure, or another result than the recorded one, 2 wrong usage.

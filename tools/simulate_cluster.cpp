@@ -1,9 +1,9 @@
 // ninefold-simulate-cluster [options]: the master's scheduler with simulated clients under a
 // simulated clock: how well any number of them is used, without having them.
 //
-// Mixed clients have 1 to 8 threads, speeds from 1/4 to 4 and one-way latencies from 0.05 to 1.6 ms.
-// With --fail-every S one client dies every S seconds, every other time silently (its line is cut, so
-// that only the missing heartbeat tells), and comes back as a new client 5 s later. With
+// Mixed clients have 1 to 8 threads, speeds from 1/4 to 4 and one-way latencies from 0.05 to 1.6
+// ms. With --fail-every S one client dies every S seconds, every other time silently (its line is
+// cut, so that only the missing heartbeat tells), and comes back as a new client 5 s later. With
 // --straggle-every S one client stands still for 2 s every S seconds. Which ones follows from the
 // seed: equal options give equal results. Writes one JSON object.
 // Exit status: 0 done, 1 frames were not completed, 2 wrong usage.

@@ -2,13 +2,12 @@
 // deaths and pauses, played as discrete events in simulated time around the real Scheduler.
 // Deterministic, so that efficiency is a number that a test may insist on.
 //
-// A client works through its tasks in the order in which they came, one for each thread; it makes a
-// light set the first time that it meets one of a randomization; at rest its results wait for each
-// other as client/result_group.h says. A frozen client does nothing, its
-// messages wait; one that sticks goes on with its heartbeat; a dead one is noticed when its
-// connection closes (after the line's latency), or, if its line was cut, when its heartbeat has
-// been missing for kHeartbeatLost.
-// Threads: none. Errors: CHECKs what the scheduler promises.
+// A client works through its tasks as they came, one on each thread. It makes a light set when it
+// first meets one of a randomization. At rest its results wait for each other as
+// client/result_group.h says. A frozen client does nothing, and its messages wait. One that sticks
+// goes on with its heartbeat. A dead one is noticed when its connection closes (after the line's
+// latency), or, if its line was cut, when its heartbeat has been missing for kHeartbeatLost.
+// Threads: none.   Errors: CHECKs what the scheduler promises.
 #pragma once
 
 #include <algorithm>

@@ -1,12 +1,13 @@
-// The pixel class by doing: renders a room with every kind of estimator in it and hashes the
-// result. Any difference in arithmetic, traversal or library that can reach a picture shows in the
-// hash.
+// The pixel class by doing: renders a room with every kind of estimator in it by every method and
+// hashes the result. Any difference in arithmetic, traversal or library that can reach a picture
+// shows in the hash.
 #include <bit>
 
 #include <fmt/core.h>
 
 #include "common/gi/renderer.h"
 #include "common/sampling/sampler.h"
+#include "common/scene/methods.h"
 
 namespace ninefold {
 namespace {
@@ -86,6 +87,19 @@ uint64_t addTile(uint64_t hash, const TileResult& tile) {
   return hash;
 }
 
+uint64_t addPicture(uint64_t hash, const Tracer& tracer, const Settings& settings) {
+  const Renderer renderer(tracer, settings);
+  const auto scratch = renderer.makeScratch();
+  const FrameKey frame{0, 0, 0, 0.1f};
+  TileResult tile;
+  for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
+    const auto lights = renderer.light(frame, phase);
+    renderer.render(Task{frame, 0, phase, 0}, *lights, *scratch, tile);
+    hash = addTile(hash, tile);
+  }
+  return hash;
+}
+
 }  // namespace
 
 std::string probeClass(Isa isa) {
@@ -94,15 +108,10 @@ std::string probeClass(Isa isa) {
   Settings settings;
   settings.width = 48, settings.height = 36, settings.interleave = {2, 1}, settings.photons = 200;
   settings.camera = scene.cameras.front();
-  const Renderer renderer(tracer, settings);
-  const auto scratch = renderer.makeScratch();
-  const FrameKey frame{0, 0, 0, 0.1f};
   uint64_t hash = 0;
-  TileResult tile;
-  for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
-    const auto lights = renderer.light(frame, phase);
-    renderer.render(Task{frame, 0, phase, 0}, *lights, *scratch, tile);
-    hash = addTile(hash, tile);
+  for (const MethodFacts& facts : allMethods()) {
+    settings.method = facts.method;
+    hash = addPicture(hash, tracer, settings);
   }
   return fmt::format("{:016x}", hash);
 }

@@ -2,7 +2,8 @@
 // row of facts for each. Master, wire, options, stats, panel, report and help read the row, so that
 // none of them asks which method it is. What a method computes lies in common/gi.
 //
-// A new method is a value of Method (settings.h) and a row of the table in methods.cpp.
+// A new method is a value of Method (settings.h) and a row of the table in methods.cpp: see
+// docs/adding-a-method.md.
 // Threads: constant data, pure functions.   Errors: none.
 #pragma once
 

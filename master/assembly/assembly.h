@@ -1,17 +1,17 @@
 // assembly.h: from results to finished frames, off the network thread, on all cores. Workers unpack
-// each result as it comes, and finish a tile (filter, film) as soon as all around it is there, while
-// its data is in their cache; frames leave in the order of their index.
+// each result as it comes. They finish a tile (filter, film) as soon as all around it is there,
+// while its data is in their cache. Frames leave in the order of their index.
 //
-//   network thread: open, take      workers: unpack, answer, finish      film's thread: next, release
+//   network thread: open, take     workers: unpack, answer, finish     film's thread: next, release
 //
-// Only one frame is being finished at a time, and the film's thread may look at what came of it
-// between next and release; results of later frames are unpacked meanwhile and wait, in about as
-// many bytes as they travelled in. hasRoom bounds the frames and these bytes, so that a slow film
-// slows the cluster down instead of filling memory. The queue holds every copy of every task that
-// may be on its way, so it is full only if a peer sends more than it was asked for. A second copy of
-// a result that is there is dropped. What is where stands in assembly_books.h.
+// One frame is finished at a time; the film's thread looks at what came of it between next and
+// release. Results of later frames are unpacked meanwhile and wait, in about as many bytes as they
+// travelled in. hasRoom bounds the frames and these bytes: a slow film slows the cluster down
+// instead of filling memory. The queue has room for every copy of every task that may be on its
+// way, so it is full only if a peer sends more than it was asked for. A second copy of a result is
+// dropped. assembly_books.h knows what is where.
 //
-// Threads: as said; each function from any thread. Owner: joins its workers when destroyed.
+// Threads: as said; each function from any thread.   Owner: joins its workers when destroyed.
 // Errors: a result that cannot be unpacked is answered with the reason.
 #pragma once
 
@@ -41,7 +41,7 @@ struct FrameView {
   FrameKey key;
   FrameShape shape;
   Camera camera;
-  float neighbourWeight = 1;  // of the filter
+  float neighbourWeight = 1;  // of the filter, in [0, 1]
 };
 
 // The results of a frame; those that a tile needs are there while it is finished.
@@ -58,15 +58,15 @@ class Assembly {
  public:
   static constexpr int kMostFrames = 16;
   static constexpr int kLeastFrames = 2;  // one fills while the other is finished
-  // Of results that wait. No further frame is opened if all that are open would bring more, were they like
-  // the one that was finished last; kLeastFrames always.
+  // Of results that wait: no further frame is opened if the open ones, each as large as the one
+  // finished last, would bring more. kLeastFrames are opened always.
   static constexpr size_t kMostBytes = 96 << 20;
 
   // Called on a worker's thread for each result that was taken.
   using Answer =
       std::function<void(ReceivedTile&& tile, const std::optional<std::string>& malformed)>;
-  // Called on worker `worker` for each tile: all of one frame, at once for different tiles, before
-  // the first of the next.
+  // Called on worker `worker` (0..workers-1) for each tile (0..TileGrid::tiles()-1): all of one
+  // frame, at once for different tiles, before the first of the next.
   using Finish = std::function<void(int worker, const GatheredFrame& frame, int tile)>;
 
   Assembly(int workers, Answer answer, Finish finish);
@@ -77,8 +77,8 @@ class Assembly {
   bool hasRoom() const;              // for one more frame
   void open(const FrameView& view);  // needs room
   bool take(ReceivedTile& tile);     // false when the queue is full
-  // No frame before `firstWanted` is wanted any more. Waits for tiles that are being finished; a frame
-  // that was given out stays until its release, and none is finished before.
+  // No frame before `firstWanted` is wanted any more. Waits for tiles that are being finished; a
+  // frame that was given out stays until its release, and none is finished before.
   void supersede(uint32_t firstWanted);
 
   struct Complete {
@@ -103,8 +103,9 @@ class Assembly {
     Time lastResult, finished;
   };
 
-  // A result between the queue and its frame. Workers take several at once: a look at the processor's clock,
-  // a turn at the lock and a wake-up for each would cost as much as the results themselves.
+  // A result between the queue and its frame. Workers take several at once: a look at the
+  // processor's clock, a turn at the lock and a wake-up for each would cost as much as the results
+  // themselves.
   struct Unpacking {
     ReceivedTile tile;
     std::optional<TileShape> shape;  // nothing: nobody wants it any more

@@ -3,13 +3,13 @@
 //
 //   open -> place (each task once) -> nextTile ... tileDone -> ... -> isDone -> close
 //
-// A tile can be finished when all results of it and of the tiles around it are there: the filter
-// looks across its border. If tiles come filtered, each can be finished by itself. Only the *front* frame's tiles are handed out, the open frame of the
-// smallest number, so that the film gets frames in their order and can be looked at between two of
-// them; later frames gather their results meanwhile.
-// A result is no longer needed once its tile and those around it are done.
+// A tile can be finished when all results of it and of the tiles around it are there, for the
+// filter looks across its border; a tile that comes filtered needs no other. Only tiles of the
+// *front* frame, the open one of the smallest number, are handed out: the film gets frames in their
+// order and can be looked at between two of them. Later frames gather their results meanwhile. A
+// result is dropped once its tile and those around it are done.
 //
-// Threads: none; one owner. Errors: only broken assumptions of the caller (CHECK).
+// Threads: none; one owner.   Errors: only broken assumptions of the caller (CHECK).
 #pragma once
 
 #include <cstdint>

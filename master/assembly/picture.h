@@ -33,7 +33,7 @@ class PictureMaker {
   };
   explicit PictureMaker(const Setup& setup);
 
-  // Puts a tile of the next frame onto the film; the results of it and of those around it are there.
+  // Puts a tile of the next frame onto the film. Its results and those around it must be there.
   void finishTile(int worker, const GatheredFrame& frame, int tile);
   void frameDone();  // all tiles of a frame were finished
 

@@ -1,8 +1,8 @@
 // rest_film.h: the film of a live picture at rest. A frame may be given up half done and begun anew
-// (live_plan.h): as both are the same estimate, tiles that it has already keep theirs, and none
+// (live_plan.h). Both are the same estimate, so the tiles that the film has already stay, and none
 // counts twice.
 //
-// Threads: addTile for different tiles at once, else one at a time. Errors: none.
+// Threads: addTile for different tiles at once, else one at a time.   Errors: none.
 // Proved: tests/master/live_picture_test.cpp.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace ninefold {
 
 class RestFilm {
  public:
-  // A frame begins; isFirst: of a new picture.
+  // A frame begins. isFirst: it is the first of a new picture.
   void begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst);
   void addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
   void frameDone();

@@ -6,11 +6,12 @@
 //   sets                    which light set a pixel met
 //   error                   standard error of the mean so far, over the mean
 //   clients                 who rendered what
-//   weights                 what share of its window the discontinuity buffer averaged, diffuse layer;
-//                           only the pixel itself where light is not filtered
+//   weights                 the share of its window that the discontinuity buffer averaged, in the
+//                           diffuse layer; only the pixel itself where light is not filtered
 //
 // A view asks for just the planes that it needs, and for the settings that leave only its part of
-// the light. Threads: pure functions. Errors: none.
+// the light.
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include <array>
@@ -45,8 +46,8 @@ inline constexpr std::array kViewNames{"beauty", "albedo",   "normal",   "depth"
 inline const char* nameOf(PictureView view) { return kViewNames[static_cast<size_t>(view)]; }
 std::optional<PictureView> viewNamed(const std::string& name);
 
-// Number keys in their order on the keyboard, 1 .. 9, 0, are the first ten views; with Shift, from 1 on, those
-// beyond. Nothing where there are no more.
+// The view of a number key: 1 .. 9, 0 are the first ten, Shift+1 .. those beyond. Nothing if there
+// is none.
 std::optional<PictureView> viewOfKey(int digit, bool shift);
 std::string keyOf(PictureView view);  // "7", "Shift+1"
 
@@ -65,8 +66,8 @@ inline bool isPainted(PictureView view) { return !isLight(view) && view != Pictu
 // Where its colours are codes and not light, so that exposure must leave them alone.
 bool isFalseColor(PictureView view);
 
-// Replaces the tile's beauty, just composed by `filter`, by the view's colours. `depthScale` [m]: what is shown white.
-// `owners`: by phase, the number of the client that rendered it; may be null.
+// Replaces the tile's beauty, just composed by `filter`, by the view's colours. `depthScale` [m]:
+// what is shown white. `owners`: by phase, the number of the client that rendered it; may be null.
 void paint(PictureView view, const Patch& patch, const PatchFilter& filter, float neighbourWeight,
            uint32_t rotation, float depthScale, const uint32_t* owners, RgbImage& beauty);
 

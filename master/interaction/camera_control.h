@@ -6,8 +6,8 @@
 //   pan     eye and pivot slide along the picture's plane
 //   dolly   the eye moves towards the pivot and never reaches it
 //
-// Frame-rate independent to the bit: the time for which keys are held is summed in whole nanoseconds
-// since the last event, so that any splitting of it gives the same camera.
+// Frame-rate independent to the bit: the time for which keys are held is summed in whole
+// nanoseconds since the last event, so that any splitting of it gives the same camera.
 //
 // Threads: plain value. Errors: none; steps that are not finite are ignored.
 // Proved: tests/master/camera_control_test.cpp.

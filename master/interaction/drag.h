@@ -1,13 +1,13 @@
-// drag.h: from where the pointer is to where a thing goes: motions bound to a plane or an axis through
-// the point that was grabbed. Pure.
+// drag.h: from where the pointer is to where a thing goes: motions bound to a plane or an axis
+// through the point that was grabbed. Pure.
 //
 //   ground              in the horizontal plane through the grabbed point
 //   vertical, alongY    up and down        alongX, alongZ    along that axis
 //   turn                about the vertical through `centre`: kTurn radians for a picture's height
 //
-// The point under the pointer follows it as far as the bound allows. A ray that meets its plane behind
-// the eye, or almost along it, leaves the motion as it was.
-// Threads: plain value. Errors: none. Proved: tests/master/drag_test.cpp.
+// The grabbed point follows the pointer as far as the bound allows. A pointer's ray that meets the
+// plane behind the eye, or almost along it, leaves the motion as it was.
+// Threads: plain value.   Errors: none.   Proved: tests/master/drag_test.cpp.
 #pragma once
 
 #include "common/math/camera.h"
@@ -20,8 +20,8 @@ class Drag {
  public:
   static constexpr double kTurn = 3.0;  // [rad]
 
-  // `grabbed` and `centre` [m]; `pointer` in pixels of a picture of `height`; `before`: the motion that
-  // the thing had when it was grabbed.
+  // `grabbed`, `centre`: in world space [m]. `pointer`: in pixels of the picture, from its upper
+  // left corner. `before`: the thing's motion when it was grabbed.
   Drag(DragMode mode, Vec3 grabbed, Vec3 centre, Vec2 pointer, const DMat4& before)
       : mode_(mode),
         grabbed_(grabbed),

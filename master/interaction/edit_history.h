@@ -1,8 +1,8 @@
 // edit_history.h: all edits of a session, with undo and redo. A pure value.
 //
-// An action is what one undo takes back: a whole drag, a turned slider. Edits of the same action, as
-// its number tells, are one.
-// Threads: plain value. Errors: none. Proved: tests/master/edit_history_test.cpp.
+// An action is what one undo takes back: a whole drag, a turned slider. It has a number; edits with
+// the same number are one action.
+// Threads: plain value.   Errors: none.   Proved: tests/master/edit_history_test.cpp.
 #pragma once
 
 #include <memory>

@@ -1,7 +1,8 @@
 // save_target.h: into which file an edited scene goes: asked once, then always the same. A file
-// that is there already, the scene that was read above all, is written over only when the same name
-// is given twice.
-// Threads: plain value; looks at the disk. Errors: none. Proved: tests/master/save_target_test.cpp.
+// that is there already, above all the scene that was read, is overwritten only if its name is
+// given twice.
+// Threads: plain value; looks at the disk.   Errors: none.
+// Proved: tests/master/save_target_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// window_events.h: what a person did at the window, as plain values in the order in which it happened.
+// window_events.h: what a person did at the window, as plain values in the order of time.
 #pragma once
 
 #include <cstdint>

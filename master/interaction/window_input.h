@@ -1,15 +1,16 @@
-// window_input.h: what a person's keys and pointer mean: events in; camera moved, commands out. Pure.
+// window_input.h: what keys and pointer mean: events go in; the camera moves, commands come out.
+// Pure.
 //
-// Which key does what stands in window_keys.h; the pointer's buttons:
+// window_keys.h says which key does what; the pointer's buttons:
 //
 //   right button       look around     middle button: orbit about the pivot; with Shift: pan
 //   left button        a click selects, a drag moves what is selected
 //   wheel              flying speed; with Control: towards the pivot
 //
-// A click is where the button went down; how far the pointer was by the time it came up is a drag,
-// or nothing.
+// A click or a drag begins where the button went down. How far the pointer was when it came up
+// decides which of them it was.
 //
-// Threads: plain value. Proved: tests/master/window_input_test.cpp.
+// Threads: plain value.   Proved: tests/master/window_input_test.cpp.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,7 @@
-// window_layout.h: where picture and panel lie in the window, and how large it opens. Pure. All
-// lengths in screen units, from the upper left corner, y downwards.
-// Threads: pure functions. Errors: none. Proved: tests/master/window_layout_test.cpp.
+// window_layout.h: where picture and panel lie in the window, and how large it opens. Pure.
+//
+// All lengths are in screen units, from the upper left corner, y downwards.
+// Threads: pure functions.   Errors: none.   Proved: tests/master/window_layout_test.cpp.
 #pragma once
 
 #include "common/math/vec.h"

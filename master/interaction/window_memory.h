@@ -1,8 +1,10 @@
 // window_memory.h: what the window remembers from one session to the next, for each user: lines
 // "name number" in $XDG_CONFIG_HOME/ninefold/window (else $HOME/.config/ninefold/window).
 //
-// Threads: one at a time. Errors: none; what cannot be read is forgotten, and where nothing can be
-// written nothing is remembered. Proved: tests/master/window_layout_test.cpp.
+// Threads: one at a time.
+// Errors: none; what cannot be read is forgotten, and where nothing can be written nothing is
+// remembered.
+// Proved: tests/master/window_layout_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -1,8 +1,9 @@
 // script.h: a session written down: camera paths and edits over time, as docs/script.md describes.
 // Pure: a time goes in, the camera and all edits up to then come out.
 //
-// Errors: parseScript throws Error naming file, event and field; also for names that the scene lacks.
-// Threads: plain value. Proved: tests/master/script_test.cpp.
+// Errors: parseScript throws Error that names file, event and field, also for a name that the scene
+// lacks.
+// Threads: plain value.   Proved: tests/master/script_test.cpp.
 #pragma once
 
 #include <optional>

@@ -68,7 +68,8 @@ void read(const RawOptions& raw, const Setting<Enum>& row, Enum& to) {
   if (const auto place = raw.choice(row.name, namesOf(to))) to = static_cast<Enum>(*place);
 }
 
-// Calls use(row) for each setting that is a flag. Neither the camera nor what is on or off has a form of one word.
+// Calls use(row) for each setting that a flag with one word can say: neither the camera nor a
+// switch.
 template <typename Use>
 void forEachFlag(const Use& use) {
   forEachSetting([&]<typename T>(const Setting<T>& row) {

@@ -1,6 +1,6 @@
-// settings_flags.h: the settings that have a flag of their own, as settings_table.h lists them: texts
-// for --help, and values from what was written.
-// Threads: pure. Errors: UsageError with one line that names the flag.
+// settings_flags.h: the settings of settings_table.h as flags: texts for --help, and values from
+// what was written.
+// Threads: pure.   Errors: UsageError with one line that names the flag.
 #pragma once
 
 #include <string>

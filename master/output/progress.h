@@ -1,8 +1,9 @@
 // progress.h: how far a run is, in words. Pure: it is told the time and gives the text to print on
 // stderr, or nothing when it is not yet time again.
 //
-//   terminal     one line that is drawn over and over:  [#####.......]  42%  frame 27 of 64  eta 12
-//   s otherwise    lines that programs can read:          progress: 42% frame 27 of 64 eta 12 s
+//   terminal    one line, drawn over and over:      [#####.......]  42%  frame 27 of 64  eta 12 s
+//   otherwise   lines that programs can read:       progress: 42% frame 27 of 64 eta 12 s
+//
 // Threads: plain value.
 #pragma once
 

@@ -1,5 +1,5 @@
 // stats.h: what --stats writes: one JSON object about a run. The names of its keys are part of the
-// outside interface (DESIGN §4); each field says which it becomes.
+// outside interface; each field says which it becomes.
 //
 // Threads: plain value. Errors: writeStats throws Error that names the file.
 #pragma once

@@ -3,10 +3,11 @@
 //
 //   duty.nextWork -> cluster -> tiles -> assembly -> duty.finishTile -> next
 //
-// Threads: nextWork, tileCame and giveUp are called on the network thread, finishTile on a worker's;
-// everything else from any thread. Owner: the run; ends all its threads when destroyed.
-// Errors: the constructor throws Error (cannot listen, bad key); cluster().failure() tells what ends
-// the run later.
+// Threads: nextWork, tileCame and giveUp are called on the network thread, finishTile on a
+// worker's; everything else from any thread.
+// Owner: the run; ends all its threads when destroyed.
+// Errors: the constructor throws Error (cannot listen, bad key); cluster().failure() tells what
+// ends the run later.
 #pragma once
 
 #include "master/assembly/assembly.h"
@@ -31,11 +32,11 @@ class FrameMachine {
   FrameMachine(const Options& options, const Listener::Keys& keys, JobOffer& offer, FrameDuty duty);
   ~FrameMachine();
 
-  static int workers();  // of finishTile, on all cores
+  static int workers();  // threads that call finishTile: one for each core
   // Says where clients may join, and begins.
   void start();
 
-  // A frame of this shape will come, by nextWork.
+  // Prepares for a frame of this shape, which nextWork gives afterwards.
   void open(const FrameOrder& order, const FrameShape& shape);
   // No frame before `firstWanted` is wanted any more.
   void supersede(uint32_t firstWanted);

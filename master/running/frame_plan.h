@@ -1,20 +1,21 @@
 // frame_plan.h: the keys of a run's frames while the picture rests. Pure.
 //
-// Frame i (counted from 1) has randomization and rotation i - 1, so that every pixel meets every
-// light set, frames have light of their own, and
+// Frame i (counted from 1) has randomization and rotation i - 1: every pixel meets every light set,
+// and frames have light of their own. F R is the photon radius that was set, R the scene's radius,
+// K the number of light sets:
 //
 //     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 2/3       photon radius [m]
 //     frames i take 2^(1/4) r(i) and 2^(-1/4) r(i) by turns, so that the film sees its bias
 //                                                                        (image/radius_bias.h)
 //     w(i) = min(1, K / i)                                               weight of neighbours
 //
-// so that the film's mean tends to the true picture. The first K frames filter fully: until then a
-// pixel has not met all K sets by itself. What falls faster is nearer to the truth at the edges of
-// caustics, but shows the pattern of the sets' noise for some hundred frames (docs/performance.md).
-// The paper's own pipeline keeps r and w = 1 fixed.
+// Both biases die out, so that the film's mean tends to the true picture. The first K frames filter
+// fully, for until then a pixel has not met all K sets by itself. A faster fall would be nearer to
+// the truth at the edges of caustics, but shows the pattern of the sets' noise for some hundred
+// frames (docs/performance.md). The paper's own pipeline keeps r and w = 1 fixed.
 //
 // With a = 2/3 noise and blur of a smooth E fall alike, as i^(-2/3) of the squared error; rims,
-// which blur more slowly, are the narrower photons' part (gi/photon_spread.h).
+// which blur more slowly, are the narrower photons' part (gi/photons/photon_spread.h).
 //
 // Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", 2011 (r, a).
 // Proved: tests/master/frame_plan_test.cpp.   Threads: plain value.

@@ -13,9 +13,8 @@ namespace ninefold {
 // Whether the clients that the run waits for can come at all.
 void checkGuests(const Options& options);
 
-// Where others reach a master that listens on all interfaces (0.0.0.0, or :: for both kinds): the
-// addresses of those that are up, without loopback and without IPv6 addresses that count on one
-// link only.
+// Addresses at which others reach a master that listens on all interfaces (0.0.0.0, or :: for IPv6
+// as well): those of interfaces that are up, without loopback and link-local IPv6.
 std::vector<std::string> addressesBehind(const std::string& anyAddress);
 
 // `addresses`: as of addressesBehind, if `at` is on all interfaces.

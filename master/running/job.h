@@ -1,6 +1,6 @@
-// job.h: what is to be rendered, made of the command line and the scene file: everything that the
-// run needs to know of the scene after it was packed for the clients. Errors: makeJob throws Error
-// (bad scene, no such camera). Threads: value.
+// job.h: what is to be rendered, made of the command line and the scene file. The run needs nothing
+// else of the scene once that is packed for the clients.
+// Errors: makeJob throws Error (bad scene, no such camera).   Threads: plain value.
 #pragma once
 
 #include <memory>

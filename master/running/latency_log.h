@@ -1,5 +1,5 @@
-// latency_log.h: what a person would feel of a session: for each frame that was seen, how long its
-// newest change took to get there. Written as docs/script.md describes. Value.
+// latency_log.h: what a person would feel of a session: for each frame that was seen, the time from
+// its newest change until it was there. Written as docs/script.md describes. Plain value.
 #pragma once
 
 #include <string>

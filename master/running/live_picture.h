@@ -1,14 +1,14 @@
-// live_picture.h: what a live session shows: tiles of a frame become a picture, in motion the frame
-// itself, at rest the mean of all frames since the rest began. A tile is filtered, summed up and tone
-// mapped in one go, while it is in the cache: after a frame's last tile nothing is left to be done.
+// live_picture.h: what a live session shows. Tiles become a picture: in motion the frame itself, at
+// rest the mean of all frames since the rest began. A tile is filtered, summed up and tone mapped
+// in one go, while it is in the cache; after a frame's last tile nothing is left to be done.
 //
-// At rest the light is summed up whatever is shown of it, so that it is there when it is looked at
-// again; what a view paints instead is summed up beside it, from when the view was chosen.
+// At rest the light is summed up whatever view is shown, so that it is there when it is looked at
+// again. A view that paints something else is summed up beside it, from when it was chosen.
 //
 // Threads: finishTile for different tiles and workers at once, all of one frame before the next's;
-// everything else between frames. Memory: a film, one more for a painted view, a history, a patch
-// for each worker, and as many images as somebody holds, and one: those that nobody holds any more
-// are filled again.
+// everything else between frames.
+// Memory: a film, one more for a painted view, a history, a patch for each worker, and one image
+// more than are held: an image that nobody holds any more is filled again.
 #pragma once
 
 #include <memory>

@@ -147,8 +147,8 @@ Settings LivePlan::settingsAt(const Quality& quality) const {
   if (!moving_) return s;
   // Light from lit surfaces through glass comes back at rest.
   if (s.caustics == Caustics::all) s.caustics = Caustics::direct;
-  // One film position a pixel makes no smooth edge: at random in the pixel, edges look torn and are
-  // further from the truth (tests/pipeline/walk_test.cpp).
+  // One film position a pixel makes no smooth edge anyway. At random in the pixel it makes edges
+  // torn, and further from the truth (tests/pipeline/walk_test.cpp).
   s.jitter = false;
   return s;
 }
@@ -158,8 +158,8 @@ std::optional<LiveFrame> LivePlan::completed(uint32_t frame, Time now) {
   if (found == open_.end()) return std::nullopt;
   const LiveFrame done = found->second.frame;
   open_.erase(found);
-  // All of the time since it was opened, the end of the frame before included. Frames that nobody
-  // waits for share the cluster with others: their time tells nothing.
+  // The time since it was opened, the end of the frame before included. Frames that nobody waits
+  // for share the cluster with others: their time tells nothing.
   if (done.order.urgent) quality_.took(done.quality, now - done.opened);
   return done;
 }

@@ -1,24 +1,24 @@
-// live_plan.h: which frames a session wants whose picture changes while it is looked at: changes and
-// the time go in, frames come out. Pure.
+// live_plan.h: which frames a session wants while its picture changes. Changes and the time go in,
+// frames come out. Pure.
 //
-//   rest     frames of full quality, one after another, as FramePlan says; the film sums them up,
+//   rest     Frames of full quality, one after another, as FramePlan says. The film sums them up,
 //            for ever or as many as a still is to have. If somebody may click, the first of them
-//            carries pick planes, which hold for all
-//   motion   from a change until nothing has changed for kSettle: one frame for each newest state,
-//            at motion_quality's step, with the random bits of the first frame, so that nothing
-//            flickers, through the middle of each pixel, caustics from lights alone; at most kInMotion
-//            of them are open. An edited scene is announced as moving, and once more when it rests:
-//            sample streams are frozen in between (gi/transport.h)
+//            carries pick planes, which hold for all.
+//   motion   From a change until nothing has changed for kSettle. Each newest state gets one frame,
+//            at motion_quality's step; at most kInMotion are open. So that nothing flickers they
+//            have the random bits of the first one, look through the middle of each pixel, and take
+//            caustics from lights alone. An edited scene is announced as moving, and once more when
+//            it rests: sample streams are frozen in between (gi/light/transport.h).
 //
-// The newest state wins: what changed while a frame was rendered is in the next one, and changes that
-// no frame was opened for are never rendered. A change at rest supersedes the open frames at once; in
-// motion the open frame is finished, else a hand that never rests would never see one.
+// The newest state wins. What changed while a frame was rendered is in the next one; changes that
+// no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
+// In motion the open frame is finished, else a hand that never rests would never see one.
 //
-// What only is looked at in another way (LiveState::look, its planes) rests on: open frames are
-// opened anew, with the new look, and the film keeps all that are complete. Whether pick planes are
-// wanted in motion is no change of the picture at all.
+// A change of look alone (LiveState::look, its planes) rests on: open frames are opened anew with
+// the new look, and the film keeps all that are complete. Pick planes in motion are no change at
+// all.
 //
-// Threads: plain value, one owner. Errors: none. Proved: tests/master/live_plan_test.cpp.
+// Threads: plain value, one owner.   Errors: none.   Proved: tests/master/live_plan_test.cpp.
 #pragma once
 
 #include <map>
@@ -53,7 +53,7 @@ struct LiveFrame {
   bool moving = false;
   uint32_t world = 0;         // counts changes of anything but the camera and the size
   int64_t rested = 0;         // frames at rest before this one: 0 begins the film anew
-  float neighbourWeight = 1;  // of the filter
+  float neighbourWeight = 1;  // of the filter, in [0, 1]
   Quality quality;
   Time changed{}, opened{};  // changed: when what it shows first for became known
 };
@@ -76,10 +76,11 @@ class LivePlan {
   LivePlan(const Setup& setup, Time now);
 
   const LiveState& state() const { return state_; }
-  // Nothing happens if it is what is shown already. Gives back the first frame that is still wanted
-  // if open ones are not.
+  // Does nothing if that is shown already. If open frames are not wanted any more, gives the first
+  // one that still is.
   std::optional<uint32_t> change(const LiveState& state, Time now);
-  // The open frames cannot be rendered any more: others are to show the same. The first of those.
+  // The open frames cannot be rendered any more, and others shall show the same. Gives the first of
+  // those.
   uint32_t giveUp();
   void setTarget(Duration target) { quality_.setTarget(target); }
   // Of frames that open from now on. No change of the picture. Frames with planes come as layers.

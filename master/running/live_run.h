@@ -1,16 +1,17 @@
-// live_run.h: a session with a cluster whose picture changes while it is looked at: the same clients,
-// scheduler and assembly as a headless run's, fed by a LivePlan.
+// live_run.h: a session whose picture changes while it is looked at. Clients, scheduler and
+// assembly are those of a headless run; a LivePlan says which frames they make.
 //
 //   any thread: change, edit, shown      network thread: opens frames      workers: finish tiles
 //   picture thread: sums frames up, publishes what is to be seen
 //
-// If clients filter, they do so for views of light (isLight), in tiles that are not too large;
-// other frames, and those with pick planes, come as layers. A frame that is not summed up (in
-// motion, or a still of one frame) comes as codes if nobody wants its radiance. What clients have
-// filtered has no E any more, so that light is not used again in it (irradiance_history.h).
+// If clients filter (--filter-at), they do so for views of light (isLight), in tiles that are not
+// too large. Other frames, and those with pick planes, come as layers. A frame that is not summed
+// up (in motion, or a still of one frame) comes as codes if nobody wants its radiance. What clients
+// have filtered has no E any more, so its light is not used again (irradiance_history.h).
 //
-// Threads: as said. Owner: the session; ends all its threads when destroyed.
-// Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run later.
+// Threads: as said.   Owner: the session; ends all its threads when destroyed.
+// Errors: the constructor throws Error (cannot listen, bad key); failure() tells what ends the run
+// later.
 #pragma once
 
 #include <functional>

@@ -13,8 +13,8 @@ constexpr std::array kLadder{Quality{0, 0}, Quality{1, 0}, Quality{2, 0}, Qualit
                              Quality{7, 1}, Quality{7, 2}, Quality{8, 2}, Quality{9, 2}};
 constexpr double kLearn = 0.4;   // weight of the latest frame
 constexpr double kMargin = 0.8;  // a better step must be predicted to need no more of the target
-// Of the target. A frame that took longer calls for a smaller one; so does one that took long if frames
-// do in the mean.
+// Shares of the target. A frame that took longer calls for a smaller one; so does a long frame if
+// frames are long in the mean.
 constexpr double kTooLate = 1.1, kTooLong = 0.9;
 constexpr int kPatience = 3;  // frames that must agree before the size grows
 

@@ -1,20 +1,21 @@
 // motion_quality.h: how good a frame may be while something moves, so that it is done within a
 // target time. Pure: durations in, steps out.
 //
-//   cost of a frame, relative to a full one    c(size, light) = s light + size^2 (e + (1 - e - s) light)
-//   size    width and height are multiplied by it      one of kSizes
-//   light   VPLs and photons are multiplied by it      one of kLights
-//   s = kSetShare   what making the light sets costs, whatever the size
-//   e = kEyeShare   what eye paths and filter cost beside the light, and shadow rays that thinning does
-//                   not save, because roulette has left them out already (gi/vpl_roulette.h)
+//   c(size, light) = s light + size^2 (e + (1 - e - s) light)    cost of a frame; of a full one 1
+//
+//   size    one of kSizes; width and height are multiplied by it
+//   light   one of kLights; the numbers of VPLs and photons are multiplied by it
+//   s = kSetShare   making the light sets, whatever the size
+//   e = kEyeShare   eye paths, the filter, and the shadow rays that thinning does not save because
+//                   roulette has left them out already (gi/vpl/vpl_roulette.h)
 //
 // The time of a full frame is learned from every frame that is timed. When a gesture begins, the
-// first entry of the ladder that is predicted to keep the target is taken: size falls to 5/16 before
-// the light is thinned, which saves little. The light then stays, so that nothing flickers, until the
-// gesture ends; size may still follow the clock: down at once when a frame is late, or long as
-// they are in the mean; up when three frames in a row say so.
+// first step is taken that is predicted to keep the target: size falls to 5/16 before the light is
+// thinned, which saves little. The light then stays until the gesture ends, so that nothing
+// flickers. The size still follows the clock: down at once, when a frame is late or frames are long
+// in the mean; up, when three frames in a row say so.
 //
-// Threads: plain value. Errors: none. Proved: tests/master/motion_quality_test.cpp.
+// Threads: plain value.   Errors: none.   Proved: tests/master/motion_quality_test.cpp.
 #pragma once
 
 #include <array>
@@ -61,7 +62,7 @@ class MotionQuality {
   int couldBeBetter_ = 0;  // frames in a row
 };
 
-// A number of VPLs or photons, or of pixels along a side, at a step: at least 1 of what there is.
+// count * factor for VPLs, photons, or pixels along a side: at least 1, if count is.
 int scaled(int count, double factor);
 
 }  // namespace ninefold

@@ -1,6 +1,6 @@
-// playback.h: a script against the clock of a window: it plays, pauses, and at its end stays, or begins
-// again and again. Pure.
-// Threads: plain value. Errors: as ScriptPlayer. Proved: tests/master/script_test.cpp.
+// playback.h: a script against the clock of a window. It plays and pauses; at its end it stays
+// there, or begins again. Pure.
+// Threads: plain value.   Errors: as ScriptPlayer.   Proved: tests/master/script_test.cpp.
 #pragma once
 
 #include <cmath>

@@ -1,7 +1,7 @@
-// script_player.h: plays a script for whoever shows it: a time goes in, what is different since the
-// last time comes out, so that only that travels, and what the script leaves alone is somebody else's.
-// Times may go back: what the script has not yet touched then is as it was read.
-// A pure value. Errors: Error if the script leads out of what a scene may be. Threads: one owner.
+// script_player.h: plays a script for whoever shows it. A time goes in, what has changed since the
+// last time comes out: only that travels, and what the script leaves alone is somebody else's.
+// Times may go back; what the script has not touched by then is as it was read. A pure value.
+// Errors: Error if the script leads out of what a scene may be.   Threads: one owner.
 #pragma once
 
 #include <memory>

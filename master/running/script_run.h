@@ -1,4 +1,4 @@
-// script_run.h: --script without a window: the session of a file, in real time or picture by picture.
+// script_run.h: --script without a window: in real time or picture by picture.
 // Errors: throws Error for what the user must know.
 #pragma once
 

@@ -1,8 +1,8 @@
 // frame_order.h: a frame that somebody wants: its key, and the job that it is of. Plain value.
 //
-// A job is a version of the settings (camera and size included) and of the form of results, on a version
-// of the scene; all are announced to the clients when the first frame opens that shows them. Versions and
-// frame numbers only ever grow, and a frame's job is never older than that of the frame before.
+// A job is one version of the settings (camera and size included), of the form of results, and of
+// the scene. All are announced to the clients when the first frame opens that shows them. Job
+// versions and frame numbers only grow; a frame's job is never older than that of the frame before.
 #pragma once
 
 #include "common/scene/edit.h"
@@ -21,7 +21,7 @@ struct FrameOrder {
   bool urgent = false;  // somebody waits for it (FrameKind)
   uint8_t extraMask = 0;
   Delivery delivery;          // of the job, too
-  float neighbourWeight = 1;  // of the filter
+  float neighbourWeight = 1;  // of the filter, in [0, 1]
 
   TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }
 };

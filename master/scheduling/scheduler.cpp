@@ -87,7 +87,8 @@ bool Scheduler::runsAhead() const {
   return static_cast<int>(nextFrame_ - frames_.begin()->first) >= needed + kAhead;
 }
 
-// Clients have credit beyond the sets that they go on with, for more sets than nobody is at work on.
+// Clients have credit left after the sets that they go on with, and want more new sets than there
+// are.
 bool Scheduler::wouldShare() const {
   if (frames_.empty() || frames_.rbegin()->second.sharesSets() || runsAhead()) return false;
   int untouched = 0;

@@ -1,36 +1,36 @@
-// scheduler.h: which client gets which task, and when. A pure value: it eats events and the time
-// and gives back actions; it knows no socket, thread or clock, so the master, the unit tests and a
-// simulated cluster of a thousand clients all run the same code.
+// scheduler.h: which client gets which task, and when. A pure value: events and the time go in,
+// actions come out. It knows no socket, thread or clock, so the master, the unit tests and a
+// simulated cluster of a thousand clients run the same code.
 //
 // Policies, each in one small function:
-//   order       in urgent frames oldest first; the next frame's tasks go out before this one's last
-//               are back
-//   light sets  a client goes on with light sets that it has. The next one is of the oldest frame that
-//               has one which nobody is at work on, and frames are opened so that there is one. In
-//               frames that are urgent or whose sets are free, and when the newest frame is kAhead further
-//               ahead than it takes to give each client a set of its own, clients share: the set with
-//               most tasks left per client at work on it, of the oldest frame
-//   credit      a client that holds less than `low` tasks is refilled up to `high`; both cover its
-//               round trip and the time that results wait for others at its learned speed
+//   order       Urgent frames: oldest first. The next frame's tasks go out before this one's last
+//               are back.
+//   light sets  A client goes on with a light set that it has. Its next one is a set that nobody
+//               works on, in the oldest frame that has one; wantsFrame() asks for frames so that
+//               one has. Clients share a set if a frame is urgent, if its sets are free, or if the
+//               newest frame runs too far ahead (by kAhead more than a set for each client takes):
+//               then they take the set with most tasks left per client at work on it, in the oldest
+//               frame.
+//   credit      A client that holds no more than `low` tasks is refilled up to `high`
 //               (scheduler_client.h). No queue ever grows.
-//   stragglers  nothing left to hand out: a client with credit gets a copy of a task that is late
-//               or that it would finish sooner. At most one copy; the first result wins. The other
-//               client's credit stays spent until its own result came.
-//   lost        tasks go back to the front of their queue at once
-//   suspect     a client that holds tasks and gives no result for too long: as lost, but its
-//               results stay welcome, and it gets one task on trial when it is heard of again
-//   stuck       a client at work on a task past its deadline (scheduler_client.h): as a suspect, but
-//               heartbeats do not help: it gets nothing until it gives a result. Actions::notes say so
+//   stragglers  When nothing is left to hand out, a client with credit gets a copy of a task that
+//               is late or that it would finish sooner. There is at most one copy; the first result
+//               wins. The other client's credit stays spent until its own result came.
+//   lost        Its tasks go back to the front of their queues at once.
+//   suspect     It holds tasks and gives no result for too long. As lost, but its results stay
+//               welcome, and it gets one task on trial when it is heard of again.
+//   stuck       It is at work on a task past its deadline. As a suspect, but heartbeats do not
+//               help: it gets nothing until it gives a result. Actions::notes tell.
 //
 // Use: after every event, and at least every 100 ms, open frames while wantsFrame() and there is
-// room for them, then call poll() and carry its actions out. (The other way round, poll would copy
-// tasks to clients for which a new frame has work.) Tell of pauses in which that could not be done.
-// A result is reported after its tile was decoded; a tile that cannot be decoded ends the
+// room for them; then call poll() and carry its actions out. (In the other order poll would copy
+// tasks to clients for which a new frame has work.) Call paused() after a time in which that was
+// not done. Report a result after its tile was decoded. A tile that cannot be decoded ends the
 // connection (clientLost), so its task is done again.
 //
-// Cost: an event O(log clients + log tasks), and for each task handed out O(frames log clients), or
-// O(frames K) when a client changes its light set; O(clients frames + tasks) when a frame opens or a view
-// changes. Deterministic: equal events give equal actions.
+// Cost: O(log clients + log tasks) for an event. O(frames log clients) for each task handed out, or
+// O(frames K) when the client changes its light set. O(clients frames + tasks) when a frame opens
+// or a view changes. Deterministic: equal events give equal actions.
 // Threads: none; one owner calls everything.
 // Errors: only broken assumptions of the caller (CHECK); whatever a peer sends is a Verdict.
 #pragma once
@@ -52,7 +52,7 @@ namespace ninefold {
 
 class Scheduler {
  public:
-  // A client is ready to render. Ids are never used twice. `sceneTime`: that it took to build the
+  // A client is ready to render. Ids are never used twice. `sceneTime`: how long it built the
   // scene.
   void clientJoined(ClientId client, int threads, Time now, Duration sceneTime = Duration(0));
   // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
@@ -62,8 +62,8 @@ class Scheduler {
   // A ping was answered.
   void roundTripMeasured(ClientId client, Duration roundTrip);
 
-  // Frames have ascending ids. Light sets of tasks: lightSetOfPhase(phase, key.rotation, sets).
-  // Tasks without pixels do not exist; of whole tiles, there is phase 0 alone.
+  // Frames have ascending ids. A task's light set is lightSetOfPhase(phase, key.rotation, sets).
+  // Tasks without pixels do not exist; whole tiles have phase 0 alone.
   void openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind = {});
   // All open frames before `firstWanted` are superseded.
   void viewChanged(uint32_t firstWanted, Time now);
@@ -76,8 +76,8 @@ class Scheduler {
 
   Actions poll(Time now);
 
-  // True while clients have credit that the open frames cannot use, or can use only by sharing light
-  // sets that need not be shared: time to open the next frame.
+  // Whether it is time to open the next frame: clients have credit that the open frames cannot use,
+  // or only by sharing light sets without need.
   bool wantsFrame() const;
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
   int openFrames() const { return static_cast<int>(frames_.size()); }
@@ -90,8 +90,8 @@ class Scheduler {
   std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
   // Why a task is where it is, in words.
   std::string explain(const TaskId& task, Time now) const;
-  // The open frames, each with the task that has been under way for longest; what a client is at, and
-  // waits for.
+  // The open frames, each with the task that has been under way for longest; and what a client
+  // works on and waits for.
   std::vector<std::string> explainFrames(Time now) const;
   std::string explainClient(ClientId client, Time now) const;
   // Aborts if the books do not balance. For tests: O(clients + tasks).

@@ -1,13 +1,14 @@
 // scheduler_client.h: what the scheduler knows of one client: the tasks that it holds, its learned
 // speed and its credit.
 //
-// Credit. With T threads, task time t (moving average of what it reports), round trip r, and w for
-// which a result waits for others (kResultsTogether; 0 while frames are urgent), a client works
-// without a pause if it holds T tasks to work on and T (r+w)/t more that are on their way:
+// Credit: how many tasks a client may hold, between two numbers,
 //     low = T + ceil(T (r+w)/t)      high = low + max(ceil(T/2), ceil(T w/t))
-// It is refilled up to high whenever it falls to low: two numbers, so that tasks travel in groups, as
-// results do. A group has at most kMaxGroup T, all together kMaxPerThread T: a frame waits for all that
-// its slowest client holds.
+//   T  threads      t  time of a task, a moving average of what it reports      r  round trip
+//   w  how long a result waits for others (kResultsTogether; 0 while frames are urgent)
+// T tasks are worked on, T (r+w)/t more are on their way: so a client never pauses. It is refilled
+// up to high whenever it falls to low: tasks travel in groups, as results do. A group has at most
+// kMaxGroup T tasks, all together kMaxPerThread T: a frame waits for all that its slowest client
+// holds.
 //
 // Trust. trusted --no result for silenceLimit()--> suspect --any result--> trusted;
 //        suspect --heard of, and holds nothing--> trial (one task) --result--> trusted,
@@ -15,16 +16,16 @@
 //
 // Stuck. A client works on the T oldest tasks that it holds; the deadline of such a task is
 //     begin + (r+w) + c + allowance(n)    n  rays that the task is expected to take (task_rays.h)
-//                                         c  time that it took to build the scene: after an edit, tasks
-//                                            wait for that again
+//                                         c  time that it took to build the scene: an edit may
+//                                            ask for that again
 //     allowance(n) = 10 s + 8 n (s+l)     s  longest time for a ray of late, over its results
 //                                         l  the same over those that made a light set
 //     allowance(n) = 30 s + n 0.1 ms      before its first result, some 300 times what rays take
-// s and l fall by 1/64 with each result of their kind. A result past its deadline counts as twice
-// what was allowed at most: a deadline that was too short doubles. Past a deadline the client is
-// stuck and suspect until a result leaves no task past its deadline. One whose tasks were all
-// withdrawn is tried with one task again, kRetryStuck later.
-// Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
+// s and l fall by 1/64 with each result of their kind. A result past its deadline counts as at most
+// twice what was allowed: a deadline that was too short doubles. A client past a deadline is stuck
+// and suspect, until a result leaves it no task past its deadline. If all its tasks were withdrawn,
+// it is tried with one task again kRetryStuck later.
+// Owner: Scheduler.   Threads: none.   Errors: NINEFOLD_CHECK only.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,5 @@
-// scheduler_explain.cpp: what is under way, in words: for whoever asks a running master what it waits for.
+// scheduler_explain.cpp: what is under way, in words: for whoever asks a running master what it
+// waits for.
 #include <fmt/core.h>
 
 #include "master/scheduling/scheduler.h"

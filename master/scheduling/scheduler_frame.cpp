@@ -57,8 +57,8 @@ int SchedulerFrame::untouchedSets() const {
   return static_cast<int>(std::ranges::count_if(queues_, &SetQueue::isUntouched));
 }
 
-// The one with most waiting tasks for each client at work on it, the newcomer included; in motion, of
-// those that it remembers from the frame before.
+// The set with most waiting tasks for each client at work on it, the newcomer included. In motion
+// the sets that it remembers from the frame before come first.
 int SchedulerFrame::setToShare(const SchedulerClient& client) const {
   std::optional<int> best;
   const auto consider = [&](int set) {

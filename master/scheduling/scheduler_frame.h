@@ -1,11 +1,12 @@
 // scheduler_frame.h: the books of one open frame: which task waits, which is in flight where, which
-// is done; one queue of waiting tasks for each light set; the tasks with a single holder by the
-// time when they are late.
+// is done. There is a queue of waiting tasks for each light set, and the tasks with a single holder
+// are sorted by the time when they are late.
 //
 // A task is  absent   (no pixels: the tile's corner of a small picture),
 //            waiting  (no active holder), active (>= 1 active holder) or done.
-// A holder is a client that was sent the task and has not answered; it is inactive while it is
-// suspect. Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
+// A holder is a client that was sent the task and has not answered. While it is suspect it is
+// inactive.
+// Owner: Scheduler.   Threads: none.   Errors: NINEFOLD_CHECK only.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
-// scheduler_pool.h: the clients that are present, in the four orders in which the scheduler asks
-// for them: by id, by who would finish one more task first, by whose silence ends first, by whose
-// deadline comes first.
+// scheduler_pool.h: the clients that are present, in the four orders that the scheduler asks for:
+// by id, by who would finish one more task first, by whose silence ends first, by whose deadline
+// comes first.
 //
 // Whoever changes a client calls update() for it before the next question.
-// Owner: Scheduler. Threads: none. Errors: NINEFOLD_CHECK only.
+// Owner: Scheduler.   Threads: none.   Errors: NINEFOLD_CHECK only.
 #pragma once
 
 #include <map>

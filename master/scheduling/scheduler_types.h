@@ -18,15 +18,15 @@ using ClientId = uint32_t;
 // Names one task on master, client and wire: the pixels of one phase in one tile of one frame.
 struct TaskId {
   uint32_t frame = 0;  // FrameKey::frame
-  int tile = 0;
-  int phase = 0;
+  int tile = 0;        // 0..TileGrid::tiles()-1
+  int phase = 0;       // 0..Interleave::sets()-1
   bool operator==(const TaskId&) const = default;
 };
 
 // How a frame is to be rendered.
 struct FrameKind {
-  // Of each tile there is phase 0 alone, which stands for all: whoever works on the frame makes all light
-  // sets, so that the frame counts as one set.
+  // A task is a whole tile, named by its phase 0. Whoever works on the frame makes all light sets,
+  // so that the frame counts as one set.
   bool wholeTiles = false;
   bool urgent = false;    // soon, whatever that costs in light sets and messages
   bool freeSets = false;  // a light set costs nothing
@@ -38,7 +38,7 @@ struct HeldTask {
   TaskId task;
   int set = 0;      // light set
   double rays = 1;  // FrameKind::rays
-  // Since fewer tasks than the client has threads are ahead of it: it is at work on this one.
+  // When the client began it: since then fewer tasks than it has threads were ahead.
   std::optional<Time> begun = std::nullopt;
 };
 

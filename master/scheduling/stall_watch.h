@@ -1,8 +1,8 @@
-// stall_watch.h: when to say that nothing moves, and when to give up. A pure value: it is told the
+// stall_watch.h: when to say that nothing moves, and when to give up. A pure value that is told the
 // time.
 //
-// Said at once, and again after 30 s, 60 s, 120 s, ... Time in which the program itself did not run
-// (it was stopped, the machine slept) does not count.
+// It is said at once, and again after 30 s, 60 s, 120 s, ... Time in which the program itself did
+// not run (it was stopped, the machine slept) does not count.
 // Threads: plain value.
 #pragma once
 

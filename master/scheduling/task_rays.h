@@ -1,9 +1,8 @@
-// task_rays.h: how many rays a task is expected to take by its settings, its light set included:
-// what the deadlines of tasks are in proportion to (scheduler_client.h).
+// task_rays.h: how many rays a task is expected to take by its settings, its light set included.
+// Deadlines of tasks are in proportion to it (scheduler_client.h); the order of magnitude counts.
 //
 // The method's facts say how many rays p pixels of one phase of a tile take (methods.cpp). A whole
-// tile has all phases, each with a border as large as itself, and all light sets. The order of
-// magnitude is what counts.
+// tile has all phases, each with a border as large as itself, and all light sets.
 // Threads: pure function.
 #pragma once
 

@@ -130,4 +130,8 @@ void ClientSession::finish(const std::string& reason) {
   push(todo::Finish{reason});
 }
 
+std::string ClientSession::title() const {
+  return hello_.name == peer_ ? peer_ : fmt::format("{} ({})", hello_.name, peer_);
+}
+
 }  // namespace ninefold

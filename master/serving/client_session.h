@@ -79,6 +79,7 @@ class ClientSession {
 
   const msg::Hello& hello() const { return hello_; }
   const std::string& peer() const { return peer_; }
+  std::string title() const;  // for people: name and address
   const ClientStatus& status() const { return status_; }
   bool over() const { return status_.state == ClientState::lost; }
   bool ready() const { return status_.state == ClientState::ready; }

@@ -1,13 +1,14 @@
 // cluster.h: the network thread with all that lives in it: event loop, server, local clients,
 // signals, and the ticking of their deadlines.
 //
-// Threads: the constructor listens, start() begins the thread; everything else from any thread, but
-// the server's tally and clients only after join(). Owner: main; ends and joins when destroyed.
-// Errors: the constructor throws Error (cannot listen). What ends the run later is told by
-// failure().
+// SIGUSR1 asks what is under way: the log gets lines that begin with "state:". Only the network
+// thread takes it. main blocks it for all others, else it would end the program before that thread
+// runs, or after.
 //
-// SIGUSR1 asks what is under way: lines of the log that begin with "state:". The network thread alone takes it;
-// where main does not, as it should, nobody is ended by asking before that thread runs, or after.
+// Threads: the constructor listens, start() begins the thread; everything else from any thread, but
+// the server's tally and clients only after join().
+// Owner: main; ends and joins when destroyed.
+// Errors: the constructor throws Error (cannot listen). failure() tells what ends the run later.
 #pragma once
 
 #include <atomic>

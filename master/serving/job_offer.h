@@ -1,5 +1,6 @@
-// job_offer.h: what every client is given: the scene as blobs, found by hash, and the settings of
-// the current job. Threads: the scene is constant; the job is the network thread's, once it runs.
+// job_offer.h: what every client is given: the scene as blobs, found by hash, all edits of it, and
+// the settings of the current job.
+// Threads: the scene is constant; the job is the network thread's, once that runs.
 #pragma once
 
 #include <map>
@@ -21,8 +22,8 @@ class JobOffer {
   uint32_t job() const { return job_; }
   // The job has changed: `version` is larger than before.
   void setJob(uint32_t version, const Settings& settings, const Delivery& delivery);
-  // The scene has changed: `version` is larger than before. The message for those who have all up to
-  // here; and those for who comes later, none if there was no edit.
+  // The scene has changed: `version` is larger than before. Gives the message for clients that have
+  // all edits before it. allEdits: for clients that come later; empty without edits.
   msg::Edit setEdit(uint32_t version, const SceneEdit& edit, bool moving);
   std::vector<msg::Edit> allEdits() const;
   uint32_t edits() const { return version_; }

@@ -1,12 +1,13 @@
 // local_clients.h: the client processes that the master starts on its own machine, watches and
 // ends.
 //
-// Each gets a one-time key through a pipe that stays open: the end of the pipe tells the client
-// that the master is gone, so none is left behind whatever happens. A client that dies is started
-// again after a pause that doubles with each crash; one that keeps dying is given up, as is one
-// that its own watchdog has ended (client/watchdog.h) three times with no result in between.
-// Threads: one thread calls everything and lives as long as the clients (see process.h). Errors:
-// start throws Error when the program cannot be started; later failures are logged and counted.
+// Each gets a one-time key through a pipe. The pipe stays open; its end tells the client that the
+// master is gone, so none is left behind whatever happens. A client that dies is started again
+// after a pause that doubles with each crash. It is given up if it keeps dying, or if its own
+// watchdog (client/watchdog.h) has ended it three times with no result in between.
+// Threads: one thread calls everything and lives as long as the clients (see process.h).
+// Errors: start throws Error when the program cannot be started; later failures are logged and
+// counted.
 #pragma once
 
 #include <filesystem>

@@ -3,21 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/base/cpu_time.h"
 #include "common/base/log.h"
-#include "common/scene/methods.h"
-#include "master/scheduling/task_rays.h"
 #include "proto/tile_names.h"
 
 namespace ninefold {
 namespace {
-
-// Frames that may be open at once: 144 clients have a light set of their own at rest, if memory is
-// enough for all of them (Assembly::hasRoom).
-constexpr int kMaxOpenFrames = 16;
-
-// Ticks come much closer together: whatever is longer is a pause of this process or its machine.
-constexpr Duration kPause = std::chrono::seconds(1);
 
 TaskId taskOf(const msg::Result& result) {
   return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
@@ -25,12 +15,6 @@ TaskId taskOf(const msg::Result& result) {
 
 TaskCost costOf(const msg::Result& result) {
   return {std::chrono::nanoseconds(result.busyNs), result.setsMade > 0};
-}
-
-std::string describe(const ClientSession& session) {
-  const msg::Hello& hello = session.hello();
-  return hello.name == session.peer() ? session.peer()
-                                      : fmt::format("{} ({})", hello.name, session.peer());
 }
 
 }  // namespace
@@ -94,7 +78,7 @@ void Server::on(Handle& peer, todo::Join&& a, Time now) {
   peer.second.wasReady = true;
   lastMove_ = now;
   const ClientSession& session = *peer.second.session;
-  log("client {} is ready: {}, {} thread(s), {}", peer.first, describe(session),
+  log("client {} is ready: {}, {} thread(s), {}", peer.first, session.title(),
       session.hello().threads, session.hello().isa);
   joining_[peer.first] = a;
   letJoin(now);
@@ -149,7 +133,7 @@ void Server::on(Handle& peer, todo::Finish&& a, Time now) {
 }
 
 void Server::lost(Handle& peer, const std::string& reason, Time now) {
-  log("client {} is gone: {}: {}", peer.first, describe(*peer.second.session), reason);
+  log("client {} is gone: {}: {}", peer.first, peer.second.session->title(), reason);
   joining_.erase(peer.first);
   scheduler_.clientLost(peer.first, now);
 }
@@ -185,9 +169,8 @@ void Server::count(const ReceivedTile& tile) {
       "frame {}, tile {}, phase {} of client {}, {}: {} values are not finite or negative, in {}, "
       "and count as 0: the picture is too dark there; {} such tile(s) so far, of which only each "
       "tenfold is told; please report the scene",
-      result.frame, result.tile, result.phase, tile.client,
-      describe(*peers_.at(tile.client).session), result.replaced, namesOfFields(result.replacedIn),
-      spoilt_);
+      result.frame, result.tile, result.phase, tile.client, peers_.at(tile.client).session->title(),
+      result.replaced, namesOfFields(result.replacedIn), spoilt_);
 }
 
 void Server::supersede(uint32_t firstWanted, Time now) {
@@ -209,92 +192,6 @@ void Server::tick(Time now) {
   dispatch(now);
 }
 
-// Once for all that the loop has at hand: many results often come together.
-void Server::dispatchSoon() {
-  if (std::exchange(dispatchWaits_, true)) return;
-  loop_.post([this, weak = std::weak_ptr(alive_)] {
-    if (weak.expired()) return;
-    dispatchWaits_ = false;
-    dispatch(Clock::now());
-  });
-}
-
-void Server::dispatch(Time now) {
-  if (isClosing()) return;
-  const Duration passed = now - lastDispatch_.value_or(now);
-  lastDispatch_ = now;
-  if (passed > kPause) scheduler_.paused(passed);
-  letJoin(now);
-  giveUpOpenFrames(now);
-  started_ = started_ || scheduler_.clients() >= setup_.waitClients;
-  if (!started_) return;
-  openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
-  const Actions actions = scheduler_.poll(now);
-  for (const Cancellation& cancel : actions.cancel)
-    if (const auto& connection = peers_.at(cancel.client).connection)
-      connection->send(msg::Cancel{offer_.job(), cancel.firstWanted});
-  sendTasks(actions.assign);
-  for (const StuckNote& note : actions.notes) tell(note);
-}
-
-void Server::tell(const StuckNote& note) const {
-  const std::string client =
-      fmt::format("client {}, {},", note.client, describe(*peers_.at(note.client).session));
-  if (note.isBack)
-    log("{} is back after being stuck for {:.0f} s", client, seconds(note.time));
-  else
-    warn("{} is stuck: {} is not done after {:.0f} s; its tasks go to others", client,
-         nameOf(note.task), seconds(note.time));
-}
-
-void Server::openFrames(Time) {
-  while (scheduler_.wantsFrame() && scheduler_.openFrames() < kMaxOpenFrames) {
-    const std::optional<FrameOrder> order = duty_.nextWork();
-    if (!order) return;
-    if (order->job != offer_.job()) announce(*order);
-    open_[order->key.frame] = *order;
-    scheduler_.openFrame(order->key, order->grid(),
-                         {.wholeTiles = order->delivery.wholeTiles(),
-                          .urgent = order->urgent,
-                          .freeSets = factsOf(order->settings.method).freeSets,
-                          .rays = raysOfTask(*order)});
-  }
-}
-
-void Server::announce(const FrameOrder& order) {
-  std::optional<msg::Edit> edit;
-  if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit, order.moving);
-  offer_.setJob(order.job, order.settings, order.delivery);
-  for (Handle& peer : peers_) {
-    peer.second.session->jobChanged(edit ? &*edit : nullptr);
-    carryOut(peer, Clock::now());
-  }
-}
-
-void Server::sendTasks(const std::vector<Assignment>& assignments) {
-  struct Bundle {
-    std::vector<msg::TaskItem> items;
-    Duration allowed{0};
-  };
-  std::map<std::pair<ClientId, uint32_t>, Bundle> bundles;
-  for (const Assignment& a : assignments) {
-    Bundle& bundle = bundles[{a.client, a.task.frame}];
-    bundle.items.push_back({static_cast<uint32_t>(a.task.tile), static_cast<uint32_t>(a.task.phase),
-                            open_.at(a.task.frame).extraMask});
-    bundle.allowed = a.allowed;
-  }
-  if (!bundles.empty() && !tally_.firstDispatch) {
-    tally_.firstDispatch = Clock::now();
-    tally_.cpuAtDispatch = processCpuTime();
-  }
-  for (auto& [to, bundle] : bundles) {
-    const FrameOrder& frame = open_.at(to.second);
-    if (const auto& connection = peers_.at(to.first).connection)
-      connection->send(msg::Tasks{frame.job, frame.key, std::move(bundle.items),
-                                  frame.neighbourWeight, frame.urgent, bundle.allowed});
-  }
-}
-
 void Server::close(const std::string& reason) {
   listener_.reset();
   for (auto& [id, peer] : peers_) {
@@ -302,90 +199,6 @@ void Server::close(const std::string& reason) {
     peer.connection->send(msg::Goodbye{reason.substr(0, kMaxText)});
     peer.connection->finish(reason);
   }
-}
-
-std::optional<ClientReport> Server::workOf(const std::string& name, Time now) const {
-  std::optional<ClientReport> latest;
-  for (const ClientReport& report : scheduler_.report(now))
-    if (peers_.at(report.client).session->hello().name == name) latest = report;
-  return latest;
-}
-
-bool Server::nothingMoves() const {
-  const auto isComing = [](const Handle& peer) {
-    const ClientSession& session = *peer.second.session;
-    return !session.over() && !session.ready();
-  };
-  return scheduler_.allAreStuck() && joining_.empty() && std::ranges::none_of(peers_, isComing);
-}
-
-std::string Server::stuckTasks(Time now) const {
-  constexpr size_t kLongEnough = 150;
-  std::string text;
-  for (const ClientReport& report : scheduler_.report(now)) {
-    if (!report.stuck || !report.oldest) continue;
-    if (text.size() > kLongEnough) return text + ", ...";
-    text += fmt::format("{}client {} in {}", text.empty() ? "" : ", ", report.client,
-                        nameOf(*report.oldest));
-  }
-  return text;
-}
-
-std::vector<std::string> Server::explain(Time now) const {
-  std::vector<std::string> lines = scheduler_.explainFrames(now);
-  if (!started_)
-    lines.push_back(fmt::format("no frame yet: {} of {} clients are ready (--wait-clients)",
-                                scheduler_.clients(), setup_.waitClients));
-  else if (lines.empty())
-    lines.emplace_back("no frame is open: none is wanted, or there is no room for one");
-  for (const auto& [id, peer] : peers_)
-    if (!peer.session->over())
-      lines.push_back(fmt::format("client {}, {}: {}", id, describe(*peer.session),
-                                  explainClient(id, *peer.session, now)));
-  return lines;
-}
-
-std::string Server::explainClient(ClientId id, const ClientSession& session, Time now) const {
-  switch (session.status().state) {
-    case ClientState::connecting:
-      return "has not introduced itself";
-    case ClientState::syncing:
-      return fmt::format("has {:.0f} % of the scene", 100 * session.status().synced);
-    case ClientState::building:
-      return "builds the scene";
-    default:
-      break;
-  }
-  if (joining_.contains(id))
-    return "is ready and waits: open frames are of a job that it has missed";
-  return scheduler_.explainClient(id, now);
-}
-
-bool Server::isConnected() const {
-  return std::ranges::any_of(peers_, [](const auto& p) { return p.second.connection != nullptr; });
-}
-
-ServerTally Server::tally() const {
-  ServerTally tally = tally_;
-  tally.tasks = scheduler_.counts();
-  tally.reproducible = admission_.reproducible();
-  for (const auto& [id, peer] : peers_)
-    tally.bytesReceived += peer.connection ? peer.connection->bytesReceived() : peer.bytesReceived;
-  return tally;
-}
-
-std::vector<ClientInfo> Server::clients(Time now) const {
-  std::map<ClientId, ClientReport> work;
-  for (const ClientReport& report : scheduler_.report(now)) work[report.client] = report;
-  std::vector<ClientInfo> infos;
-  for (const auto& [id, peer] : peers_) {
-    const ClientSession& session = *peer.session;
-    ClientInfo info{id, session.hello().name, session.hello().isa, session.peer(), session.status(),
-                    {}};
-    if (const auto found = work.find(id); found != work.end()) info.work = found->second;
-    infos.push_back(std::move(info));
-  }
-  return infos;
 }
 
 }  // namespace ninefold

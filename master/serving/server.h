@@ -1,8 +1,8 @@
 // server.h: the master's network thread: it accepts clients, runs their sessions, asks the
 // scheduler who gets what, and passes results on. It decodes nothing and never waits.
 //
-//   listener -> sessions -> scheduler -> tasks out          results -> Duty::take -> ... ->
-//   decoded()
+//   listener -> sessions -> scheduler -> tasks out
+//   results  -> ServerDuty::take -> (elsewhere: unpacked, placed) -> decoded()
 //
 // Threads: everything in the loop's thread, but for the constructor and what is said below.
 // Owner: main; refers to the loop, the offer and the duty, which outlive it.
@@ -40,8 +40,8 @@ struct ServerDuty {
   std::function<std::optional<FrameOrder>()> nextWork;
   // Takes a tile that is wanted, answered by decoded(); false when there is no room.
   std::function<bool(ReceivedTile&)> take;
-  // Nobody is left who can do the open frames, only newcomers who have missed their job. Gives back
-  // the first frame that is wanted instead. Null: all frames are of one job.
+  // Only newcomers are left, who have missed the open frames' job. Gives the first frame that is
+  // wanted instead. Null: all frames are of one job.
   std::function<uint32_t()> giveUp = nullptr;
 };
 

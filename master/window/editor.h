@@ -3,8 +3,8 @@
 //
 // Places are shares of the picture's width and height, from its upper left corner. A pick in motion
 // waits for a picture that knows what is where.
-// Threads: the main thread. Refers to all that it is made of. Errors: an edit that the scene cannot
-// take is told in one line and left out.
+// Threads: the main thread.   Owner: the session; refers to the scene, the run and the camera.
+// Errors: an edit that the scene cannot take is told in one line and left out.
 #pragma once
 
 #include <memory>

@@ -32,7 +32,7 @@ struct PanelView {
   std::vector<std::string> needs;
   Settings settings;
   PictureView view = PictureView::beauty;
-  float exposure = 0;
+  float exposure = 0;  // [EV]
   bool autoExposure = false;
   float target = 100;  // frame time in motion [ms]
   double speed = 0;    // of flying [m/s]
@@ -49,9 +49,9 @@ struct PanelView {
 struct PanelChanges {
   std::optional<Settings> settings;
   std::optional<PictureView> view;
-  std::optional<float> exposure, target;
+  std::optional<float> exposure, target;  // [EV], [ms]
   std::optional<bool> autoExposure;
-  std::optional<float> verticalFov;
+  std::optional<float> verticalFov;  // [rad]
   std::optional<MaterialEdit> material;
   std::optional<LightEdit> light;
   std::optional<uint32_t> selectLight;

@@ -1,8 +1,8 @@
-// picking.h: what a shown picture says of a place in it. At rest it knows, in motion if it was
-// asked for (LiveRun::wantPicks); one that does not know says nothing.
+// picking.h: what lies at a place of a shown picture. A picture at rest knows; one in motion knows
+// if LiveRun::wantPicks asked for it. One that does not know gives nothing.
 //
-// Film positions count pixels of the shown image from its upper left corner. Threads: pure functions.
-// Errors:  none.
+// Film positions count pixels of the shown image from its upper left corner.
+// Threads: pure functions.   Errors: none.
 #pragma once
 
 #include <optional>

@@ -61,8 +61,8 @@ void PictureBoard::draw(const Scene& scene, const std::optional<Selection>& sele
   window.setPicture(outlined_);
 }
 
-// The workers made it with the picture; anew only after the exposure has changed. Codes from clients
-// stay: the next frame is at hand.
+// The workers made the codes with the picture. They are made anew only if the exposure has changed
+// since. Codes from clients stay: the next frame is at hand.
 const DisplayImage& PictureBoard::display() {
   const LiveImage& image = *shown_->image;
   if (image.exposure == exposureShown() || image.radiance.count() == 0) return image.display;

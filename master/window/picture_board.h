@@ -1,9 +1,10 @@
-// picture_board.h: the latest picture of a session: on the window, in files, and in the panel's numbers.
+// picture_board.h: the latest picture of a session: in the window, in files, in the panel's
+// numbers.
 //
-// Pictures come tone mapped; only when the exposure changes while one is shown it is mapped anew. Files are
-// ninefold.NNNN and, while it records, record.NNNN in the working folder, with numbers that no file
-// has.
-// Threads: the main thread. Errors: what cannot be written is told in one line, and ends a recording.
+// Pictures come tone mapped; one is mapped anew only when the exposure changes while it is shown.
+// Files are ninefold.NNNN and, while it records, record.NNNN in the working folder, with numbers
+// that no file has.
+// Threads: the main thread.   Errors: one line for what cannot be written; that ends a recording.
 #pragma once
 
 #include <memory>

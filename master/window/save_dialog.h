@@ -1,7 +1,6 @@
-// save_dialog.h: Control+S: asks for a file's name in the window, the first time, and writes the
-// scene.
-// Threads: the main thread. Errors: what cannot be written is told in a notice, and asked for
-// again.
+// save_dialog.h: Control+S: asks once for a file's name in the window, and writes the scene.
+// Threads: the main thread.
+// Errors: a notice tells what cannot be written, and the name is asked for again.
 #pragma once
 
 #include <array>

@@ -1,8 +1,8 @@
 // session.h: what happens at the window: events become commands of the camera, the editor and the
 // picture board; a script or an animation plays beside them; pictures come back.
 //
-// Threads: the main thread; the scene is read and pictures are made beside it. Errors: throws Error for
-// what the user must know, as runHeadless does.
+// Threads: the main thread; the scene is read and pictures are made beside it.
+// Errors: throws Error for what the user must know, as runHeadless does.
 #pragma once
 
 #include <future>

@@ -24,8 +24,8 @@ constexpr float kFontSize = 15;  // [screen units]
                               description != nullptr ? description : "no display is there"));
 }
 
-// Nothing that names a display: GLFW is not asked, as Wayland's library has lines of its own for
-// that.
+// Whether there may be a display. GLFW is not asked without one: Wayland's library would print
+// lines of its own.
 bool mayHaveDisplay() {
   const auto isSet = [](const char* name) { return std::getenv(name) != nullptr; };
   return isSet("DISPLAY") || isSet("WAYLAND_DISPLAY") || isSet("XDG_RUNTIME_DIR");

@@ -1,12 +1,12 @@
 // window.h: a window with one picture and an immediate-mode panel over it. GLFW for window and
 // events, OpenGL 3.3 and Dear ImGui for what is in it.
 //
-// The picture keeps its proportions and is as large as fits beside the panel, or under it where
-// less than half of the window would be left; the window's pixel density is the screen's. What
-// belongs to the panel makes no event: a press over it as it was last drawn (ImGui itself learns
-// only with its next frame where the pointer is), and keys while it is typed into.
+// The picture keeps its proportions. It is as large as fits beside the panel, or under it where
+// less than half of the window would be left; its pixels are the screen's. What belongs to the
+// panel makes no event: keys typed into it, and a press where the panel was last drawn (ImGui
+// itself learns where the pointer is with its next frame only).
 //
-// Threads: the main thread, wake() excepted. Owner: at most one at a time.
+// Threads: the main thread, wake() excepted.   Owner: at most one at a time.
 // Errors: the constructor throws NoDisplay with one line.
 #pragma once
 

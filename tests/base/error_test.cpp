@@ -54,7 +54,8 @@ TEST(CheckDeathTest, PrintsTheExpressionAloneIfItComparesNothing) {
   EXPECT_DEATH(NINEFOLD_CHECK(!added && 1 > 2), "error: !added && 1 > 2 does not hold at ");
 }
 
-// What a mixture of signs would say by the rules of C++ is not what is meant: -1 < 1u is false there.
+// What a mixture of signs would say by the rules of C++ is not what is meant: -1 < 1u is false
+// there.
 TEST(Check, ComparesIntegersByTheirValue) {
   const int minus = -1;
   const size_t one = 1;

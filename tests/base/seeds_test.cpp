@@ -1,4 +1,5 @@
-// What a randomized test says when it fails: the command that repeats it, and that command's effect.
+// What a randomized test says when it fails: the command that repeats it, and that command's
+// effect.
 #include "tests/seeds.h"
 
 #include <gtest/gtest-spi.h>

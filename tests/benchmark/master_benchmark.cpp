@@ -239,8 +239,8 @@ void ToneMapTraffic(benchmark::State& state) {
 }
 BENCHMARK(ToneMapTraffic);
 
-// A tile that a client has filtered, from its bytes to a display of 1920 pixels a row: as radiance that is
-// tone mapped here, or as codes.
+// A tile that a client has filtered, from its bytes to a display of 1920 pixels a row: as radiance
+// that is tone mapped here, or as codes.
 RgbImage filteredTile() { return randomTile(0.4f, 0.5f); }
 
 void ShowRadiance(benchmark::State& state) {

@@ -1,26 +1,29 @@
-// A client that followed a session of random edits and one that came late give the same bytes, and so does
-// one on the scene that was edited before it was traced, where rounding leaves no choice.
+// A client that followed a session of random edits and one that came late give the same bytes, by
+// every method. A scene that was edited before it was traced has the same surfaces, where rounding
+// leaves no choice.
 #include <gtest/gtest.h>
 
 #include "client/render_job.h"
-#include "common/scene/reader.h"
+#include "common/scene/methods.h"
 #include "tests/scene/random_edits.h"
+#include "tests/scene/table_room.h"
 
 namespace ninefold {
 namespace {
 
 constexpr int kEdits = 1000;
 
-Settings smallPicture(const Scene& scene) {
+Settings smallPicture(const Scene& scene, Method method) {
   Settings s;
+  s.method = method;
   s.width = 96, s.height = 72;
   s.camera = scene.cameras.front();
   return s;
 }
 
 // All tasks of a frame, as they would travel.
-std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene) {
-  RenderJob job(scene, 1, smallPicture(*scene->scene), {}, 1);
+std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene, Method method) {
+  RenderJob job(scene, 1, smallPicture(*scene->scene, method), {}, 1);
   FrameKey key;
   key.photonRadius = 0.05f;
   std::vector<Bytes> tiles;
@@ -30,7 +33,7 @@ std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene) {
 }
 
 TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
-  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const auto asRead = std::make_shared<const TracedScene>(read, Isa::automatic);
   RandomEdits random(*read, 7);
   SceneEdit all;
@@ -43,16 +46,19 @@ TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
     if (i % 250 != 0 && i != 1) continue;
     const auto fresh = std::make_shared<const TracedScene>(
         TracedScene(std::make_shared<const Scene>(*read), Isa::automatic), all);
-    EXPECT_EQ(render(followed), render(fresh)) << "after " << i << " edits";
+    for (const MethodFacts& by : allMethods())
+      EXPECT_EQ(render(followed, by.method), render(fresh, by.method))
+          << by.name << " after " << i << " edits";
     ++compared;
   }
   EXPECT_EQ(compared, 5);
-  EXPECT_NE(render(followed), render(asRead));
+  for (const MethodFacts& by : allMethods())
+    EXPECT_NE(render(followed, by.method), render(asRead, by.method)) << by.name;
 }
 
 // One that saw a gesture begin, step by step, and one that comes in the middle of it.
 TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
-  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const auto asRead = std::make_shared<const TracedScene>(read, Isa::automatic);
   RandomEdits random(*read, 6);
   SceneEdit settled;
@@ -66,14 +72,17 @@ TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
   }
   const TracedScene late(std::make_shared<const Scene>(*read), Isa::automatic);
   const auto lateBegun = std::make_shared<const TracedScene>(late, settled);
-  EXPECT_EQ(render(followed),
-            render(std::make_shared<const TracedScene>(*lateBegun, all, lateBegun)));
-  EXPECT_NE(render(followed), render(std::make_shared<const TracedScene>(late, all)));
+  const auto inTheMiddle = std::make_shared<const TracedScene>(*lateBegun, all, lateBegun);
+  const auto atRest = std::make_shared<const TracedScene>(late, all);
+  for (const MethodFacts& by : allMethods()) {
+    EXPECT_EQ(render(followed, by.method), render(inTheMiddle, by.method)) << by.name;
+    EXPECT_NE(render(followed, by.method), render(atRest, by.method)) << by.name;
+  }
 }
 
 // The other order of building: edited first, traced in one hierarchy.
 TEST(Edits, PartsOfTheirOwnSeeWhatOneHierarchySees) {
-  const auto read = std::make_shared<const Scene>(readScene(NINEFOLD_SCENES "/table_room.glb"));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const TracedScene asRead(read, Isa::automatic);
   RandomEdits random(*read, 11);
   SceneEdit all;

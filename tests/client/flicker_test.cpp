@@ -1,13 +1,14 @@
-// What does not change does not flicker: frames of a gesture share their random bits, so that a task whose
-// light set and rays are the same has the same bytes, filter and all apart from it.
+// What does not change does not flicker. Frames of a gesture share their random bits, so a task
+// whose light set and rays are the same has the same bytes, the filter aside.
 //
-// Two rooms with a lamp and a glass ball each, and a wall between them. A small box moves in the one, the
-// camera looks at the other. A set that has no VPL and no photon on the box, nor any behind it, is
-// unchanged; all of its rays in the camera's room are, for they end there. Where the camera looks at the
-// moving box itself, a pixel is unchanged if it shows neither the box nor a glass, and if no segment from
-// its point x to a VPL of its set meets the box, before or after; that is told by geometry, where the
-// shadow rays of a pixel do not depend on its neighbours' (no roulette) and end at x (no compensation).
-// And whatever a gesture does to the lamp and the glass of the other room, no byte here changes.
+// There are two rooms with a lamp and a glass ball each, and a wall between them. A small box moves
+// in the one, the camera looks at the other. A set without VPL or photon on the box or behind it is
+// unchanged. So are all its rays in the camera's room, for they end there. Then the camera looks at
+// the moving box. A pixel is unchanged if it shows neither box nor glass, and if no segment from
+// its point x to a VPL of its set meets the box, before or after. Geometry tells that, if the
+// shadow rays of a pixel do not depend on its neighbours' (no roulette) and end at x (no
+// compensation). Whatever a gesture does to the lamp and the glass of the other room, no byte here
+// changes.
 #include <gtest/gtest.h>
 
 #include <map>

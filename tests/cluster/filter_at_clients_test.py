@@ -4,7 +4,7 @@ import math
 import unittest
 
 import png
-from programs import BIN, SCENES, ClusterTest
+from programs import BIN, SCENES, ClusterTest, methods
 
 TILE = 96  # pixels: 32 of each of 3 x 3 phases
 
@@ -42,16 +42,16 @@ def scanline(body, at, width):
 
 
 class FilterAtClients(ClusterTest):
-    def picture(self, where, roulette):
-        name = self.folder / f"{where}{roulette}.hdr"
+    def picture(self, where, *options):
+        name = self.folder / f"{where}.hdr"
         master = self.start(BIN / "ninefold-master", SCENES / "table_room.glb", "--size", "200x200", "--frames", 1,
-                            "--local-clients", 2, "--filter-at", where, "--vpl-roulette", roulette, "--output", name)
+                            "--local-clients", 2, "--filter-at", where, *options, "--output", name)
         self.assertEqual(master.ends(), 0, master.text)
         return pixels(name)
 
-    def errors(self, roulette):
+    def errors(self, *options):
         """Root mean squares of the difference over the pixel's largest channel: within tiles, at their borders."""
-        master, clients = self.picture("master", roulette), self.picture("clients", roulette)
+        master, clients = self.picture("master", *options), self.picture("clients", *options)
         inside, border = [], []
         for y, (row, other) in enumerate(zip(master, clients)):
             for x, (a, b) in enumerate(zip(row, other)):
@@ -64,14 +64,16 @@ class FilterAtClients(ClusterTest):
     def test_differs_by_no_more_than_quantization_and_not_at_borders(self):
         # The master's pixel is of nine quantized E, each off by up to 1/127.5 of its largest channel, and of a
         # reflectance off by up to 2/255 of its root; the clients' is quantized once; the file adds 1/128.
-        inside, border = self.errors(roulette=0)
-        self.assertGreater(inside, 0, "the two modes are not the same code")
-        self.assertLess(inside, 0.02)
-        self.assertLess(border, 1.3 * inside)
+        for method in methods():
+            with self.subTest(method):
+                inside, border = self.errors("--method", method, "--vpl-roulette", 0)
+                self.assertGreater(inside, 0, "the two modes are not the same code")
+                self.assertLess(inside, 0.02)
+                self.assertLess(border, 1.3 * inside)
 
     def test_with_roulette_only_the_borders_noise_is_another(self):
         # Receivers that share a packet share their choice of lights; at a border they are in other packets.
-        inside, _ = self.errors(roulette=2)
+        inside, _ = self.errors("--vpl-roulette", 2)
         self.assertLess(inside, 0.02)
 
 

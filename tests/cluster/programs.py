@@ -92,6 +92,15 @@ class Program:
             self.process.stderr.close()
 
 
+def methods():
+    """The names of all methods, as the program's help lists them: "NAME (note), NAME or NAME (note)"."""
+    said = subprocess.run([BIN / "ninefold-master", "--help"], check=True, capture_output=True, text=True).stdout
+    text = re.search(r"--method NAME +how light is computed: (.*?)\n +--", said, re.S).group(1)
+    names = re.split(r", | or ", re.sub(r" \([^)]*\)", "", " ".join(text.split())))
+    assert len(set(names)) == len(names) > 1 and all(re.fullmatch("[a-z-]+", name) for name in names), text
+    return names
+
+
 def is_running(pid):
     try:
         return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
@@ -151,4 +160,4 @@ class ClusterTest(unittest.TestCase):
         os.kill(pid, sig)
 
 
-__all__ = ["BIN", "SCENES", "ClusterTest", "eventually", "is_running", "signal"]
+__all__ = ["BIN", "SCENES", "ClusterTest", "eventually", "is_running", "methods", "signal"]

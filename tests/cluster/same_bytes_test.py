@@ -1,21 +1,30 @@
-"""The same job gives the same bytes, whoever renders it and whatever happens to them."""
+"""The same job gives the same bytes, whoever renders it and whatever happens to them.
+
+By every method; but what is about the wire, a frozen process or an instruction set is so by the default one alone.
+"""
 import pathlib
 import unittest
 
-from programs import ClusterTest, eventually, is_running, signal
+from programs import ClusterTest, eventually, is_running, methods, signal
 
 
 class SameBytes(ClusterTest):
     LONG = 60  # frames: enough to lose somebody in the middle
 
     def test_any_number_of_clients_and_threads(self):
-        hashes = {}
-        for clients, threads in [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)]:
-            stats = self.render("--local-clients", clients, "--client-threads", threads,
-                                scene="table_room", frames=4)
-            self.assertTrue(stats["reproducible"])
-            hashes[clients, threads] = stats["image_hash"]
-        self.assertEqual(len(set(hashes.values())), 1, hashes)
+        for method in methods():
+            self.same_by(method, [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)], frames=2)
+
+    def same_by(self, method, crews, *options, frames):
+        with self.subTest(method):
+            hashes = {}
+            for clients, threads in crews:
+                stats = self.render("--local-clients", clients, "--client-threads", threads, "--method", method,
+                                    *options, scene="table_room", frames=frames)
+                self.assertEqual(stats["method"], method)
+                self.assertTrue(stats["reproducible"])
+                hashes[clients, threads] = stats["image_hash"]
+            self.assertEqual(len(set(hashes.values())), 1, hashes)
 
     def test_compression_does_not_show(self):
         hashes = {level: self.render("--local-clients", 2, "--wire-level", level, frames=3)["image_hash"]
@@ -23,21 +32,23 @@ class SameBytes(ClusterTest):
         self.assertEqual(len(set(hashes.values())), 1, hashes)
 
     def test_filtered_by_clients_any_number_of_them(self):
-        hashes = {}
-        for clients, threads in [(1, 1), (3, 1), (1, 2)]:
-            stats = self.render("--local-clients", clients, "--client-threads", threads, "--filter-at", "clients",
-                                scene="table_room", frames=3)
-            hashes[clients, threads] = stats["image_hash"]
-        self.assertEqual(len(set(hashes.values())), 1, hashes)
+        for method in methods():
+            self.same_by(method, [(1, 1), (3, 1), (1, 2)], "--filter-at", "clients", frames=2)
 
-    def test_another_seed_is_another_picture(self):
-        one = self.render("--local-clients", 1, "--seed", 1, frames=2)
-        two = self.render("--local-clients", 1, "--seed", 2, frames=2)
-        self.assertNotEqual(one["image_hash"], two["image_hash"])
+    def test_another_seed_or_method_is_another_picture(self):
+        hashes = {self.render("--local-clients", 1, "--seed", seed, "--method", method, frames=2)["image_hash"]
+                  for seed in (1, 2) for method in methods()}
+        self.assertEqual(len(hashes), 2 * len(methods()))
 
     def test_a_killed_client_does_not_show(self):
-        undisturbed = self.render("--local-clients", 2, frames=self.LONG)
-        master = self.master("--local-clients", 2, "--wait-clients", 2, frames=self.LONG)
+        self.SIZE = "48x36"  # so many frames must not take long by any method
+        for method in methods():
+            with self.subTest(method):
+                self.kill_one_of_two("--method", method)
+
+    def kill_one_of_two(self, *options):
+        undisturbed = self.render("--local-clients", 2, *options, frames=self.LONG)
+        master = self.master("--local-clients", 2, "--wait-clients", 2, *options, frames=self.LONG)
         master.waits_for(r"client \d+ is ready(.|\n)*client \d+ is ready")
         victim = master.children()[0]
         self.send(victim, signal.SIGKILL)

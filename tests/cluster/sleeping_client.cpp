@@ -4,8 +4,8 @@
 //
 //   SLEEPER_AFTER   tasks that are done before the one that sleeps
 //   SLEEPER_FOR     seconds that it sleeps; none: for ever
-//   SLEEPER_GRACE   seconds beyond what the master allows, before the watchdog ends the process; may be
-//                   below 0; none: as the real client's
+//   SLEEPER_GRACE   seconds beyond what the master allows, before the watchdog ends the process;
+//                   may be below 0; none: as the real client's
 #include <sys/prctl.h>
 
 #include <csignal>

@@ -1,6 +1,6 @@
 // replay.cpp: runs a fuzz target without libFuzzer: a fixed, seeded number of mutations of its
-// seeds, or the files named on the command line (to look at what libFuzzer found). NINEFOLD_TEST_SEED=17 runs
-// mutation 17 alone.
+// seeds, or the files named on the command line (to look at what libFuzzer found).
+// NINEFOLD_TEST_SEED=17 runs mutation 17 alone.
 //
 //   fuzz_<name> [FILE...]
 //

@@ -1,11 +1,9 @@
-// Instant radiosity against the reference path tracer on rooms that need every estimator. Both
+// Every method against the reference path tracer on rooms that need every estimator. Both
 // render the same scene, camera and path count rules; the means of the image must agree within four
 // standard errors plus a bias that is stated for each room (bound of the geometry term, photon
 // radius).
-#include <gtest/gtest.h>
-
+#include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
-#include "tests/gi/render.h"
 
 namespace ninefold {
 namespace {
@@ -34,20 +32,18 @@ struct Allowed {
 
 void expectAgreement(const Scene& scene, Allowed allowed) {
   const Tracer tracer(scene, Isa::automatic);
-  Settings radiosity = testing::small(Method::instantRadiosity);
-  radiosity.bound = 3000, radiosity.photonRadius = allowed.radius,
-  radiosity.pathLength = allowed.pathLength;
-  radiosity.directVpls = 8, radiosity.indirectVpls = 48, radiosity.photons = 2000;
-  radiosity.interleave = {2, 2};
-  Settings reference = testing::small(Method::pathTrace);
-  reference.pathLength = allowed.pathLength;
-  const auto a = testing::render(tracer, radiosity, allowed.frames);
-  const auto b = testing::render(tracer, reference, 4 * allowed.frames);
-  const double error = std::hypot(a.error(), b.error());
-  EXPECT_NEAR(a.grey(), b.grey(), 4 * error + allowed.bias * b.grey())
-      << "radiosity " << a.grey() << " +- " << a.error() << ", reference " << b.grey() << " +- "
-      << b.error();
-  EXPECT_LT(error, 0.02 * b.grey());
+  const auto reference = testing::render(
+      tracer, testing::reference(12, allowed.pathLength).settings, 4 * allowed.frames);
+  for (testing::Estimator& e : testing::othersThanReference(12, allowed.pathLength)) {
+    e.settings.bound = 3000, e.settings.photonRadius = allowed.radius;
+    e.settings.directVpls = 8, e.settings.indirectVpls = 48;
+    const auto image = testing::render(tracer, e.settings, allowed.frames);
+    const double error = std::hypot(image.error(), reference.error());
+    EXPECT_NEAR(image.grey(), reference.grey(), 4 * error + allowed.bias * reference.grey())
+        << e.name << ": " << image.grey() << " +- " << image.error() << ", reference "
+        << reference.grey() << " +- " << reference.error();
+    EXPECT_LT(error, 0.02 * reference.grey()) << e.name;
+  }
 }
 
 TEST(Agreement, DiffuseRoom) { expectAgreement(Room().b.build(), {}); }
@@ -62,9 +58,9 @@ TEST(Agreement, GlassBallWithItsCaustic) {
   expectAgreement(room.b.build(), {.bias = 0.015, .frames = 48});
 }
 
-// What a ball floating half in water throws on the floor, seen from below the ball: particles come to it
-// from above, eye paths through the water, and both must find glass where the two overlap, whichever the
-// file has first.
+// What a ball floating half in water throws on the floor, seen from below the ball: particles come
+// to it from above, eye paths through the water, and both must find glass where the two overlap,
+// whichever the file has first.
 class BallHalfInWater : public ::testing::Test {
  protected:
   void addBall() { b_.sphere(b_.material(testing::glass(1.5f)), Vec3(0, -0.4f, 0), 0.3f, 32); }

@@ -12,8 +12,8 @@ namespace ninefold::testing {
 inline const double kExactPi = std::acos(-1.0);
 
 // Lambert's formula: E at x with unit normal n under a polygon of radiance 1, all of it above the
-// horizon:  E = 1/2 |sum of gamma_i cos_i|  over the edges, gamma the angle that an edge subtends, cos
-// the cosine between n and the normal of the plane through x and the edge.
+// horizon: E = 1/2 |sum of gamma_i cos_i| over the edges, gamma the angle that an edge subtends,
+// cos the cosine between n and the normal of the plane through x and the edge.
 inline double lambert(const std::vector<DVec3>& corners, DVec3 x, DVec3 n) {
   double sum = 0;
   for (size_t i = 0; i < corners.size(); ++i) {
@@ -40,8 +40,8 @@ inline double squaresWithACommonEdge() {
          kExactPi;
 }
 
-// Form factor from a sphere to a disk of radius R, its axis through the sphere's middle at height h:
-// the sphere's own radius does not matter.
+// Form factor from a sphere to a disk of radius R, its axis through the sphere's middle at height
+// h: the sphere's own radius does not matter.
 inline double sphereToDisk(double h, double R) { return (1 - h / std::hypot(h, R)) / 2; }
 
 }  // namespace ninefold::testing

@@ -1,5 +1,5 @@
-// Particles carry the emitters' power: the mean flux of many equals the whole, whether they start in the
-// ordinary way or aimed at a specular object, for every kind of emitter.
+// Particles carry the emitters' power: the mean flux of many equals the whole, whether they start
+// in the ordinary way or aimed at a specular object, for every kind of emitter.
 #include "common/gi/light/emission.h"
 
 #include <gtest/gtest.h>

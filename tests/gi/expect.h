@@ -1,4 +1,5 @@
-// expect.h: pictures held against values that are known, for every estimator there is.
+// expect.h: pictures held against values that are known, by every method of the table
+// (common/scene/methods.h).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "common/scene/methods.h"
 #include "tests/gi/render.h"
 
 namespace ninefold::testing {
@@ -17,20 +19,46 @@ inline std::string number(double x) {
 }
 
 struct Estimator {
-  const char* name;
+  std::string name;
   Settings settings;
+
+  const MethodFacts& facts() const { return factsOf(settings.method); }
+  // A picture without light that pixels share needs more of them for the same error.
+  int frames(int shared, int unshared) const { return facts().isUnfiltered ? unshared : shared; }
 };
 
-// Both methods, without systematic error but for the photon radius (1 % of R, stated by each test).
+// Without systematic error but for the photon radius (1 % of R, stated by each test).
+inline Estimator estimator(const MethodFacts& facts, int side = 8, int pathLength = 0) {
+  Estimator e{facts.title, small(facts.method, side)};
+  e.settings.interleave = {2, 2};
+  e.settings.directVpls = 16, e.settings.indirectVpls = 64;
+  e.settings.photons = 2000, e.settings.photonRadius = 0.01f;
+  e.settings.pathLength = pathLength, e.settings.specularDepth = 128;
+  return e;
+}
+
+// One of every method.
 inline std::vector<Estimator> estimators(int side = 8, int pathLength = 0) {
-  Estimator reference{"path tracer", small(Method::pathTrace, side)};
-  Estimator radiosity{"instant radiosity", small(Method::instantRadiosity, side)};
-  radiosity.settings.interleave = {2, 2};
-  radiosity.settings.directVpls = 16, radiosity.settings.indirectVpls = 64;
-  radiosity.settings.photons = 2000, radiosity.settings.photonRadius = 0.01f;
-  for (Estimator* e : {&reference, &radiosity})
-    e->settings.pathLength = pathLength, e->settings.specularDepth = 128;
-  return {reference, radiosity};
+  std::vector<Estimator> all;
+  for (const MethodFacts& facts : allMethods()) all.push_back(estimator(facts, side, pathLength));
+  return all;
+}
+
+// What the others are held against: without bias, and with a loop over pixels of its own.
+inline constexpr Method kReference = Method::pathTrace;
+inline Estimator reference(int side = 8, int pathLength = 0) {
+  return estimator(factsOf(kReference), side, pathLength);
+}
+
+inline std::vector<Estimator> othersThanReference(int side = 8, int pathLength = 0) {
+  auto all = estimators(side, pathLength);
+  std::erase_if(all, [](const Estimator& e) { return e.settings.method == kReference; });
+  return all;
+}
+
+// For tests of what its VPLs and photons do one by one.
+inline Estimator radiosity(int side = 8, int pathLength = 0) {
+  return estimator(factsOf(Method::instantRadiosity), side, pathLength);
 }
 
 struct Tolerance {

@@ -1,5 +1,5 @@
-// Form factors: a plate, or sphere, of radiance 1 and flux Phi = pi A1 sends F12 Phi to a second one.
-// What the second, of albedo a, then shows on average after one diffuse vertex is
+// Form factors: a plate, or sphere, of radiance 1 and flux Phi = pi A1 sends F12 Phi to a second
+// one. What the second, of albedo a, then shows on average after one diffuse vertex is
 //
 //   L = a/pi * F12 pi A1/A2 = a F12 A1/A2
 //
@@ -42,11 +42,11 @@ TEST(FormFactor, SquaresAtARightAngleWithACommonEdge) {
                           kAlbedo * testing::squaresWithACommonEdge(), {.frames = 192});
 }
 
-// The same without compensation: what the bound takes away near the edge is missing, and only that.
+// VPLs without compensation: what the bound takes away near the edge is missing, and only that.
 TEST(FormFactor, TheBoundAloneOnlyTakesAway) {
   SceneBuilder b = receiver();
   b.quad(b.material(testing::matte(Vec3(0), Vec3(1))), Vec3(0), Vec3(0, 1, 0), Vec3(0, 0, 1));
-  Settings s = testing::estimators(8, 1)[1].settings;
+  Settings s = testing::radiosity(8, 1).settings;
   s.compensate = false;
   const Scene scene = b.build();
   const Tracer tracer(scene, Isa::automatic);

@@ -1,7 +1,7 @@
 // Geometry as files really have it: slivers, triangles without area, things that are there twice or
-// in one another, shading normals that lie, mirrored instances, the eye in the wrong place. The room
-// is a furnace where it can be: walls of albedo 1/2 that emit 1 show 2, whatever stands in it that
-// is of the same kind.
+// in one another, shading normals that lie, mirrored instances, the eye in the wrong place. The
+// room is a furnace where it can be: walls of albedo 1/2 that emit 1 show 2, whatever stands in it
+// that is of the same kind.
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 
@@ -39,7 +39,8 @@ TEST(GeometryHard, SliversDuplicatesAndFlatTrianglesChangeNothing) {
   testing::expectRadiance(scene, testing::estimators(), 2, kTolerance);
 }
 
-// The furnace of six squares, each with one shading normal that leans by `tilt` from the geometric one.
+// The furnace of six squares, each with one shading normal that leans by `tilt` from the geometric
+// one.
 Scene leaningFurnace(float tilt) {
   SceneBuilder b;
   const int wall = b.material(furnaceWall());
@@ -91,8 +92,8 @@ TEST(GeometryHard, MirroredInstancesAreInvisibleInAFurnace) {
                           {.frames = 32, .bias = 2e-3, .error = 0.02});
 }
 
-// A lamp of radiance 1 in the very plane of the ceiling, albedo 0 both: the ceiling hides nothing of
-// it. Under its middle, at depth h, a square of side 2a gives (Lambert's formula for four edges)
+// A lamp of radiance 1 in the very plane of the ceiling, albedo 0 both: the ceiling hides nothing
+// of it. Under its middle, at depth h, a square of side 2a gives (Lambert's formula for four edges)
 //   E = 4 a/sqrt(a^2+h^2) atan(a/sqrt(a^2+h^2)),  L = albedo E/pi.
 TEST(GeometryHard, LampsInThePlaneOfTheCeilingLightTheFloor) {
   SceneBuilder b;

@@ -1,9 +1,11 @@
-// While a gesture lasts, sample streams belong to lamps and to pairs of a lamp and a specular object: what is done
-// to one of them leaves the samples of the others as they are, bit for bit, and no energy is lost or added.
+// While a gesture lasts, sample streams belong to lamps and to pairs of a lamp and a specular
+// object: what is done to one of them leaves the samples of the others as they are, bit for bit,
+// and no energy is lost or added.
 #include <gtest/gtest.h>
 
 #include "common/gi/radiosity/light_set.h"
 #include "common/scene/edit.h"
+#include "common/scene/methods.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"
 
@@ -195,17 +197,18 @@ TEST(Gesture, BoundAndPhotonsStayWhereTheSceneGrows) {
 // The mean picture is the same with and without what a gesture freezes.
 void expectSameLight(const Scene& begun, const Scene& now, const char* what) {
   const Tracer then(begun, Isa::automatic), tracer(now, Isa::automatic);
-  for (const Method method : {Method::instantRadiosity, Method::pathTrace}) {
-    Settings settings = testing::small(method, 16);
+  for (const MethodFacts& facts : allMethods()) {
+    Settings settings = testing::small(facts.method, 16);
     settings.seed = 3;
     constexpr int kFrames = 64;
     const auto gesture = testing::render(tracer, settings, kFrames, &then);
     settings.seed = 4;
     const auto rest = testing::render(tracer, settings, kFrames);
     const double error = std::hypot(gesture.error(), rest.error());
-    EXPECT_NEAR(gesture.grey(), rest.grey(), 4 * error) << what << " +- " << error;
-    EXPECT_LT(error, 0.03 * rest.grey()) << what;
-    EXPECT_GT(rest.grey(), 0) << what;
+    EXPECT_NEAR(gesture.grey(), rest.grey(), 4 * error)
+        << facts.name << ", " << what << " +- " << error;
+    EXPECT_LT(error, 0.03 * rest.grey()) << facts.name << ", " << what;
+    EXPECT_GT(rest.grey(), 0) << facts.name << ", " << what;
   }
 }
 

@@ -1,5 +1,5 @@
-// Dielectrics of every index, one inside the other, side by side, standing on a table, with the eye in
-// them. Two rooms tell: the furnace, where clear glass of any shape changes nothing (basic
+// Dielectrics of every index, one inside the other, side by side, standing on a table, with the eye
+// in them. Two rooms tell: the furnace, where clear glass of any shape changes nothing (basic
 // radiance; walls of albedo a that emit 1 show 1/(1-a), or 1 + ... + a^n with n diffuse vertices,
 // since S vertices do not count), and a lamp seen through plane faces, where Snell and Fresnel give
 // the radiance.
@@ -129,9 +129,9 @@ TEST(Glass, EyesInsideSeeTheFurnaceToo) {
   }
 }
 
-// A pool filled to the brim, all of its faces touching the water: the floor gets the light of the sky
-// (radiance 1) inside Snell's window, E = integral of (1-F) cos over it = pi (1 - F_mean)/n^2, where
-// F_mean is the mean over the hemisphere outside. L = albedo E/pi for an eye under water.
+// A pool filled to the brim, all of its faces touching the water: the floor gets the light of the
+// sky (radiance 1) inside Snell's window, E = integral of (1-F) cos over it = pi (1 - F_mean)/n^2,
+// where F_mean is the mean over the hemisphere outside. L = albedo E/pi for an eye under water.
 TEST(Glass, FloorsUnderWaterGetTheirShareOfTheSky) {
   SceneBuilder b;
   const int water = b.material(testing::glass(1.33f));
@@ -171,7 +171,8 @@ double seen(SceneBuilder b, Vec3 from, double t, Settings settings) {
 }
 
 // From under water the sky, radiance 1, is seen through Snell's window: 1 - F(t) up to the critical
-// angle, nothing beyond it (total reflection shows the black bottom). Basic radiance: no factor n^2.
+// angle, nothing beyond it (total reflection shows the black bottom). Basic radiance: no factor
+// n^2.
 TEST(Glass, TotalReflectionStartsAtTheCriticalAngle) {
   const double n = 1.33, critical = std::asin(1 / n);
   for (const double t : {0.0, 0.3, 0.7, critical - 0.01, critical + 0.01, 1.2}) {
@@ -206,9 +207,9 @@ TEST(Glass, TouchingLayersBendAsOneStack) {
     EXPECT_NEAR(seen(b, Vec3(0), t0, e.settings), direct, 0.015) << e.name;
 }
 
-// A layer of n1, 1 m thick, and one of n2, 2 m thick, overlap by half a metre. The thinner one is whole, so
-// light meets 1 m of n1 and 1.5 m of n2 as if they touched, whichever comes first on the way or in the
-// file.
+// A layer of n1, 1 m thick, and one of n2, 2 m thick, overlap by half a metre. The thinner one is
+// whole, so light meets 1 m of n1 and 1.5 m of n2 as if they touched, whichever comes first on the
+// way or in the file.
 TEST(Glass, WhereTwoOverlapTheSmallerCounts) {
   const double t0 = 0.9, n1 = 1.5, n2 = 1.2;
   const double t1 = std::asin(std::sin(t0) / n1), t2 = std::asin(std::sin(t0) / n2);

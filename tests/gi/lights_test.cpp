@@ -43,8 +43,8 @@ TEST(Lights, AreaOfATenthOfABillionthOfASquareMetre) {
   testing::expectRadiance(b.build(), testing::estimators(8, 1), expected, {.bias = 1e-3});
 }
 
-// ... near by too, a hundred times within the bound of the geometry term: nothing would meet it by chance, and
-// if something did, it would be a firefly of 1e10.
+// ... near by too, a hundred times within the bound of the geometry term: nothing would meet it by
+// chance, and if something did, it would be a firefly of 1e10.
 TEST(Lights, SmallOnesLightWhatIsNearThem) {
   const Vec3 x(0.05f, 0, 0);
   const float h = 0.1f;
@@ -77,15 +77,15 @@ TEST(Lights, AFaintOneWhereTheStrongOneIsHidden) {
   testing::expectRadiance(b.build(), all, expected, {.frames = 300, .error = 0.02});
 }
 
-// Most virtual lights are the strong lamp's, and roulette leaves out what adds next to nothing if nothing were
-// between: it must leave some chance to what is not hidden.
+// Most virtual lights are the strong lamp's, and roulette leaves out what adds next to nothing if
+// nothing were between: it must leave some chance to what is not hidden.
 TEST(Lights, AFaintOneWhereTheStrongOneIsHiddenAlsoWithRoulette) {
   const Vec3 x(0), strong(-1.5f, 1, 0), faint(0.5f, 1, 0);
   SceneBuilder b = floorSeenAt(x);
   addLamp(b, 1e6f, strong, 0.5f), addLamp(b, 1e-6f, faint, 0.5f);
   b.quad(b.material(testing::matte(Vec3(0))), Vec3(-0.5f, 0, -3), Vec3(0, 0, 6), Vec3(0, 0.9f, 0));
   const double expected = kAlbedo / kExactPi * 1e-6 * irradianceUnder(faint, 0.5f, x);
-  auto e = testing::estimators(8, 1)[1];
+  auto e = testing::radiosity(8, 1);
   e.settings.vplRoulette = 3;
   testing::expectRadiance(b.build(), {e}, expected, {.frames = 1200, .error = 0.1});
 }
@@ -169,7 +169,7 @@ TEST(Lights, SeenOnlyInAMirror) {
       testing::lambert({{1, 0.5, -0.5}, {1, 0.9, -0.5}, {1, 0.9, 0.5}, {1, 0.5, 0.5}}, DVec3(x),
                        DVec3(0, 1, 0));
   auto all = testing::estimators(8, 1);
-  all[1].settings.photonRadius = 0.03f;
+  for (auto& e : all) e.settings.photonRadius = 0.03f;
   testing::expectRadiance(b.build(), all, expected, {.frames = 400, .bias = 5e-3, .error = 0.03});
 }
 

@@ -56,8 +56,9 @@ TEST(MediumStack, TooManySolidsForgetTheLowestRank) {
   }
 }
 
-// A lamp in the pool: its light was never seen to enter the water, and goes through the ball that floats
-// in it. Where the water's surface is inside the ball it is not there; beside the ball it refracts.
+// A lamp in the pool: its light was never seen to enter the water, and goes through the ball that
+// floats in it. Where the water's surface is inside the ball it is not there; beside the ball it
+// refracts.
 TEST(Shader, AHiddenSurfaceIsHiddenFromLightThatStartedInsideToo) {
   SceneBuilder b;
   const int water = b.material(testing::glass(1.33f)), ball = b.material(testing::glass(1.5f));

@@ -1,10 +1,11 @@
-// Particles scatter at interpolated normals with the very f of the eye paths. Of a surface that is lit by
-// basic radiance 1 from a set of directions L, the flux into a set V is, by eye paths from V and by
-// particles from L (n: index where the set lies, cosines to the geometric normal),
+// Particles scatter at interpolated normals with the very f of the eye paths. Of a surface that is
+// lit by basic radiance 1 from a set of directions L, the flux into a set V is, by eye paths from V
+// and by particles from L (n: index where the set lies, cosines to the geometric normal),
 //
 //   n_V^2  int_V |cos v| E[weight; w in L] dv  =  n_L^2  int_L |cos l| E[weight; w in V] dl
 //
-// for all pairs of twelve sets of each side's directions, in the mean over a quarter of a million of both.
+// for all pairs of twelve sets of each side's directions, in the mean over a quarter of a million
+// of both.
 #include "common/gi/light/particle_scatter.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// The hashed grid against brute force: what it finds, how often, and in which order, whatever the coordinates.
+// The hashed grid against brute force: what it finds, how often, and in which order, whatever the
+// coordinates.
 #include "common/gi/photons/photon_grid.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// Photons where they are hardest to count: none, a radius that shrinks to nothing, and a query in the
-// middle of a cell. (One photon: energy_balance_test. A million: tests/nightly.)
+// Photons where they are hardest to count: none, a radius that shrinks to nothing, and a query in
+// the middle of a cell. (One photon: energy_balance_test. A million: tests/nightly.)
 #include <random>
 
 #include "common/gi/photons/photon_grid.h"
@@ -42,7 +42,7 @@ Scene furnaceWithBall() {
 testing::Rendered withPhotons(int photons, float radius, int frames) {
   const Scene scene = furnaceWithBall();
   const Tracer tracer(scene, Isa::automatic);
-  auto estimator = testing::estimators()[1];
+  auto estimator = testing::radiosity();
   estimator.settings.photons = photons, estimator.settings.photonRadius = radius;
   return testing::render(tracer, estimator.settings, frames);
 }

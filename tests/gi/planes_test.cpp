@@ -42,22 +42,23 @@ void forEachTask(const Tracer& tracer, Settings s, uint32_t frame, uint8_t plane
 TEST(Planes, OfTheFirstHitAreTheSameBitsByEveryMethod) {
   const Scene scene = room();
   const Tracer tracer(scene, Isa::automatic);
-  std::vector<ExtraPlanes> seen[2];
-  for (const Method method : {Method::instantRadiosity, Method::pathTrace}) {
-    Settings s = testing::small(method, kSide);
+  std::vector<ExtraPlanes> first;
+  for (const MethodFacts& facts : allMethods()) {
+    Settings s = testing::small(facts.method, kSide);
     s.jitter = false;  // methods with several paths a pixel have film positions of their own
     const uint8_t planes = kAlbedoPlane | kNormalPlane | kDepthPlane | kObjectPlane;
-    forEachTask(tracer, s, 0, planes, [&](int, const TileResult& tile) {
-      seen[static_cast<size_t>(method)].push_back(tile.extras);
-    });
+    std::vector<ExtraPlanes> seen;
+    forEachTask(tracer, s, 0, planes,
+                [&](int, const TileResult& tile) { seen.push_back(tile.extras); });
+    if (first.empty()) first = seen;
+    EXPECT_EQ(seen, first) << facts.name;
   }
-  EXPECT_EQ(seen[0], seen[1]);
-  const ExtraPlanes& first = seen[1].front();
-  for (size_t i = 0; i < first.depth.size(); ++i) {
-    EXPECT_GT(first.depth[i], 0);
-    EXPECT_GT(first.object[i], 0u);
-    EXPECT_GT(first.albedo.r[i], 0);
-    EXPECT_NEAR(glm::length(testing::pixelAt(first.normal, i)), 1, 1e-5f);
+  const ExtraPlanes& task = first.front();
+  for (size_t i = 0; i < task.depth.size(); ++i) {
+    EXPECT_GT(task.depth[i], 0);
+    EXPECT_GT(task.object[i], 0u);
+    EXPECT_GT(task.albedo.r[i], 0);
+    EXPECT_NEAR(glm::length(testing::pixelAt(task.normal, i)), 1, 1e-5f);
   }
 }
 
@@ -66,7 +67,7 @@ struct Incident {
 };
 
 Incident meanIncident(const Tracer& tracer, const Settings& s, uint32_t frame) {
-  const bool isWhole = s.method == Method::pathTrace;
+  const bool isWhole = factsOf(s.method).isUnfiltered;  // then no layer has E
   const uint8_t planes = kCausticPlane | (isWhole ? kIrradiancePlane : 0);
   Incident mean;
   forEachTask(tracer, s, frame, planes, [&](int, const TileResult& tile) {
@@ -91,66 +92,83 @@ Estimate over(const std::vector<double>& values) {
   return {sum / n, std::sqrt(squares / (n * (n - 1)))};
 }
 
-// Both estimate E at the first hit, and what of it came through the ball. Tolerance: five standard
+struct Incidents {
+  Estimate irradiance, caustic;
+};
+
+Incidents incidents(const Tracer& tracer, const testing::Estimator& e) {
+  std::vector<double> irradiance, caustic;
+  const auto frames = static_cast<uint32_t>(e.frames(48, 400));
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    const Incident mean = meanIncident(tracer, e.settings, frame);
+    irradiance.push_back(mean.irradiance), caustic.push_back(mean.caustic);
+  }
+  return {over(irradiance), over(caustic)};
+}
+
+// All estimate E at the first hit, and what of it came through the ball. Tolerance: five standard
 // errors, and 2 % of what photons blur.
 TEST(Planes, IrradianceAndItsCausticPartAreOneQuantityByEveryMethod) {
   const Scene scene = room();
   const Tracer tracer(scene, Isa::automatic);
-  Estimate irradiance[2], caustic[2];
-  for (const testing::Estimator& e : testing::estimators(kSide)) {
-    const bool isWhole = e.settings.method == Method::pathTrace;
-    std::vector<double> es, cs;
-    for (uint32_t frame = 0; frame < (isWhole ? 400u : 48u); ++frame) {
-      const Incident mean = meanIncident(tracer, e.settings, frame);
-      es.push_back(mean.irradiance), cs.push_back(mean.caustic);
-    }
-    irradiance[isWhole] = over(es), caustic[isWhole] = over(cs);
-  }
-  const auto expectSame = [](const Estimate(&e)[2], double bias, const char* what) {
-    EXPECT_NEAR(e[0].mean, e[1].mean, 5 * std::hypot(e[0].error, e[1].error) + bias * e[1].mean)
-        << what << " +- " << e[0].error << ", " << e[1].error;
-    EXPECT_LT(e[1].error, 0.05 * e[1].mean) << what;
+  const Incidents reference = incidents(tracer, testing::reference(kSide));
+  EXPECT_GT(reference.caustic.mean, 0.01 * reference.irradiance.mean);
+  const auto expectSame = [](const Estimate& a, const Estimate& b, double bias,
+                             const std::string& what) {
+    EXPECT_NEAR(a.mean, b.mean, 5 * std::hypot(a.error, b.error) + bias * b.mean)
+        << what << " +- " << a.error << ", " << b.error;
+    for (const Estimate& e : {a, b}) EXPECT_LT(e.error, 0.05 * e.mean) << what;
   };
-  expectSame(irradiance, 0.002, "irradiance");
-  expectSame(caustic, 0.02, "caustic");
-  EXPECT_GT(caustic[1].mean, 0.01 * irradiance[1].mean);
+  for (const testing::Estimator& e : testing::othersThanReference(kSide)) {
+    const Incidents other = incidents(tracer, e);
+    expectSame(other.irradiance, reference.irradiance, 0.002, "irradiance by " + e.name);
+    expectSame(other.caustic, reference.caustic, 0.02, "caustic by " + e.name);
+  }
 }
 
 // Light straight from the lamp, and all other light, are the picture: also where it comes by way of
 // S.
-TEST(Planes, DirectAndIndirectLightAddUpByThePathTracer) {
-  const Scene scene = room();
-  const Tracer tracer(scene, Isa::automatic);
-  Settings all = testing::small(Method::pathTrace, kSide), direct = all, indirect = all;
+void expectSum(const Tracer& tracer, const testing::Estimator& e) {
+  const Settings& all = e.settings;
+  Settings direct = all, indirect = all;
   direct.pathLength = 1, direct.caustics = Caustics::off;
   indirect.directVpls = 0;
   // What the eye sees of the lamp itself, by glass, is in both.
   Settings dark = direct;
   dark.directVpls = 0;
-  const auto of = [&](const Settings& s) { return testing::render(tracer, s, 300); };
+  const auto of = [&](const Settings& s) { return testing::render(tracer, s, e.frames(96, 300)); };
   const auto whole = of(all), a = of(direct), b = of(indirect), lamp = of(dark);
   const double error =
       std::sqrt(whole.error() * whole.error() + a.error() * a.error() + b.error() * b.error());
-  EXPECT_NEAR(a.grey() + b.grey() - lamp.grey(), whole.grey(), 5 * error);
-  EXPECT_LT(error, 0.02 * whole.grey());
-  EXPECT_GT(b.grey(), 0.2 * whole.grey());
+  EXPECT_NEAR(a.grey() + b.grey() - lamp.grey(), whole.grey(), 5 * error) << e.name;
+  EXPECT_LT(error, 0.02 * whole.grey()) << e.name;
+  EXPECT_GT(b.grey(), 0.2 * whole.grey()) << e.name;
 }
 
-// What --caustics leaves out, it leaves out of both methods.
+TEST(Planes, DirectAndIndirectLightAddUp) {
+  const Scene scene = room();
+  const Tracer tracer(scene, Isa::automatic);
+  for (const testing::Estimator& e : testing::estimators(kSide)) expectSum(tracer, e);
+}
+
+// What --caustics leaves out, it leaves out of every method.
 TEST(Planes, CausticsAreCutAlikeByEveryMethod) {
   const Scene scene = room();
   const Tracer tracer(scene, Isa::automatic);
   for (const Caustics caustics : {Caustics::off, Caustics::direct}) {
-    std::vector<testing::Rendered> images;
-    for (testing::Estimator e : testing::estimators(kSide)) {
+    const auto image = [&](testing::Estimator e) {
       e.settings.caustics = caustics;
-      images.push_back(
-          testing::render(tracer, e.settings, e.settings.method == Method::pathTrace ? 300 : 48));
+      const auto rendered = testing::render(tracer, e.settings, e.frames(48, 300));
+      EXPECT_LT(rendered.error(), 0.02 * rendered.grey()) << e.name;
+      return rendered;
+    };
+    const auto reference = image(testing::reference(kSide));
+    for (const testing::Estimator& e : testing::othersThanReference(kSide)) {
+      const auto other = image(e);
+      EXPECT_NEAR(other.grey(), reference.grey(),
+                  5 * std::hypot(other.error(), reference.error()) + 0.002 * reference.grey())
+          << e.name << ", " << static_cast<int>(caustics);
     }
-    EXPECT_NEAR(images[0].grey(), images[1].grey(),
-                5 * std::hypot(images[0].error(), images[1].error()) + 0.002 * images[0].grey())
-        << static_cast<int>(caustics);
-    EXPECT_LT(images[0].error(), 0.02 * images[0].grey());
   }
 }
 

@@ -1,6 +1,6 @@
-// Position: a scene far from its file's origin gives the picture that it gives there. Files say where
-// it is in double precision (OBJ: its numbers; glTF: the nodes' translations), the readers subtract
-// the middle of the bounds, and everything after that works near 0.
+// Position: a scene far from its file's origin gives the picture that it gives there. Files say
+// where it is in double precision (OBJ: its numbers; glTF: the nodes' translations), the readers
+// subtract the middle of the bounds, and everything after that works near 0.
 //
 // The room's coordinates are multiples of 2^-12 and the translations are such that every sum is
 // exact: the pictures must be equal bit for bit, shadows, glass and thin panes included. 2^28 scene

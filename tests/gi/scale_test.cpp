@@ -2,9 +2,9 @@
 // and rough metal, lit by a lamp, scaled by s: all lengths times s, radiance as it was; a point
 // light's intensity times s^2 (E = I/d^2), attenuation distances times s.
 //
-// For s = 2^k every rounding is the same, so the picture must be the same bit for bit unless a length
-// is hidden in the code; k = -13 and 20 make rooms of 0.1 mm and 1000 km. Other factors round
-// otherwise and agree within the standard error.
+// For s = 2^k every rounding is the same, so the picture must be the same bit for bit unless a
+// length is hidden in the code; k = -13 and 20 make rooms of 0.1 mm and 1000 km. Other factors
+// round otherwise and agree within the standard error.
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 

@@ -1,8 +1,9 @@
 // Light that passes straight through panes and blended surfaces, without any photon.
 //
 // A floor of albedo a under a point light of intensity I at height h, seen where the light is at
-// the angle t
-// from the vertical:  L = a/pi I cos^3(t)/h^2 T,   T = product of what the surfaces between let pass:
+// the angle t from the vertical:
+//
+//   L = a/pi I cos^3(t)/h^2 T          T: product of what the surfaces between let pass
 //
 //   pane of index n    1 - 2F/(1+F) by Fresnel's F(t), its two faces and all bounces between them
 //   blended            1 - opacity
@@ -48,7 +49,7 @@ void expectPassed(const std::vector<Material>& between, double t, double passed)
   b.camera(x + Vec3(0, 0.4f, 0), x, 1e-3f, Vec3(0, 0, 1));
   const Scene scene = b.build();
   const Tracer tracer(scene, Isa::automatic);
-  Settings s = testing::estimators(4, 1)[1].settings;
+  Settings s = testing::radiosity(4, 1).settings;
   s.photons = 0;
   const double L = kAlbedo / double(kPi) * std::pow(std::cos(t), 3) / double(kHeight * kHeight);
   EXPECT_NEAR(testing::render(tracer, s, 1).grey(), L * passed, 1e-3 * L)

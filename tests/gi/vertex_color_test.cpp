@@ -45,8 +45,9 @@ TEST(VertexColor, IsTheSameBitsAsAColourOfTheMaterial) {
   const Scene painted = square(testing::matte(Vec3(1)), everywhere(color));
   const Scene plain = square(testing::matte(Vec3(color)), {});
   const Tracer a(painted, Isa::automatic), b(plain, Isa::automatic);
-  const Settings s = testing::small(Method::instantRadiosity);
-  EXPECT_EQ(testing::render(a, s, 2).pixels, testing::render(b, s, 2).pixels);
+  for (const testing::Estimator& e : testing::estimators())
+    EXPECT_EQ(testing::render(a, e.settings, 2).pixels, testing::render(b, e.settings, 2).pixels)
+        << e.name;
 }
 
 // Red grows from left to right, so the mean over the middle of the square is a half, and the left
@@ -55,14 +56,15 @@ TEST(VertexColor, IsInterpolatedLinearly) {
   const Vec4 left(0, 0.5f, 0.5f, 1), right(1, 0.5f, 0.5f, 1);
   const Scene scene = square(testing::matte(Vec3(1)), {left, right, right, left});
   const Tracer tracer(scene, Isa::automatic);
-  const testing::Rendered image =
-      testing::render(tracer, testing::small(Method::pathTrace, 16), 64);
   const float halfWidth = 2 * std::tan(0.4f);  // of what the picture shows [m]
-  for (size_t x = 0; x < 16; ++x) {
-    double sum = 0;
-    for (size_t y = 0; y < 16; ++y) sum += static_cast<double>(image.pixels[16 * y + x].x) / 16;
-    const double place = (2 * (static_cast<double>(x) + 0.5) / 16 - 1) * halfWidth;
-    EXPECT_NEAR(sum, 0.5 + 0.5 * place, 0.02) << x;
+  for (const testing::Estimator& e : testing::estimators(16)) {
+    const testing::Rendered image = testing::render(tracer, e.settings, 64);
+    for (size_t x = 0; x < 16; ++x) {
+      double sum = 0;
+      for (size_t y = 0; y < 16; ++y) sum += static_cast<double>(image.pixels[16 * y + x].x) / 16;
+      const double place = (2 * (static_cast<double>(x) + 0.5) / 16 - 1) * halfWidth;
+      EXPECT_NEAR(sum, 0.5 + 0.5 * place, 0.02) << e.name << " " << x;
+    }
   }
 }
 

@@ -1,5 +1,5 @@
-// The exposure that a picture asks for. Expected: log2(0.5 / L), to tenths, L the luminance that 90
-// % stay below.
+// The exposure that a picture asks for. Expected: log2(0.5 / L), to tenths, where 90 % of the
+// pixels have a luminance below L.
 #include "common/image/auto_exposure.h"
 
 #include <gtest/gtest.h>

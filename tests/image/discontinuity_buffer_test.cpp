@@ -136,10 +136,10 @@ TEST(DiscontinuityBuffer, CountsEachLightSetOnceOnAnOpenWall) {
   }
 }
 
-// A ball under light that varies smoothly over it, each pixel with an error of its own: uniform, of standard
-// deviation 1/sqrt(12). Nine pixels averaged leave a third of that, and the window is too small for the
-// light's own curvature to show. Windows overlap, so that some 600 of 5,000 values are independent: the
-// root mean square is known to 3 %.
+// A ball under light that varies smoothly over it, each pixel with an error of its own: uniform, of
+// standard deviation 1/sqrt(12). Nine pixels averaged leave a third of that, and the window is too
+// small for the light's own curvature to show. Windows overlap, so that some 600 of 5,000 values
+// are independent: the root mean square is known to 3 %.
 TEST(DiscontinuityBuffer, ACurvedSurfaceUnderSmoothLightLosesItsNoise) {
   const auto big = [](Vec3 v) { return sphere(v, Vec3(0.1f, 0, -3), 0.9f); };
   const TileGrid grid(160, 120, {3, 3});

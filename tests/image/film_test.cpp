@@ -51,7 +51,8 @@ TEST(Film, DoesNotDriftOverAMillionFrames) {
   EXPECT_NEAR(film.standardError()[4] / errorOf(replications), 1, 0.05);
 }
 
-// Frames 8 apart make up for each other: what they differ by is no error, the replications' spread is.
+// Frames 8 apart make up for each other: what they differ by is no error, the replications' spread
+// is.
 TEST(Film, TakesTheErrorFromReplications) {
   Film film(1, 1);
   const std::vector<float> values = {3, 1, 4, 1, 5, 9, 2, 6};

@@ -1,5 +1,6 @@
-// Light that is reused from frame to frame while the eye moves: it loses its noise, stays what it is, and
-// never goes where it does not belong. Floors and walls of known E, seen by an eye that walks along them.
+// Light that is reused from frame to frame while the eye moves: it loses its noise, stays what it
+// is, and never goes where it does not belong. Floors and walls of known E, seen by an eye that
+// walks along them.
 #include "common/image/irradiance_history.h"
 
 #include <gtest/gtest.h>
@@ -100,8 +101,8 @@ TEST(IrradianceHistory, EvenLightStaysWhatItIs) {
   }
 }
 
-// The mean of kMost frames and the interpolation between four pixels leave a tenth; 1/12 is the variance of a
-// single frame, times reflectance squared.
+// The mean of kMost frames and the interpolation between four pixels leave a tenth; 1/12 is the
+// variance of a single frame, times reflectance squared.
 TEST(IrradianceHistory, NoiseFallsAndTheMeanStays) {
   Walk walk(floorAndWall);
   Noise noise(3);
@@ -136,8 +137,8 @@ TEST(IrradianceHistory, WhatWasHiddenStartsAnew) {
           rays.direction(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
       const Point p = screenAndWall(aside, direction);
       if (p.part != 1) continue;
-      // Where the old eye, at x = 0.1, looked through the screen's plane to see it; more than two pixels
-      // behind the edge, since interpolation reaches one.
+      // Where the old eye, at x = 0.1, looked through the screen's plane to see it; more than two
+      // pixels behind the edge, since interpolation reaches one.
       const float atScreen = (0.1f + p.position.x + aside.x) / 2;
       if (atScreen > -0.06f) continue;
       ++uncovered;

@@ -73,8 +73,8 @@ TEST(PatchFilter, TakesNothingFromOneFrameToTheNext) {
   EXPECT_EQ(first, again);
 }
 
-// A patch that has held a mirror takes a tile of which one pixel mirrors: the other phases' results have
-// nothing in that layer.
+// A patch that has held a mirror takes a tile of which one pixel mirrors: the other phases' results
+// have nothing in that layer.
 TEST(PatchFilter, TakesNothingFromTheTileThatThePatchHeldBefore) {
   const TileGrid grid(96, 96, {3, 3});
   const auto mirroring = [&](const auto& isMirror) {

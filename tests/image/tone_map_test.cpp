@@ -37,8 +37,8 @@ TEST(ToneMap, ExposureIsAFactorOfTwoPerStop) {
   }
 }
 
-// Clients and master each make their own table: logarithms and powers of all libraries must lead to it.
-// The curve rises, so that no cell's middle is a code's edge but by chance.
+// Clients and master each make their own table: logarithms and powers of all libraries must lead to
+// it. The curve rises, so that no cell's middle is a code's edge but by chance.
 TEST(ToneMap, HasNoCellOnTheEdgeBetweenTwoCodes) {
   for (int exponent = -14; exponent < 3; ++exponent)
     for (int cell = 0; cell < 1024; ++cell) {

@@ -1,5 +1,5 @@
-// What a session shows of frames that come in tile by tile. Expected pictures are made the long way: the
-// same frames filtered into a film of their own, its mean tone mapped as a whole.
+// What a session shows of frames that come in tile by tile. Expected pictures are made the long
+// way: the same frames filtered into a film of their own, its mean tone mapped as a whole.
 #include "master/running/live_picture.h"
 
 #include <gtest/gtest.h>

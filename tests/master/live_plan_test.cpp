@@ -186,7 +186,8 @@ TEST_F(LivePlanTest, LatencyCountsFromTheFirstChangeThatAFrameShows) {
   EXPECT_EQ(opened().changed, second);
 }
 
-// Frames overlap. Each of these keeps the cluster busy for 70 ms, but the second is waited for for 140.
+// Frames overlap. Each of these keeps the cluster busy for 70 ms, but the second is waited for for
+// 140.
 TEST_F(LivePlanTest, TheWaitForTheFrameBeforeCountsAgainstTheTarget) {
   moveTo(1);
   const LiveFrame first = opened();

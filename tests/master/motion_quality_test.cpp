@@ -1,4 +1,5 @@
-// What a frame may cost while something moves: on modelled clusters that are faster, slower, or change.
+// What a frame may cost while something moves: on modelled clusters that are faster, slower, or
+// change.
 #include "master/running/motion_quality.h"
 
 #include <gtest/gtest.h>

@@ -93,7 +93,7 @@ TEST(Options, HelpTellsRangesAndDefaults) {
   for (std::string word; words >> word;) help += word + " ";
   for (const char* text : {
            "pixels, each 1 to 16384 (default 640x480)",
-           "instant-radiosity (default) or path-trace (the slow, unbiased reference)",
+           "instant-radiosity (default)",
            "light sets side by side, each 1 to 16 (default 3x3)",
            "per set, 0 to 65536 (default 4; final 16)",
            "mean per set, 0 to 65536 (default 18; final 72)",
@@ -108,6 +108,7 @@ TEST(Options, HelpTellsRangesAndDefaults) {
            "of all randomness (default 1)",
        })
     EXPECT_NE(help.find(text), std::string::npos) << text << " in " << help;
+  EXPECT_NE(help.find(describeMethods()), std::string::npos) << help;
 }
 
 TEST(Options, PatienceIsTwoMinutesUnlessItIsStated) {

@@ -104,8 +104,8 @@ TEST(Scheduler, WantsANextFrameRatherThanThatALightSetIsShared) {
   }
 }
 
-// Client 1 sits on its light set of frame 1 while the others do frame after frame: they help before they
-// are far ahead.
+// Client 1 sits on its light set of frame 1 while the others do frame after frame: they help before
+// they are far ahead.
 TEST(Scheduler, TheSlowestIsHelpedBeforeOthersAreFarAhead) {
   Bench b;
   for (ClientId c = 1; c <= 3; ++c) b.join(c);

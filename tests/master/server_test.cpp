@@ -244,7 +244,8 @@ TEST_F(ServerTest, AClientThatComesLateGetsNoTaskOfAJobThatItMissed) {
   });
   EXPECT_FALSE(late);
   first.answer(*last, 0);
-  // The second one may be done as soon: who came late makes copies of what the first client sits on.
+  // The second one may be done as soon: who came late makes copies of what the first client sits
+  // on.
   until([&] { return server->tally().tasks.completedFrames >= 1; });
   for (const msg::Tasks& tasks : later) first.answerAll(tasks);
   until([this] { return server->tally().tasks.completedFrames == frames; });

@@ -1,4 +1,4 @@
-"""Instant radiosity converges to what the path tracer converges to: small pictures of the shipped scenes, by the real
+"""Every method converges to what the path tracer converges to: small pictures of the shipped scenes, by the real
 programs.
 
 RUNS pictures of each method, each with its own seed; their spread gives the standard errors e (blocks.py).
@@ -18,12 +18,13 @@ import numpy
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cluster"))
 
-from programs import ClusterTest  # noqa: E402
+from programs import ClusterTest, methods  # noqa: E402
 from report_lib import blocks  # noqa: E402
 
 RUNS = 8
-# Scene: frames of a run of instant radiosity and of path tracing, and how well the mean is then known.
-# u_office is lit only by light that comes round corners, which both methods hardly find: it is not held to any figure.
+REFERENCE = "path-trace"
+# Scene: frames of a run of a method and of the reference, and how well the mean is then known.
+# u_office is lit only by light that comes round corners, which all methods hardly find: it is not held to any figure.
 SCENES = {
     "cornell": (64, 64, 0.01), "table_room": (64, 64, 0.01), "egg_room": (64, 64, 0.015),
     "invisible_date": (64, 64, 0.015), "office": (64, 64, 0.015), "conference": (96, 64, 0.03),
@@ -43,22 +44,26 @@ class Agreement(ClusterTest):
 
     def test_scenes_converge_to_the_reference(self):
         for scene, (frames, reference_frames, confident) in SCENES.items():
-            with self.subTest(scene=scene):
-                x = self.pictures(scene, "instant-radiosity", frames)
-                r = self.pictures(scene, "path-trace", reference_frames)
-                bias = (x.channel_mean - r.channel_mean) / r.channel_mean
-                error = numpy.sqrt(x.channel_error ** 2 + r.channel_error ** 2) / r.channel_mean
-                apart = blocks.difference(x, r)
-                chance = [1 if f == 0 else blocks.two_sided(abs(t), f)
-                          for t, f in zip(apart.t.flat, apart.freedom.flat)]
-                beyond = [i for i, p in enumerate(chance)
-                          if p < 1e-4 / len(chance) and abs(apart.relative.flat[i]) > 0.01]
-                print(f"{scene}: bias {100 * bias} % +- {100 * error} %, blocks differ by "
-                      f"{100 * math.sqrt((apart.relative ** 2).mean()):.2f} % ({100 * apart.expected:.2f} % expected), "
-                      f"least P {min(chance):.2g}", flush=True)
-                self.assertLess(error.max(), confident)
-                self.assertTrue((abs(bias) <= 0.005 + 4 * error).all(), bias)
-                self.assertEqual(beyond, [])
+            r = self.pictures(scene, REFERENCE, reference_frames)
+            for method in methods():
+                if method != REFERENCE:
+                    with self.subTest(scene=scene, method=method):
+                        self.converges(f"{scene} by {method}", self.pictures(scene, method, frames), r, confident)
+
+    def converges(self, what, x, r, confident):
+        bias = (x.channel_mean - r.channel_mean) / r.channel_mean
+        error = numpy.sqrt(x.channel_error ** 2 + r.channel_error ** 2) / r.channel_mean
+        apart = blocks.difference(x, r)
+        chance = [1 if f == 0 else blocks.two_sided(abs(t), f)
+                  for t, f in zip(apart.t.flat, apart.freedom.flat)]
+        beyond = [i for i, p in enumerate(chance)
+                  if p < 1e-4 / len(chance) and abs(apart.relative.flat[i]) > 0.01]
+        print(f"{what}: bias {100 * bias} % +- {100 * error} %, blocks differ by "
+              f"{100 * math.sqrt((apart.relative ** 2).mean()):.2f} % ({100 * apart.expected:.2f} % expected), "
+              f"least P {min(chance):.2g}", flush=True)
+        self.assertLess(error.max(), confident)
+        self.assertTrue((abs(bias) <= 0.005 + 4 * error).all(), bias)
+        self.assertEqual(beyond, [])
 
 
 if __name__ == "__main__":

@@ -1,17 +1,18 @@
-// The stated error is the real one. Many films of one picture, each with a seed of its own, say what their error is;
-// their spread says what it was.
+// The stated error is the real one. Many films of one picture, each with a seed of its own, say
+// what their error is; their spread says what it was.
 //
-// With S films of N frames, block means m_sb with stated standard errors e_sb, and their mean M_b over the
-// films:
+// S films of N frames have block means m_sb with stated standard errors e_sb; M_b is their mean
+// over the films:
 //
-//   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))     Student's t with R-1 degrees of freedom, R = 8 replications
-//   F    = mean of e_sb^2 / variance of m_sb over s      1; its spread is sqrt(2/(S-1) + 2/(S(R-1)))
-//          for one block, and no larger for many together
+//   t_sb = (m_sb - M_b) / (e_sb sqrt(1 - 1/S))        Student's t with R - 1 degrees of freedom,
+//                                                     R = 8 replications
+//   F    = mean of e_sb^2 / variance of m_sb over s   1; its spread is sqrt(2/(S-1) + 2/(S(R-1)))
+//                                                     for one block, and no larger for many
 //
-// t is tested by Kolmogorov and Smirnov's statistic block by block, F for blocks and pixels, and for what
-// the stop rule looks at. Frames are what the programs make, codec and filter included: they differ in
-// their neighbours' weight and photon radius, so that their variance grows a little and their mean moves
-// a little: both only make the stated error larger, by less than the tolerances.
+// t is tested by Kolmogorov and Smirnov's statistic block by block, F for blocks and pixels, and
+// for what the stop rule looks at. Frames are what the programs make, codec and filter included.
+// They differ in their neighbours' weight and photon radius: their variance grows a little and
+// their mean moves a little. Both make the stated error larger only, by less than the tolerances.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>

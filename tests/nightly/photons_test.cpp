@@ -10,8 +10,9 @@ namespace {
 
 using testing::SceneBuilder;
 
-// A glass ball in a furnace of albedo 1/2 and emission 1 changes nothing: L = 2. One set, of which the
-// photons are all that comes through the ball; their noise is then small beside that of the VPLs.
+// A glass ball in a furnace of albedo 1/2 and emission 1 changes nothing: L = 2. One set, of which
+// the photons are all that comes through the ball; their noise is then small beside that of the
+// VPLs.
 TEST(MillionPhotons, KeepTheFurnace) {
   SceneBuilder b;
   b.box(b.material(testing::matte(Vec3(0.5f), Vec3(1))), Vec3(-1), Vec3(1), true);

@@ -1,9 +1,10 @@
-// How much a moving sequence flickers, with the random bits and sample streams of a gesture fixed and
-// with other bits for each frame. With frames I_t and R_t, the same state as a mean of more frames, with bits of their own,
+// How much a moving sequence flickers, with the random bits and sample streams of a gesture fixed
+// and with other bits for each frame. I_t are its frames; R_t is the same state as a mean of more
+// frames, with bits of their own:
 //
-//   e_t = (I_t+1 - I_t) - (R_t+1 - R_t)         flicker = sqrt(mean of e_t^2) / mean of R_t, of luminance
+//   e_t = (I_t+1 - I_t) - (R_t+1 - R_t)      flicker = sqrt(mean of e_t^2) / mean of R_t, luminance
 //
-// is what a frame adds to the change that is there. docs/performance.md keeps the figures.
+// e_t is what a frame adds to the change that is there. docs/performance.md keeps the figures.
 #include <gtest/gtest.h>
 
 #include "common/scene/edit.h"

@@ -1,9 +1,11 @@
-// Images of every size and interleaving, patterns larger than the image too, through the whole way of a frame.
+// Images of every size and interleaving, patterns larger than the image too, through the whole way
+// of a frame.
 //
-// A wall without albedo emits by a texture of random texels, so that no pixel is like its neighbour: it
-// shows U alone, which no filter touches. Where a pixel's sample lies depends on the pixel and not on
-// the pattern. So each picture must be the one that single tasks of one row and column give, but for the
-// codec's rounding: 1/127.5 of the largest channel (tile_codec.h), for a mirror's layer likewise.
+// A wall without albedo emits by a texture of random texels, so that no pixel is like its
+// neighbour: it shows U alone, which no filter touches. Where a pixel's sample lies depends on the
+// pixel and not on the pattern. So each picture must be the one that single tasks of one row and
+// column give, but for the codec's rounding: 1/127.5 of the largest channel (tile_codec.h), for a
+// mirror's layer likewise.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -74,8 +76,9 @@ TEST(ImageShape, PixelsAreWhereTheyBelongWhateverThePattern) {
   }
 }
 
-// What is filtered, E, is the same in every pixel of a wall under an even light: albedo a under a sky of
-// radiance 1 seen from one side shows a, in each pixel by the mean over as many frames as there are sets.
+// What is filtered, E, is the same in every pixel of a wall under an even light: albedo a under a
+// sky of radiance 1 seen from one side shows a, in each pixel by the mean over as many frames as
+// there are sets.
 TEST(ImageShape, EveryPixelMeetsAllLightSets) {
   SceneBuilder b;
   b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-1), Vec3(2, 0, 0), Vec3(0, 2, 0));

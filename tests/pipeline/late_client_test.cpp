@@ -1,7 +1,7 @@
-// Clients that come while somebody drags a lamp about: what one is told who was there from the start, one who
-// joins in the middle, one whose scene is still being built, and one who lost the line and is back. All of them
-// render the same bytes from then on. The master's offer, the client's session and its builder are the real
-// ones; only the wire between them is left out.
+// Clients that come while somebody drags a lamp about: one who was there from the start, one who
+// joins in the middle, one whose scene is still being built, and one who lost the line and is back.
+// All of them render the same bytes from then on. The master's offer, the client's session and its
+// builder are the real ones; only the wire between them XX
 #include <gtest/gtest.h>
 
 #include <condition_variable>
@@ -9,9 +9,10 @@
 
 #include "client/scene_builder.h"
 #include "client/session.h"
-#include "common/scene/reader.h"
+#include "common/scene/methods.h"
 #include "master/serving/job_offer.h"
 #include "tests/scene/random_edits.h"
+#include "tests/scene/table_room.h"
 
 namespace ninefold {
 namespace {
@@ -141,15 +142,16 @@ class Client {
   SceneBuilder builder_;  // last: its thread answers until it is gone
 };
 
-class LateClient : public ::testing::Test {
+class LateClient : public ::testing::TestWithParam<MethodFacts> {
  protected:
   LateClient()
-      : scene_(readScene(NINEFOLD_SCENES "/table_room.glb")),
+      : scene_(tableRoomWithSpot()),
         random_(scene_, 7),
         offer_(packScene(scene_), settings(), {}) {}
 
   Settings settings() const {
     Settings s;
+    s.method = GetParam().method;
     s.width = 96, s.height = 72;
     s.camera = scene_.cameras.front();
     return s;
@@ -177,7 +179,7 @@ class LateClient : public ::testing::Test {
   JobOffer offer_;
 };
 
-TEST_F(LateClient, InTheMiddleOfAGestureRendersTheSameBytes) {
+TEST_P(LateClient, InTheMiddleOfAGestureRendersTheSameBytes) {
   Client first, slow, late, back;
   first.join(offer_), back.join(offer_);
   edits(4, false, {&first, &back});
@@ -203,6 +205,14 @@ TEST_F(LateClient, InTheMiddleOfAGestureRendersTheSameBytes) {
   const auto atRest = first.renders();
   for (Client* client : {&slow, &late, &back}) EXPECT_EQ(client->renders(), atRest);
 }
+
+INSTANTIATE_TEST_SUITE_P(By, LateClient,
+                         ::testing::ValuesIn(allMethods().begin(), allMethods().end()),
+                         [](const auto& info) {
+                           std::string name = info.param.name;
+                           std::ranges::replace(name, '-', '_');  // as test names must be
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace ninefold

@@ -1,5 +1,5 @@
-// one_process.h: a frame's whole way in one thread: light sets, tasks, tile codec, patches, filter. What master and
-// clients do, without the network between them.
+// one_process.h: a frame's whole way in one thread: light sets, tasks, tile codec, patches, filter.
+// What master and clients do, without the network between them.
 #pragma once
 
 #include "common/gi/renderer.h"
@@ -12,8 +12,8 @@ namespace ninefold::testing {
 
 class OneProcess {
  public:
-  // The scene's environment, and its first camera if no other is asked for. `begun`: what a gesture began
-  // with, or null.
+  // The scene's environment, and its first camera if no other is asked for. `begun`: what a gesture
+  // began with, or null.
   OneProcess(const Tracer& tracer, const Settings& settings, const Tracer* begun = nullptr,
              const std::optional<Camera>& camera = {})
       : settings_(completed(settings, tracer.scene(), camera)),

@@ -1,9 +1,9 @@
-// A session of random edits, with undo and redo, saved and read again: the same values, and the same
-// picture as far as its noise lets see.
+// A session of random edits, with undo and redo, saved and read again: the same values, and the
+// same picture as far as its noise lets see.
 //
-// The saved file's bounds are those of what is in it, while a session's only grow: b, r and the origin of
-// the coordinates differ, so that no bytes can be the same. Both pictures have seeds of their own; with
-// block means a, b and their standard errors e_a, e_b,  |a - b| < 3 sqrt(e_a^2 + e_b^2).
+// The saved file's bounds are those of what is in it, while a session's only grow. So b, r and the
+// origin of the coordinates differ, and bytes cannot be the same. Both pictures have seeds of their
+// own; with block means a, b and their standard errors e_a, e_b,  |a - b| < 3 sqrt(e_a^2 + e_b^2).
 #include <gtest/gtest.h>
 
 #include "common/image/film.h"
@@ -13,6 +13,7 @@
 #include "tests/pipeline/one_process.h"
 #include "tests/scene/random_edits.h"
 #include "tests/scene/same_scene.h"
+#include "tests/scene/table_room.h"
 #include "tests/scene/temp_folder.h"
 
 namespace ninefold {
@@ -73,12 +74,7 @@ Means blocksOf(const Scene& scene, uint64_t seed) {
 }
 
 TEST(SavedSession, HasTheSameValuesAndTheSamePicture) {
-  Scene lit = readScene(NINEFOLD_SCENES "/table_room.glb");
-  PunctualLight spot;
-  spot.name = "spot", spot.kind = LightKind::spot;
-  spot.position = Vec3(0, 0.5f, 0), spot.direction = Vec3(0, -1, 0), spot.intensity = Vec3(2);
-  lit.lights.push_back(spot);
-  const auto read = std::make_shared<const Scene>(std::move(lit));
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
   const Scene session = afterASession(read);
   const TempFolder folder;
   const std::string path = folder.write("saved.glb", "");

@@ -1,7 +1,7 @@
-// Light that is used again while the camera walks (common/image/irradiance_history.h): what it does to the error
-// of a session's frames. The frames are those of a session, random bits fixed, and so is what makes pictures of
-// them; the reference is a mean of other frames from the last place. And what it does that such frames look through
-// the middle of each pixel. docs/performance.md keeps the figures.
+// Light that is used again while the camera walks (common/image/irradiance_history.h): what it does
+// to the error of a session's frames, and what it does that such frames look through the middle of
+// each pixel. The frames are made as a session makes them, random bits fixed. The reference is a
+// mean of other frames from the last place. docs/performance.md keeps the figures.
 #include <gtest/gtest.h>
 
 #include "common/image/metrics.h"

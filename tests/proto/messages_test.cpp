@@ -210,7 +210,8 @@ std::string refusalOfList(const std::function<void(pb::Settings&)>& spoil) {
   return "";
 }
 
-// None is forgotten, none is there twice, none is unknown, and each holds the numbers that it should.
+// None is forgotten, none is there twice, none is unknown, and each holds the numbers that it
+// should.
 TEST(Messages, ListsOfSettingsAreComplete) {
   EXPECT_EQ(refusalOfList([](pb::Settings&) {}), "");
   int place = 0;

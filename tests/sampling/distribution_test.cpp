@@ -52,7 +52,8 @@ TEST(Distribution, RemappedIsUniformInsideEachInterval) {
   }
 }
 
-// One among 100,000 leaves 7 bits for the place inside it: coarse, but neither low nor high on average.
+// One among 100,000 leaves 7 bits for the place inside it: coarse, but neither low nor high on
+// average.
 TEST(Distribution, RemappedHasTheRightMeanAlsoAmongVeryMany) {
   constexpr uint32_t kCount = 100000, kOne = 31234;
   const Distribution d(std::vector<float>(kCount, 1));

@@ -162,8 +162,9 @@ TEST(LightSampler, EachSampleIsUniformOverRandomizations) {
   }
 }
 
-// Points that know nothing of each other: how many of 16 fall into a half is binomial, with variance
-// 16/4; of a net exactly 8 do. The tolerance is five standard deviations of the variance's estimate.
+// Points that know nothing of each other: how many of 16 fall into a half is binomial, with
+// variance 16/4; of a net exactly 8 do. The tolerance is five standard deviations of the variance's
+// estimate.
 TEST(LightSampler, RandomPointsAreIndependent) {
   for (const uint32_t dimension : {0u, 3u, 6u}) {
     double variance = 0;
@@ -199,8 +200,8 @@ TEST(PixelSampler, EveryAlignedRunOfPathsOfAFrameIsANetInEveryReplication) {
   }
 }
 
-// Frames that are a whole number of replications apart go on where the last one stopped: 64 paths of 16 or
-// 64 such frames are a net.
+// Frames that are a whole number of replications apart go on where the last one stopped: 64 paths
+// of 16 or 64 such frames are a net.
 TEST(PixelSampler, EveryEighthFrameContinuesOneSequence) {
   for (const Randomization kind : kBoth)
     for (const uint32_t paths : {1u, 4u})
@@ -217,8 +218,9 @@ TEST(PixelSampler, EveryEighthFrameContinuesOneSequence) {
       }
 }
 
-// What the film's standard error rests on: a pixel's samples in one replication say nothing of those of
-// another, and each alone is uniform. In 8 x 8 cells of the square, 20,000 pixels: Pearson's statistic.
+// What the film's standard error rests on: a pixel's samples in one replication say nothing of
+// those of another, and each alone is uniform. In 8 x 8 cells of the square, 20,000 pixels:
+// Pearson's statistic.
 TEST(PixelSampler, ReplicationsAreIndependentAndUniform) {
   constexpr uint32_t kPixels = 20000;
   for (const Randomization kind : kAll) {

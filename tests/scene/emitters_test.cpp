@@ -86,8 +86,8 @@ TEST(Emitters, FindIsTheInverseOfTheTable) {
     }
 }
 
-// Two objects with 1/4 and 3/4 of the power, two triangles each: nine tenths of the choices by power, one
-// tenth alike.
+// Two objects with 1/4 and 3/4 of the power, two triangles each: nine tenths of the choices by
+// power, one tenth alike.
 TEST(Emitters, AreChosenInProportionToTheirLargestComponent) {
   Scene scene = glowing(Vec3(1, 0, 0));
   scene.instances.push_back(Instance{"big", 0, 1, scaled(3, 1, 1)});
@@ -210,8 +210,8 @@ TEST(Emitters, AreAnyIfTheTableHasOne) {
   agrees(lamp, false);
 }
 
-// A lamp that is in the file twice is seen once, so it counts once; the side that it shows is part of
-// it, the corner at which its triangles start is not.
+// A lamp that is in the file twice is seen once, so it counts once; the side that it shows is part
+// of it, the corner at which its triangles start is not.
 TEST(Emitters, WhatIsThereTwiceShinesOnce) {
   Scene scene = glowing(Vec3(1));
   const size_t once = Emitters(scene, Radiance(0)).size();

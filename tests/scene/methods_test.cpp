@@ -42,7 +42,10 @@ TEST(Methods, EachHasARowInTheOrderOfTheirNumbers) {
     EXPECT_EQ(std::string(facts.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz-"),
               std::string::npos)
         << facts.name << " is a word of the command line";
+    const bool isDefault = facts.method == Settings{}.method;
     EXPECT_NE(describeMethods().find(facts.name), std::string::npos);
+    EXPECT_NE(describeMethods().find(isDefault ? "(default)" : facts.help), std::string::npos)
+        << facts.name;
   }
 }
 
@@ -95,11 +98,10 @@ TEST(Methods, LightIsSharedByViewsUnlessItIsMadeForOne) {
   }
 }
 
-// The path tracer cannot meet a point by chance: what comes from one by a smooth surface is missing, and said
-// to be; rough lobes sample lights, area lights are met.
-TEST(LeftOut, PathTracerNamesTheCausticsOfPunctualLights) {
+// Without photons no eye path meets a point by chance: what comes from one by a smooth surface is
+// missing, and said to be; rough lobes sample lights, area lights are met.
+TEST(LeftOut, MethodsThatMissTheCausticsOfPunctualLightsNameThem) {
   Settings settings;
-  settings.method = Method::pathTrace;
   const auto lines = [&](float roughness, bool punctual) {
     Material metal;
     metal.roughness = roughness, metal.emission = Vec3(1);
@@ -107,12 +109,14 @@ TEST(LeftOut, PathTracerNamesTheCausticsOfPunctualLights) {
     if (punctual) scene.lights.emplace_back();
     return leftOut(needsOf(scene, Radiance(1)), settings);
   };
-  ASSERT_EQ(lines(0, true).size(), 1u);
-  EXPECT_NE(lines(0, true)[0].find("cannot find"), std::string::npos);
-  EXPECT_TRUE(lines(0.3f, true).empty());
-  EXPECT_TRUE(lines(0, false).empty());
-  settings.method = Method::instantRadiosity;
-  EXPECT_TRUE(lines(0, true).empty());
+  for (const MethodFacts& facts : allMethods()) {
+    settings.method = facts.method;
+    ASSERT_EQ(lines(0, true).size(), facts.missesPunctualCaustics ? 1u : 0u) << facts.name;
+    for (const std::string& line : lines(0, true))
+      EXPECT_EQ(line.find(std::string(facts.name) + " cannot find"), 0u) << line;
+    EXPECT_TRUE(lines(0.3f, true).empty()) << facts.name;
+    EXPECT_TRUE(lines(0, false).empty()) << facts.name;
+  }
 }
 
 TEST(LeftOut, FewerCausticsAreNamedIfThereAreAny) {

@@ -1,5 +1,5 @@
-// random_edits.h: a session of somebody who moves and turns whatever there is, but for what all the rest is
-// in: a room that moves takes the view.
+// random_edits.h: a session of somebody who moves and turns everything, except the room that all
+// the rest is in: a room that moves takes the view.
 #pragma once
 
 #include <cmath>

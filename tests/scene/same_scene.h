@@ -1,5 +1,5 @@
-// same_scene.h: expects that two scenes have the same values, those that were multiplied to an ulp or two.
-// Materials may be in another order.
+// same_scene.h: expects that two scenes have the same values, those that were multiplied to an ulp
+// or two. Materials may be in another order.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
-// A scene in parts is the same scene: whatever was moved, in whichever way rays are asked, the
-// answer is that of single rays through one hierarchy of all. Embree's kernels differ by width,
-// coherence and instruction set, and a kernel that does not return has been met: a watchdog ends
-// the process then.
+// A scene in parts is the same scene: whatever was moved, and however rays are asked, the answer is
+// that of single rays through one hierarchy of all. Embree's kernels differ by width, coherence and
+// instruction set, and some did not return once: a watchdog ends the process then.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

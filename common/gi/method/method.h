@@ -5,8 +5,8 @@
 //   light      of one interleaved set: a pure function of (scene, settings, key, set, view)
 //   render     one task, lit by it
 //
-// A method is made once per scene and settings, on each client alike. A new one has a folder of its
-// own, a line in methods.cpp and one in the table of facts; methods never include each other.
+// A method is made once per scene and settings, on each client alike. Methods never include each
+// other. How to add one: docs/adding-a-method.md.
 //
 // Threads: const functions are reentrant; each thread has a Scratch of its own.
 // Owner: refers to the Transport that it was made of.   Errors: none.

@@ -115,7 +115,8 @@ struct Level {
     const ShadingPoint y = t.shader.shade(s, -w, {});
     // Probability of a ray that is long enough, at least `above`.
     const float reached = std::max(1 - t.bound * hit.t * hit.t / cosX, above);
-    receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
+    if (pathVertices > 1 || t.settings.directVpls > 0)
+      receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
     const Vec3 factor = above * left * y.bsdf.diffuse;
     float q = std::min(maxComponent(factor), kMaxSurvival), qGlossy = 0;
     if (isGlossy(y.bsdf)) {

@@ -51,9 +51,9 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
   return vpl;
 }
 
-void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k,
+void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k, int countOfFirst,
                  std::vector<Vpl>& vpls) {
-  const int count = t.streams.samples(stream, t.settings.directVpls);
+  const int count = t.streams.samples(stream, countOfFirst);
   const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), SampleUse::directVpl,
                              frame.randomization, static_cast<uint32_t>(k), log2Ceil(count),
                              t.settings.randomization);
@@ -80,8 +80,13 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
 }  // namespace
 
 void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector<Vpl>& vpls) {
+  const bool onlyBehind = t.settings.directVpls == 0;
+  if (onlyBehind && !(t.settings.compensate && t.allows(2))) return;
+  const int count = onlyBehind ? Settings{}.directVpls : t.settings.directVpls;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    addOfStream(t, stream, frame, k, vpls);
+    addOfStream(t, stream, frame, k, count, vpls);
+  if (onlyBehind)
+    for (Vpl& vpl : vpls) vpl.firstVertex = 2;
 }
 
 }  // namespace ninefold

@@ -1,5 +1,7 @@
 // direct_vpls.h: VPLs on the lamps: N samples of the emitters in proportion to power.
 //
+// N = 0: no lamp lights the first D vertex of an eye path. Those further on, which the compensation
+// meets, are lit by as many as by default.
 // Equal punctual ones are merged into one. In a gesture N stays as the gesture found it, and there
 // may be a second stream: light_streams.h.
 //

@@ -70,7 +70,7 @@ void VplWeights::fill(const Transport& t, const std::vector<Vpl>& vpls, int path
   size_ = size;
   if (weights_.size() < vpls.size() * size) weights_.resize(vpls.size() * size);
   for (size_t v = 0; v < vpls.size(); ++v) {
-    if (!t.allows(vpls[v].leastCount() + pathVertices)) {
+    if (pathVertices < vpls[v].firstVertex || !t.allows(vpls[v].leastCount() + pathVertices)) {
       std::fill_n(at(v, 0), size, 0.0f);
       continue;
     }

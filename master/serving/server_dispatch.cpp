@@ -1,0 +1,106 @@
+// server_dispatch.cpp: how work goes out: frames are opened, tasks assigned and sent.
+#include "common/base/cpu_time.h"
+#include "common/base/log.h"
+#include "common/scene/methods.h"
+#include "master/scheduling/task_rays.h"
+#include "master/serving/server.h"
+
+namespace ninefold {
+namespace {
+
+// Frames that may be open at once: enough for 144 clients with a light set of their own at rest, if
+// there is memory for all (Assembly::hasRoom).
+constexpr int kMaxOpenFrames = 16;
+
+// Ticks come much closer together: whatever is longer is a pause of this process or its machine.
+constexpr Duration kPause = std::chrono::seconds(1);
+
+}  // namespace
+
+// Once for all that the loop has at hand: many results often come together.
+void Server::dispatchSoon() {
+  if (std::exchange(dispatchWaits_, true)) return;
+  loop_.post([this, weak = std::weak_ptr(alive_)] {
+    if (weak.expired()) return;
+    dispatchWaits_ = false;
+    dispatch(Clock::now());
+  });
+}
+
+void Server::dispatch(Time now) {
+  if (isClosing()) return;
+  const Duration passed = now - lastDispatch_.value_or(now);
+  lastDispatch_ = now;
+  if (passed > kPause) scheduler_.paused(passed);
+  letJoin(now);
+  giveUpOpenFrames(now);
+  started_ = started_ || scheduler_.clients() >= setup_.waitClients;
+  if (!started_) return;
+  openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
+  const Actions actions = scheduler_.poll(now);
+  for (const Cancellation& cancel : actions.cancel)
+    if (const auto& connection = peers_.at(cancel.client).connection)
+      connection->send(msg::Cancel{offer_.job(), cancel.firstWanted});
+  sendTasks(actions.assign);
+  for (const StuckNote& note : actions.notes) tell(note);
+}
+
+void Server::tell(const StuckNote& note) const {
+  const std::string client =
+      fmt::format("client {}, {},", note.client, peers_.at(note.client).session->title());
+  if (note.isBack)
+    log("{} is back after being stuck for {:.0f} s", client, seconds(note.time));
+  else
+    warn("{} is stuck: {} is not done after {:.0f} s; its tasks go to others", client,
+         nameOf(note.task), seconds(note.time));
+}
+
+void Server::openFrames(Time) {
+  while (scheduler_.wantsFrame() && scheduler_.openFrames() < kMaxOpenFrames) {
+    const std::optional<FrameOrder> order = duty_.nextWork();
+    if (!order) return;
+    if (order->job != offer_.job()) announce(*order);
+    open_[order->key.frame] = *order;
+    scheduler_.openFrame(order->key, order->grid(),
+                         {.wholeTiles = order->delivery.wholeTiles(),
+                          .urgent = order->urgent,
+                          .freeSets = factsOf(order->settings.method).freeSets,
+                          .rays = raysOfTask(*order)});
+  }
+}
+
+void Server::announce(const FrameOrder& order) {
+  std::optional<msg::Edit> edit;
+  if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit, order.moving);
+  offer_.setJob(order.job, order.settings, order.delivery);
+  for (Handle& peer : peers_) {
+    peer.second.session->jobChanged(edit ? &*edit : nullptr);
+    carryOut(peer, Clock::now());
+  }
+}
+
+void Server::sendTasks(const std::vector<Assignment>& assignments) {
+  struct Bundle {
+    std::vector<msg::TaskItem> items;
+    Duration allowed{0};
+  };
+  std::map<std::pair<ClientId, uint32_t>, Bundle> bundles;
+  for (const Assignment& a : assignments) {
+    Bundle& bundle = bundles[{a.client, a.task.frame}];
+    bundle.items.push_back({static_cast<uint32_t>(a.task.tile), static_cast<uint32_t>(a.task.phase),
+                            open_.at(a.task.frame).extraMask});
+    bundle.allowed = a.allowed;
+  }
+  if (!bundles.empty() && !tally_.firstDispatch) {
+    tally_.firstDispatch = Clock::now();
+    tally_.cpuAtDispatch = processCpuTime();
+  }
+  for (auto& [to, bundle] : bundles) {
+    const FrameOrder& frame = open_.at(to.second);
+    if (const auto& connection = peers_.at(to.first).connection)
+      connection->send(msg::Tasks{frame.job, frame.key, std::move(bundle.items),
+                                  frame.neighbourWeight, frame.urgent, bundle.allowed});
+  }
+}
+
+}  // namespace ninefold
