@@ -1,9 +1,9 @@
 // renderer.h: what a client does with a scene: light sets and tasks. The door of common/gi.
 //
 // A Renderer is made once per scene and settings. After that everything is a pure function of its
-// arguments: any client makes the same light set and the same tile, bit for bit. Another view of the
-// same light costs next to nothing. Light sets do not depend on camera and size either, unless the
-// method makes its light for a view (lightNeedsView in scene/methods.h).
+// arguments: any client makes the same light set and the same tile, bit for bit. Another view of
+// the same light costs next to nothing. Light sets do not depend on camera and size either, unless
+// the method makes its light for a view (lightNeedsView in scene/methods.h).
 //
 // Owner:   refers to the Tracer.
 // Threads: const functions are reentrant; each thread has its own Scratch.
@@ -29,8 +29,8 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Light of set k of a frame, for this camera and size if it needs them. Costs 0.1 to some ms; share it among the tasks that use it
-  // (lightSetOfPhase).
+  // Light of set k of a frame, for this camera and size if it needs them. Costs 0.1 to some ms;
+  // share it among the tasks that use it (lightSetOfPhase).
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set) const;
 
   // Renders one task into `out`; light = light(task.frame, lightSetOfPhase(task.phase, ...)).

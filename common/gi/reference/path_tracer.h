@@ -17,8 +17,8 @@
 // Dimensions of vertex j = 1, 2, ...: 8j direction; 8j+2 choice; 8j+3 inside the lobe; 8j+4,
 // 8j+5 light.
 //
-// Its walk stays apart from that of eye_path.h, which is much alike: a fault in common code would be
-// in both pictures, and seen by comparing neither.
+// Its walk stays apart from that of eye_path.h, which is much alike: a fault in common code would
+// be in both pictures, and comparing them would not show it.
 //
 // Fails:   caustics of punctual lights (L is a point, S is smooth): no path finds them, and the log
 //          says so (leftOut in scene/methods.h).
