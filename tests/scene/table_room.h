@@ -1,5 +1,5 @@
-// table_room.h: the table room with a spot light beside its lamp, so that what a gesture freezes shows by every
-// method: which share of the samples each of them gets.
+// table_room.h: the table room with a spot light beside its lamp, so that what a gesture freezes
+// shows by every method: which share of the samples each of them gets.
 #pragma once
 
 #include "common/scene/reader.h"
