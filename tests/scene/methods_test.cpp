@@ -6,24 +6,10 @@
 #include <string>
 
 #include "common/image/layers.h"
-#include "tests/scene/simple_scene.h"
+#include "tests/scene/one_material.h"
 
 namespace ninefold {
 namespace {
-
-Scene withMaterial(const Material& material) {
-  Scene scene = simpleScene();
-  scene.materials[0] = material;
-  return scene;
-}
-
-Needs needsWith(const Material& m) { return needsOf(withMaterial(m), Radiance(0)); }
-
-Material matte() {
-  Material m;
-  m.metallic = 0;
-  return m;
-}
 
 Settings settingsOf(const MethodFacts& facts) {
   Settings s;

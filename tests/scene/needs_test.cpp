@@ -1,32 +1,17 @@
 #include <gtest/gtest.h>
 
 #include "common/image/layers.h"
-#include "common/scene/needs.h"
 #include "common/scene/texel_ranges.h"
 #include "tests/scene/one_line_error.h"
-#include "tests/scene/simple_scene.h"
+#include "tests/scene/one_material.h"
 
 namespace ninefold {
 namespace {
-
-Scene withMaterial(const Material& material) {
-  Scene scene = simpleScene();
-  scene.materials[0] = material;
-  return scene;
-}
 
 bool folds(float metallic, float roughness, float specular = 1) {
   Material m;
   m.metallic = metallic, m.roughness = roughness, m.specular = specular;
   return foldsIntoDiffuse(Scene{}, m);
-}
-
-Needs needsWith(const Material& m) { return needsOf(withMaterial(m), Radiance(0)); }
-
-Material matte() {
-  Material m;
-  m.metallic = 0;
-  return m;
 }
 
 TEST(Needs, FoldingRule) {

@@ -11,10 +11,9 @@ namespace {
 
 constexpr uint32_t kTurnDimension = 7;  // the padded group before has room
 constexpr uint32_t kWalkDimension = 8;  // after the joint four of the start and one padded group
+constexpr uint32_t kPilot = 1024;       // photons of a stream that tell how its lamps' light lies
 
 int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
-
-constexpr uint32_t kPilot = 1024;  // photons of a stream that tell how its lamps' light lies
 
 // A photon at the first D vertex after an S vertex. flux: what it adds to E there, times area.
 struct Landed {

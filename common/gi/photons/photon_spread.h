@@ -7,13 +7,12 @@
 //
 //   s^2 = 1 evenly spread; 1 - 2 (4/(3 pi))^2 = 0.64 at a straight rim; 2/3 on a line; 0 in a point
 //
-// They are told to be uneven if s^2 < 3/4 and S >= 5 Phi: of fewer, chance alone makes patterns,
-// and a photon that is brighter than all others together stays wide.
+// They count as uneven if s^2 < 3/4 and S >= 5 Phi. Chance alone makes patterns of fewer; and a
+// photon with more than a fifth of S stays wide.
 //
-// Photons of one lamp only are looked at: what is done to another lamp in a gesture changes
-// nothing (light_streams.h). Those from VPLs come in clumps of the few VPLs that they started
-// from, which are no rims: they are neither looked at nor asked for (conference, 64 frames: relMSE
-// 0.0061 instead of 0.0028).
+// Only photons of the same lamp count, so that what a gesture does to another lamp changes nothing
+// (light_streams.h). Photons from VPLs take no part: they come in clumps, one for each VPL, and a
+// clump is no rim (with them the relMSE of conference after 64 frames is 0.0061, not 0.0028).
 //
 // Source:  sample-point adaptive kernels, Breiman, Meisel, Purcell 1977 and Abramson 1982; the
 //          measure of evenness was made for this project. Tried beside it: docs/performance.md.
