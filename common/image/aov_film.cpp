@@ -76,7 +76,7 @@ void AovFilm::clear() {
   object_.assign((extraMask_ & kObjectPlane) != 0 ? n : 0, 0);
 }
 
-void AovFilm::addPatch(const Patch& patch, const PatchFilter& filter) {
+void AovFilm::addPatch(const Patch& patch) {
   NINEFOLD_CHECK(patch.extraMask() == extraMask_);
   for (int phase = 0; phase < patch.phases(); ++phase) {
     const ExtraPlanes& extras = patch.phase(phase).extras;
@@ -84,7 +84,11 @@ void AovFilm::addPatch(const Patch& patch, const PatchFilter& filter) {
     if ((extraMask_ & kNormalPlane) != 0) addRgb(patch, phase, extras.normal, normal_);
     if ((extraMask_ & kCausticPlane) != 0) addRgb(patch, phase, extras.caustic, caustic_);
     const bool isWhole = (extraMask_ & kIrradiancePlane) != 0;
-    addRgb(patch, phase, isWhole ? extras.irradiance : filter.irradiance(phase), irradiance_);
+    // Unfiltered: these means are to tend to the truth.
+    if (isWhole)
+      addRgb(patch, phase, extras.irradiance, irradiance_);
+    else if (!patch.isDark(kDiffuse))
+      addRgb(patch, phase, patch.phase(phase).layers[kDiffuse].irradiance, irradiance_);
     if ((extraMask_ & kDepthPlane) != 0)
       forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
         depth_[pixel] += static_cast<double>(extras.depth[from]);

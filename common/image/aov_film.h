@@ -22,7 +22,7 @@ class AovFilm {
 
   void clear();
   // A tile of the next frame; `filter` has just composed `patch`.
-  void addPatch(const Patch& patch, const PatchFilter& filter);
+  void addPatch(const Patch& patch);
   void frameDone() { ++frames_; }  // all its tiles were added
   // The planes that the mask names and the irradiance, in the order above.
   std::vector<Channel> channels() const;

@@ -5,49 +5,41 @@
 #include <limits>
 
 #include "common/base/error.h"
-#include "common/base/prefetch.h"
 
 namespace ninefold {
 namespace {
 
-int ceilDivide(int a, int b) { return (a + b - 1) / b; }
+constexpr int64_t kSharedEach = 8;  // frames after each of which a is worked out; then by eighths
 
-// The count-th values of pixels whose running means are `mean`.
-void addRow(const float* values, size_t n, int64_t count, double* mean) {
-  const double share = 1.0 / static_cast<double>(count);
+void subtract(const RgbImage& a, const RgbImage& b, RgbImage& out) {
+  out.reshape(a.width, a.height);
+  for (const auto plane : {&RgbPlane::r, &RgbPlane::g, &RgbPlane::b}) {
+    const float *x = (a.pixels.*plane).data(), *y = (b.pixels.*plane).data();
+    float* d = (out.pixels.*plane).data();
 #pragma GCC ivdep
-  for (size_t i = 0; i < n; ++i) mean[i] += (static_cast<double>(values[i]) - mean[i]) * share;
+    for (size_t i = 0; i < a.count(); ++i) d[i] = x[i] - y[i];
+  }
 }
-
-// Rows of a tile are far apart in the film, where no processor looks ahead by itself.
-constexpr int kRowsAhead = 2;
 
 }  // namespace
 
-Film::Film(int width, int height, bool keepsError, bool twoRadii)
+Film::Film(int width, int height, FilmKeeps keeps)
     : width_(width),
       height_(height),
-      blockColumns_(ceilDivide(width, kErrorBlock)),
-      blockRows_(ceilDivide(height, kErrorBlock)),
-      keepsError_(keepsError),
-      twoRadii_(twoRadii) {
-  const size_t blocks = pixelCount(blockColumns_, blockRows_);
-  blockMeans_.resize(blocks + 1);
-  for (int by = 0; by < blockRows_; ++by)
-    for (int bx = 0; bx < blockColumns_; ++bx)
-      blockPixels_.push_back(std::min(kErrorBlock, width - bx * kErrorBlock) *
-                             std::min(kErrorBlock, height - by * kErrorBlock));
-  blockPixels_.push_back(static_cast<double>(width) * height);
+      keeps_(keeps),
+      unfiltered_(width, height, keeps.error || keeps.neighbours) {
   clear();
 }
 
 void Film::clear() {
-  frames_ = 0;
-  const size_t pixels = pixelCount(width_, height_);
-  for (auto* mean : {&r_, &g_, &b_}) mean->assign(pixels, 0);
-  if (keepsError_) pixels_.resize(pixels);
-  blocks_.resize(blockMeans_.size());
-  bias_ = {};
+  frames_ = 0, bias_ = {};
+  unfiltered_ = FilmLayer(width_, height_, keeps_.error || keeps_.neighbours);
+  if (!keeps_.neighbours) return;
+  shift_.emplace(width_, height_, true);
+  share_.share.assign(pixelCount(width_, height_), 1);
+  share_.squaredBias.assign(share_.share.size(), 0);
+  blockShares_.assign(unfiltered_.blockPixels().size(), 1);
+  sharedAt_ = 0;
 }
 
 void Film::add(const RgbImage& frame) {
@@ -55,72 +47,62 @@ void Film::add(const RgbImage& frame) {
   frameDone();
 }
 
-void Film::addTile(int x0, int y0, const RgbImage& tile) {
-  NINEFOLD_CHECK(x0 + tile.width <= width_);
-  NINEFOLD_CHECK(y0 + tile.height <= height_);
-  const int64_t count = frames_ + 1;
-  const auto width = static_cast<size_t>(tile.width);
-  for (int y = 0; y < tile.height; ++y) {
-    const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
-    const size_t from = tile.at(0, y);
-    if (y + kRowsAhead < tile.height)
-      for (const auto* means : {&r_, &g_, &b_})
-        prefetch<Soon::isWritten>(means->data() + to + pixelCount(width_, kRowsAhead),
-                                  width * sizeof(double));
-    addRow(&tile.pixels.r[from], width, count, &r_[to]);
-    addRow(&tile.pixels.g[from], width, count, &g_[to]);
-    addRow(&tile.pixels.b[from], width, count, &b_[to]);
-  }
-  addLuminance(x0, y0, tile);
-}
-
-// Adds to each pixel, and to the sums of the blocks, row by row within each block. A row's blocks
-// take turns: an addition has to wait for the one before it to the same sum.
-void Film::addLuminance(int x0, int y0, const RgbImage& tile) {
-  NINEFOLD_CHECK(x0 % kErrorBlock == 0);
-  NINEFOLD_CHECK(y0 % kErrorBlock == 0);
-  std::vector<float> row(static_cast<size_t>(tile.width));
-  for (int y = 0; y < tile.height; ++y) {
-    double* sum = &blockMeans_[pixelCount(blockColumns_, (y0 + y) / kErrorBlock) +
-                               static_cast<size_t>(x0 / kErrorBlock)];
-    if (y % kErrorBlock == 0) std::fill_n(sum, ceilDivide(tile.width, kErrorBlock), 0.0);
-    for (size_t x = 0; x < row.size(); ++x) row[x] = luminance(tile.rgb(tile.at(0, y) + x));
-    for (size_t column = 0; column < kErrorBlock; ++column)
-      for (size_t x = column; x < row.size(); x += kErrorBlock)
-        sum[x / kErrorBlock] += static_cast<double>(row[x]);
-    const size_t to = pixelCount(width_, y0 + y) + static_cast<size_t>(x0);
-    if (keepsError_) pixels_.add(row, to, frames_);
-  }
+void Film::addTile(int x0, int y0, const RgbImage& tile, const RgbImage* filtered) {
+  NINEFOLD_CHECK(keeps_.neighbours == (filtered != nullptr));
+  unfiltered_.addTile(x0, y0, tile, frames_);
+  if (filtered == nullptr) return;
+  RgbImage shift;
+  subtract(*filtered, tile, shift);
+  shift_->addTile(x0, y0, shift, frames_);
 }
 
 void Film::frameDone() {
+  unfiltered_.frameDone(frames_);
+  if (shift_) shift_->frameDone(frames_);
   ++frames_;
-  double whole = 0;
-  for (size_t b = 0; b + 1 < blockMeans_.size(); ++b) {
-    whole += blockMeans_[b];
-    blockMeans_[b] /= blockPixels_[b];
+  const auto& n = unfiltered_.blockPixels();
+  if (keeps_.twoRadii && frames_ % kReplications == 0)
+    bias_ = RadiusBias::of(unfiltered_.blocks(), std::span(n).first(n.size() - 1), frames_);
+  if (shift_ && (frames_ <= kSharedEach || frames_ - sharedAt_ >= sharedAt_ / kSharedEach))
+    shareNeighbours();
+}
+
+NeighbourShare Film::newShare() const {
+  RgbImage filtered;
+  filtered.reset(width_, height_);
+  const TaskRect all{0, 0, width_, height_};
+  unfiltered_.write(all, filtered);
+  shift_->add(all, std::vector<float>(filtered.count(), 1), filtered);
+  return NeighbourShare::of(filtered, unfiltered_.pixels(), shift_->pixels(), frames_);
+}
+
+void Film::shareNeighbours() {
+  share_ = newShare();
+  sharedAt_ = frames_;
+  const auto& n = unfiltered_.blockPixels();
+  std::ranges::fill(blockShares_, 0);
+  for (size_t i = 0; i < share_.share.size(); ++i) {
+    const auto a = static_cast<double>(share_.share[i]);
+    blockShares_[unfiltered_.blockOf(i)] += a;
+    blockShares_.back() += a;
   }
-  blockMeans_.back() = whole / blockPixels_.back();
-  blocks_.add(blockMeans_, 0, frames_ - 1);
-  if (twoRadii_ && frames_ % kReplications == 0)
-    bias_ =
-        RadiusBias::of(blocks_, std::span(blockPixels_).first(blockPixels_.size() - 1), frames_);
+  for (size_t b = 0; b < n.size(); ++b) blockShares_[b] /= n[b];
 }
 
 void Film::mean(RgbImage& out) const {
   out.reset(width_, height_);
-  meanOfTile({0, 0, width_, height_}, out);
+  const TaskRect all{0, 0, width_, height_};
+  unfiltered_.write(all, out);
+  if (!shift_) return;
+  if (sharedAt_ == frames_) return shift_->add(all, share_.share, out);
+  shift_->add(all, newShare().share, out);
 }
 
 void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
   NINEFOLD_CHECK(out.width == width_);
   NINEFOLD_CHECK(out.height == height_);
-  for (int y = tile.j0; y < tile.j0 + tile.height; ++y) {
-    const size_t begin = out.at(tile.i0, y), end = begin + static_cast<size_t>(tile.width);
-    for (size_t i = begin; i < end; ++i) out.pixels.r[i] = static_cast<float>(r_[i]);
-    for (size_t i = begin; i < end; ++i) out.pixels.g[i] = static_cast<float>(g_[i]);
-    for (size_t i = begin; i < end; ++i) out.pixels.b[i] = static_cast<float>(b_[i]);
-  }
+  unfiltered_.write(tile, out);
+  if (shift_) shift_->add(tile, share_.share, out);
 }
 
 std::vector<float> Film::standardError() const {
@@ -130,33 +112,43 @@ std::vector<float> Film::standardError() const {
 }
 
 float Film::standardError(size_t pixel, int64_t frames) const {
-  NINEFOLD_CHECK(keepsError_);
+  NINEFOLD_CHECK(keeps_.error || keeps_.neighbours);
   if (frames < 2) return 0;
-  double squared = pixels_.estimate(pixel, frames).squaredError;
-  if (!bias_.squares.empty()) {
-    const size_t x = pixel % static_cast<size_t>(width_), y = pixel / static_cast<size_t>(width_);
-    squared +=
-        bias_.squares[y / kErrorBlock * static_cast<size_t>(blockColumns_) + x / kErrorBlock];
+  double squared = 0;
+  if (shift_) {
+    const auto a = static_cast<double>(share_.share[pixel]);
+    squared = estimateSum(unfiltered_.pixels(), a, shift_->pixels(), pixel, frames).squaredError +
+              static_cast<double>(share_.squaredBias[pixel]);
+  } else {
+    squared = unfiltered_.pixels().estimate(pixel, frames).squaredError;
   }
+  if (!bias_.squares.empty()) squared += bias_.squares[unfiltered_.blockOf(pixel)];
   return static_cast<float>(std::sqrt(squared));
+}
+
+double Film::squaredError(size_t block) const {
+  const auto& u = unfiltered_.blocks();
+  if (!shift_) return u.estimate(block, frames_).squaredError;
+  return estimateSum(u, blockShares_[block], shift_->blocks(), block, frames_).squaredError;
 }
 
 double Film::relativeError() const {
   if (frames_ < 2) return std::numeric_limits<double>::infinity();
+  const auto& n = unfiltered_.blockPixels();
   double sum = 0;
-  for (size_t b = 0; b + 1 < blockPixels_.size(); ++b)
-    sum += blockPixels_[b] * blocks_.estimate(b, frames_).squaredError;
-  return relative(sum / blockPixels_.back() + bias_.squared);
+  for (size_t b = 0; b + 1 < n.size(); ++b) sum += n[b] * squaredError(b);
+  return relative(sum / n.back() + bias_.squared);
 }
 
 double Film::imageRelativeError() const {
   if (frames_ < 2) return std::numeric_limits<double>::infinity();
-  return relative(blocks_.estimate(blockPixels_.size() - 1, frames_).squaredError);
+  return relative(squaredError(unfiltered_.blockPixels().size() - 1));
 }
 
 double Film::relative(double squaredError) const {
   if (squaredError == 0) return 0;
-  return std::sqrt(squaredError) / blocks_.estimate(blockPixels_.size() - 1, frames_).mean;
+  const size_t whole = unfiltered_.blockPixels().size() - 1;
+  return std::sqrt(squaredError) / unfiltered_.blocks().estimate(whole, frames_).mean;
 }
 
 }  // namespace ninefold

@@ -37,38 +37,48 @@ void interleave(const std::vector<const float*>& rows, int width, float* out) {
   for (; x < width; ++x) out[x] = rows[static_cast<size_t>(x % n)][x / n];
 }
 
+// The rows y = py, py + m, ... of the tile, of its phases' planes.
+void putRows(const Patch& patch, int py, const std::vector<RgbPlane>& phases, RgbImage& out) {
+  const int m = patch.grid().interleave().m;
+  std::vector<const float*> rows(phases.size());
+  for (int y = py; y < patch.height(); y += m)
+    for (const auto plane : {&RgbPlane::r, &RgbPlane::g, &RgbPlane::b}) {
+      for (size_t px = 0; px < rows.size(); ++px)
+        rows[px] = (phases[px].*plane).data() + (y / m + 1) * Patch::kSide + 1;
+      interleave(rows, patch.width(), &(out.pixels.*plane)[out.at(0, y)]);
+    }
+}
+
 bool isLit(const RgbPlane& light, size_t i) { return light.r[i] + light.g[i] + light.b[i] > 0; }
 
 }  // namespace
 
 void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighbourWeight,
-                          RgbImage& beauty) {
+                          RgbImage& beauty, RgbImage* unfiltered) {
   const auto [n, m] = patch.grid().interleave();
   beauty.reshape(patch.width(), patch.height());
+  if (unfiltered != nullptr) unfiltered->reshape(patch.width(), patch.height());
   irradiance_.resize(static_cast<size_t>(patch.phases()));
-  radiance_.resize(static_cast<size_t>(n));
+  radiance_.resize(static_cast<size_t>(n)), unfiltered_.resize(static_cast<size_t>(n));
   filtered_.reshape(Patch::kPixels);
   buffer_.prepare(patch, camera);
-  std::vector<const float*> rows(static_cast<size_t>(n));
   for (int py = 0; py < m; ++py) {
     for (int px = 0; px < n; ++px) {
       RgbPlane& sum = radiance_[static_cast<size_t>(px)];
+      RgbPlane* raw = unfiltered != nullptr ? &unfiltered_[static_cast<size_t>(px)] : nullptr;
       sum.resize(Patch::kPixels);
+      if (raw != nullptr) raw->resize(Patch::kPixels);
       for (int layer = 0; layer < kLayers; ++layer)
         if (hasLayer(patch.layerMask(), layer))
-          addLayer(patch, layer, py * n + px, neighbourWeight, sum);
+          addLayer(patch, layer, py * n + px, neighbourWeight, sum, raw);
     }
-    for (int y = py; y < patch.height(); y += m)
-      for (const auto plane : {&RgbPlane::r, &RgbPlane::g, &RgbPlane::b}) {
-        for (size_t px = 0; px < rows.size(); ++px)
-          rows[px] = (radiance_[px].*plane).data() + (y / m + 1) * Patch::kSide + 1;
-        interleave(rows, patch.width(), &(beauty.pixels.*plane)[beauty.at(0, y)]);
-      }
+    putRows(patch, py, radiance_, beauty);
+    if (unfiltered != nullptr) putRows(patch, py, unfiltered_, *unfiltered);
   }
 }
 
 void PatchFilter::addLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
-                           RgbPlane& sum) {
+                           RgbPlane& sum, RgbPlane* unfiltered) {
   const bool isKept = layer == kDiffuse && (keepsIrradiance_ || patch.extraMask() != 0);
   RgbPlane& kept = irradiance_[static_cast<size_t>(phase)];
   if (isKept) kept.resize(Patch::kPixels);
@@ -78,9 +88,11 @@ void PatchFilter::addLayer(const Patch& patch, int layer, int phase, float neigh
   const LayerPlanes& planes = patch.phase(phase).layers[static_cast<size_t>(layer)];
   const auto& [rho, e, u] = std::tie(planes.reflectance, filtered, planes.unfiltered);
   const bool glows = patch.glows(layer);
-  addLight(patch, rho.r, e.r, glows ? &u.r : nullptr, sum.r);
-  addLight(patch, rho.g, e.g, glows ? &u.g : nullptr, sum.g);
-  addLight(patch, rho.b, e.b, glows ? &u.b : nullptr, sum.b);
+  for (const auto c : {&RgbPlane::r, &RgbPlane::g, &RgbPlane::b}) {
+    addLight(patch, rho.*c, e.*c, glows ? &(u.*c) : nullptr, sum.*c);
+    if (unfiltered != nullptr)
+      addLight(patch, rho.*c, planes.irradiance.*c, glows ? &(u.*c) : nullptr, unfiltered->*c);
+  }
 }
 
 void PatchFilter::paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const {

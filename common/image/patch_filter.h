@@ -16,8 +16,10 @@ class PatchFilter {
  public:
   explicit PatchFilter(SurfaceTest test) : buffer_(test) {}
 
-  // Writes the tile's pixels; sets the shape of `beauty`.
-  void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty);
+  // Writes the tile's pixels; sets the shape of `beauty`. unfiltered: if not null, the same with E for
+  // E'.
+  void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty,
+               RgbImage* unfiltered = nullptr);
 
   // Whether compose keeps E' of the diffuse layer for irradiance(). Without, it does so only for
   // patches with extra planes.
@@ -30,13 +32,15 @@ class PatchFilter {
   void paintShares(const Patch& patch, float neighbourWeight, RgbImage& grey) const;
 
  private:
-  void addLayer(const Patch& patch, int layer, int phase, float neighbourWeight, RgbPlane& sum);
+  void addLayer(const Patch& patch, int layer, int phase, float neighbourWeight, RgbPlane& sum,
+                RgbPlane* unfiltered);
 
   DiscontinuityBuffer buffer_;
   bool keepsIrradiance_ = false;
   std::vector<RgbPlane> irradiance_;  // of the diffuse layer, by phase
   RgbPlane filtered_;                 // E' of one layer and phase
   std::vector<RgbPlane> radiance_;    // of the phases of one row
+  std::vector<RgbPlane> unfiltered_;  // the same with E
 };
 
 // One thread's memory for the tiles that it filters.
@@ -45,6 +49,7 @@ struct FilterDesk {
   Patch patch;
   PatchFilter filter;
   RgbImage beauty;
+  RgbImage unfiltered;  // if the film keeps it, too
 };
 
 }  // namespace ninefold

@@ -29,6 +29,35 @@
 
 namespace ninefold {
 
+// How many of the first `frames` frames replication r has.
+inline double framesOf(size_t r, int64_t frames) {
+  const int64_t whole = (frames - static_cast<int64_t>(r) + kReplications - 1) / kReplications;
+  return static_cast<double>(whole);
+}
+
+struct Estimate {
+  double mean = 0, squaredError = 0;
+};
+
+// Of a quantity whose mean in replication r is at(r), after frames 0 ... frames - 1; at least two.
+template <typename At>
+Estimate estimateOf(const At& at, int64_t frames) {
+  const auto used = static_cast<size_t>(std::min<int64_t>(frames, kReplications));
+  Estimate e;
+  double weight = 0, sum = 0;
+  for (size_t r = 0; r < used; ++r) {
+    const double c = framesOf(r, frames);
+    weight += c;
+    e.mean += c / weight * (at(r) - e.mean);
+  }
+  for (size_t r = 0; r < used; ++r) {
+    const double off = framesOf(r, frames) / weight * (at(r) - e.mean);
+    sum += off * off;
+  }
+  e.squaredError = sum * static_cast<double>(used) / static_cast<double>(used - 1);
+  return e;
+}
+
 template <typename T>
 class Replications {
  public:
@@ -51,35 +80,45 @@ class Replications {
   // Mean of quantity i in replication r.
   double at(size_t r, size_t i) const { return static_cast<double>(mean_[r * quantities_ + i]); }
 
-  struct Estimate {
-    double mean = 0, squaredError = 0;
-  };
   // Of quantity i after frames 0 ... frames - 1; at least two.
   Estimate estimate(size_t i, int64_t frames) const {
-    const auto used = static_cast<size_t>(std::min<int64_t>(frames, kReplications));
-    Estimate e;
-    double weight = 0, sum = 0;
-    for (size_t r = 0; r < used; ++r) {
-      const double c = count(r, frames);
-      weight += c;
-      e.mean += c / weight * (at(r, i) - e.mean);
-    }
-    for (size_t r = 0; r < used; ++r) {
-      const double off = count(r, frames) / weight * (at(r, i) - e.mean);
-      sum += off * off;
-    }
-    e.squaredError = sum * static_cast<double>(used) / static_cast<double>(used - 1);
-    return e;
+    return estimateOf([&](size_t r) { return at(r, i); }, frames);
   }
 
  private:
-  static double count(size_t r, int64_t frames) {
-    const int64_t whole = (frames - static_cast<int64_t>(r) + kReplications - 1) / kReplications;
-    return static_cast<double>(whole);
-  }
-
   size_t quantities_ = 0;
   std::vector<T> mean_;  // replication by replication
 };
+
+struct Joint {
+  Estimate second;
+  double covariance = 0;  // of the two means
+};
+
+// Of quantity i of x and y.
+template <typename T>
+Joint estimateBoth(const Replications<T>& x, const Replications<T>& y, size_t i, int64_t frames) {
+  const auto used = static_cast<size_t>(std::min<int64_t>(frames, kReplications));
+  const double share = 1 / static_cast<double>(frames);
+  double meanX = 0, meanY = 0, variance = 0, covariance = 0;
+  for (size_t r = 0; r < used; ++r) {
+    const double c = framesOf(r, frames) * share;
+    meanX += c * x.at(r, i), meanY += c * y.at(r, i);
+  }
+  for (size_t r = 0; r < used; ++r) {
+    const double c = framesOf(r, frames) * share;
+    const double offX = c * (x.at(r, i) - meanX), offY = c * (y.at(r, i) - meanY);
+    covariance += offX * offY, variance += offY * offY;
+  }
+  const double more = static_cast<double>(used) / static_cast<double>(used - 1);
+  return {{meanY, more * variance}, more * covariance};
+}
+
+// Of x + a y, for quantity i of both.
+template <typename T>
+Estimate estimateSum(const Replications<T>& x, double a, const Replications<T>& y, size_t i,
+                     int64_t frames) {
+  return estimateOf([&](size_t r) { return x.at(r, i) + a * y.at(r, i); }, frames);
+}
 
 }  // namespace ninefold

@@ -29,10 +29,15 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
   });
 }
 
+void addTile(Film& film, const FilterDesk& desk, const TaskRect& rect) {
+  if (film.keeps().neighbours)
+    film.addTile(rect.i0, rect.j0, desk.unfiltered, &desk.beauty);
+  else
+    film.addTile(rect.i0, rect.j0, desk.beauty);
+}
+
 PictureMaker::PictureMaker(const Setup& setup)
-    : setup_(setup),
-      film_(setup.shape.grid.width(), setup.shape.grid.height(),
-            setup.aovMask != 0 || setup.view == PictureView::error, setup.twoRadii) {
+    : setup_(setup), film_(setup.shape.grid.width(), setup.shape.grid.height(), setup.keeps) {
   if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<FilterDesk>(setup.surfaceTest));
@@ -42,11 +47,12 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
   FilterDesk& desk = *desks_[static_cast<size_t>(worker)];
   if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
   gather(frame, tile, desk.patch);
-  desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty);
+  desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty,
+                      setup_.keeps.neighbours ? &desk.unfiltered : nullptr);
   paint(setup_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
         setup_.depthScale, nullptr, desk.beauty);
-  film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
-  if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
+  addTile(film_, desk, pixelsOf(frame.view.shape.grid, tile));
+  if (aovs_) aovs_->addPatch(desk.patch);
 }
 
 void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile) {

@@ -23,8 +23,8 @@ class PictureMaker {
  public:
   struct Setup {
     FrameShape shape;
-    bool twoRadii = false;  // of photons, see film.h
-    uint8_t aovMask = 0;    // planes that become layers of the file
+    FilmKeeps keeps;
+    uint8_t aovMask = 0;  // planes that become layers of the file
     PictureView view = PictureView::beauty;
     float depthScale = 1;  // [m], see view.h
     SurfaceTest surfaceTest = SurfaceTest::surface;
@@ -51,6 +51,9 @@ class PictureMaker {
   Film film_;
   std::optional<AovFilm> aovs_;  // if extra layers are wanted
 };
+
+// A tile of the next frame onto the film: unfiltered and filtered, if it keeps both, else beauty.
+void addTile(Film& film, const FilterDesk& desk, const TaskRect& rect);
 
 // Fills a patch with a tile of the frame and what lies around it.
 void gather(const GatheredFrame& frame, int tile, Patch& patch);

@@ -2,20 +2,22 @@
 
 #include <algorithm>
 
+#include "master/assembly/picture.h"
+
 namespace ninefold {
 
-void RestFilm::begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst) {
+void RestFilm::begin(const TileGrid& grid, FilmKeeps keeps, bool isFirst) {
   const bool fits = film_ && film_->width() == grid.width() && film_->height() == grid.height() &&
-                    keepsError_ == keepsError && film_->twoRadii() == twoRadii;
+                    film_->keeps() == keeps;
   if (!fits)
-    film_.emplace(grid.width(), grid.height(), keepsError_ = keepsError, twoRadii);
+    film_.emplace(grid.width(), grid.height(), keeps);
   else if (isFirst)
     film_->clear();
   if (!fits || isFirst) has_.assign(static_cast<size_t>(grid.tiles()), 0);
 }
 
-void RestFilm::addTile(int tile, const TaskRect& rect, const RgbImage& beauty) {
-  if (has_[static_cast<size_t>(tile)]++ == 0) film_->addTile(rect.i0, rect.j0, beauty);
+void RestFilm::addTile(int tile, const TaskRect& rect, const FilterDesk& desk) {
+  if (has_[static_cast<size_t>(tile)]++ == 0) ninefold::addTile(*film_, desk, rect);
 }
 
 void RestFilm::frameDone() {

@@ -10,20 +10,20 @@
 #include <vector>
 
 #include "common/image/film.h"
+#include "common/image/patch_filter.h"
 
 namespace ninefold {
 
 class RestFilm {
  public:
   // A frame begins. isFirst: it is the first of a new picture.
-  void begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst);
-  void addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
+  void begin(const TileGrid& grid, FilmKeeps keeps, bool isFirst);
+  void addTile(int tile, const TaskRect& rect, const FilterDesk& desk);
   void frameDone();
   const Film& film() const { return *film_; }
 
  private:
   std::optional<Film> film_;
-  bool keepsError_ = false;
   std::vector<char> has_;  // by tile: of the frame that is not done yet
 };
 

@@ -16,6 +16,7 @@
 
 #include "common/base/command_line.h"
 #include "common/image/surface_test.h"
+#include "common/scene/methods.h"
 #include "common/scene/scene.h"
 #include "common/scene/settings.h"
 #include "master/assembly/view.h"
@@ -73,6 +74,13 @@ inline bool isLive(const Options& o) { return o.window || o.script || o.animate;
 // Whether a picture's tiles come filtered, as far as the command line says.
 inline bool filtersAtClients(const Options& o, PictureView view) {
   return o.filterAtClients && isLight(view);
+}
+
+// Whether the discontinuity buffer's share is found by the film (image/neighbour_share.h). Clients
+// that filter send the filtered tile alone; its neighbours fade (running/frame_plan.h).
+inline bool sharesNeighbours(const Options& o, Method method, PictureView view) {
+  return o.converging && o.surfaceTest != SurfaceTest::none && !o.filterAtClients &&
+         !isPainted(view) && !factsOf(method).isUnfiltered;
 }
 
 // Whether a live run has no use for radiance, unless it sums frames up.

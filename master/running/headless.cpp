@@ -65,7 +65,9 @@ FrameOrder orderOf(const Job& job) {
 PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int workers) {
   PictureMaker::Setup setup;
   setup.shape = job.shape;
-  setup.twoRadii = options.converging && usesPhotons(job.needs, job.settings);
+  setup.keeps.error = options.aovs || options.view == PictureView::error;
+  setup.keeps.twoRadii = options.converging && usesPhotons(job.needs, job.settings);
+  setup.keeps.neighbours = sharesNeighbours(options, job.settings.method, options.view);
   setup.aovMask = options.aovs ? job.shape.extraMask : 0;
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;
@@ -96,7 +98,7 @@ std::optional<FrameOrder> HeadlessRun::nextWork() {
   if (enough_ || allOpened) return std::nullopt;
   FrameOrder order = order_;
   order.key = plan_.next();
-  order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
+  if (order.delivery.wholeTiles()) order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
   machine_.open(order, job_.shape);
   return order;
 }

@@ -39,10 +39,9 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
 }
 
 void LivePicture::beginRest(const TileGrid& grid, bool isFirst) {
-  light_.begin(grid, setup_.keepsError || look_.view == PictureView::error, look_.twoRadii,
-               isFirst);
+  light_.begin(grid, look_.keeps, isFirst);
   const bool isNew = isFirst || look_.view != std::exchange(paintedView_, look_.view);
-  if (isPainted(look_.view)) painted_.begin(grid, false, false, isNew);
+  if (isPainted(look_.view)) painted_.begin(grid, {.error = false}, isNew);
 }
 
 void LivePicture::takeImage(const FrameShape& shape, bool isFirst) {
@@ -80,9 +79,9 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
     frame.task(tile, 0).copyRadiance(desk.beauty);
   else
     finishLayers(desk, frame, plan.moving, tile);
-  if (rested_) light_.addTile(tile, rect, desk.beauty);
+  if (rested_) light_.addTile(tile, rect, desk);
   if (!isFiltered(shape)) paintTile(desk, frame.view, owners, tile);
-  if (rested_ && isPainted(look_.view)) painted_.addTile(tile, rect, desk.beauty);
+  if (rested_ && isPainted(look_.view)) painted_.addTile(tile, rect, desk);
   rested_ ? showMean(rect) : copyTile(rect, desk.beauty);
   if (look_.exposure) toneMap(rect);
 }
@@ -91,7 +90,9 @@ void LivePicture::finishLayers(FilterDesk& desk, const GatheredFrame& frame, boo
                                int tile) {
   const FrameView& view = frame.view;
   gather(frame, tile, desk.patch);
-  desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty);
+  const bool isTwice = rested_ && look_.keeps.neighbours;
+  desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty,
+                      isTwice ? &desk.unfiltered : nullptr);
   if (traced_) history_.blend(desk.patch, desk.filter, moving, desk.beauty);
   if (hasPicks(view.shape)) keepPickPlanes(desk.patch);
 }

@@ -29,7 +29,7 @@ namespace ninefold {
 struct LiveLook {
   PictureView view = PictureView::beauty;
   std::optional<float> exposure;  // [EV] of the tone map; none: nobody looks at codes
-  bool twoRadii = false;          // of photons, see film.h; changes at a rest's beginning
+  FilmKeeps keeps = {};           // of the light at rest; changes at a rest's beginning
 };
 
 class LivePicture {
@@ -37,9 +37,8 @@ class LivePicture {
   struct Setup {
     SurfaceTest test = SurfaceTest::surface;
     int workers = 1;
-    float depthScale = 1;     // [m], see view.h
-    bool reuses = false;      // light of one frame in the next, while only the camera moves
-    bool keepsError = false;  // of every pixel: the error may be looked at at any time
+    float depthScale = 1;  // [m], see view.h
+    bool reuses = false;   // light of one frame in the next, while only the camera moves
   };
   explicit LivePicture(const Setup& setup);
 

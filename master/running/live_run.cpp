@@ -29,7 +29,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       onPicture_(std::move(onPicture)),
       picture_({options.surfaceTest, FrameMachine::workers(), kDepthShownWhite * job.sceneRadius,
-                pace.motion, pace.person}),
+                pace.motion}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
@@ -154,8 +154,11 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
 }
 
 LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
-  const bool twoRadii = options_.converging && usesPhotons(needs_, frame.order.settings);
-  LiveLook look{view_, pace_.exposure, twoRadii};
+  const Settings& settings = frame.order.settings;
+  LiveLook look{view_, pace_.exposure, {}};
+  look.keeps.error = pace_.person || view_ == PictureView::error;
+  look.keeps.twoRadii = options_.converging && usesPhotons(needs_, settings);
+  look.keeps.neighbours = sharesNeighbours(options_, settings.method, PictureView::beauty);
   if (look.exposure && isFalseColor(view_)) look.exposure = 0;
   const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
   if (!isSeen) look.exposure.reset();
@@ -196,7 +199,7 @@ std::optional<FrameOrder> LiveRun::nextWork() {
   if (!frame) return std::nullopt;
   FrameOrder& order = frame->order;
   order.edit = std::exchange(unsent_, {});
-  order.neighbourWeight = frame->neighbourWeight;
+  if (order.delivery.wholeTiles()) order.neighbourWeight = frame->neighbourWeight;
   open_[order.key.frame] = std::make_shared<Open>(
       Open{*frame, plan_.state(), lookAt(*frame),
            std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});

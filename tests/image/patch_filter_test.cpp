@@ -156,7 +156,7 @@ TEST(AovFilm, NamesItsChannelsAndAveragesThem) {
     for (int tile = 0; tile < grid.tiles(); ++tile) {
       fill(patch, frame, tile);
       filter.compose(patch, camera(), 1, beauty);
-      film.addPatch(patch, filter);
+      film.addPatch(patch);
     }
     film.frameDone();
   }

@@ -55,7 +55,7 @@ RgbImage reference(const Tracer& tracer, const Camera& camera) {
   Settings settings = small(false);
   settings.seed = 100;
   testing::OneProcess process(tracer, settings, nullptr, camera);
-  Film film(settings.width, settings.height, false);
+  Film film(settings.width, settings.height, {.error = false});
   for (int i = 0; i < kReference; ++i) {
     film.addTile(0, 0, process.nextFrame());
     film.frameDone();
