@@ -29,10 +29,20 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
   });
 }
 
+namespace {
+
+bool isDenoised(const PictureMaker::Setup& setup) {
+  return setup.denoise && isLight(setup.view) && !isFiltered(setup.shape);
+}
+
+}  // namespace
+
 PictureMaker::PictureMaker(const Setup& setup)
     : setup_(setup),
       film_(setup.shape.grid.width(), setup.shape.grid.height(),
-            setup.aovMask != 0 || setup.view == PictureView::error, setup.twoRadii) {
+            setup.aovMask != 0 || setup.view == PictureView::error || isDenoised(setup),
+            setup.twoRadii) {
+  if (isDenoised(setup)) guides_.emplace(film_.width(), film_.height());
   if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<FilterDesk>(setup.surfaceTest));
@@ -47,6 +57,7 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
         setup_.depthScale, nullptr, desk.beauty);
   film_.addTile(desk.patch.x0(), desk.patch.y0(), desk.beauty);
   if (aovs_) aovs_->addPatch(desk.patch, desk.filter);
+  if (guides_) guides_->addPatch(desk.patch);
 }
 
 void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile) {
@@ -58,6 +69,7 @@ void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int
 void PictureMaker::frameDone() {
   film_.frameDone();
   if (aovs_) aovs_->frameDone();
+  if (guides_) guides_->frameDone();
 }
 
 std::string PictureMaker::imageHash() const {
@@ -76,6 +88,7 @@ std::vector<Channel> PictureMaker::extraChannels() const {
 void PictureMaker::write(const std::string& path, const Metadata& metadata) const {
   RgbImage mean;
   film_.mean(mean);
+  if (guides_) denoise(mean, film_.standardError(), guides_->guides(), setup_.workers);
   if (setup_.view == PictureView::error)
     paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
   float exposure = 0;
