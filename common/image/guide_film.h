@@ -24,6 +24,7 @@ class GuideFilm {
   void clear();                       // the picture has changed: start again
   void addPatch(const Patch& patch);  // a tile of the next frame, each once
   void frameDone() { ++frames_; }     // all its tiles were added
+  int64_t frames() const { return frames_; }
   DenoiseGuides guides() const;
 
  private:

@@ -14,8 +14,10 @@ void RestFilm::begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool 
   if (!fits || isFirst) has_.assign(static_cast<size_t>(grid.tiles()), 0);
 }
 
-void RestFilm::addTile(int tile, const TaskRect& rect, const RgbImage& beauty) {
-  if (has_[static_cast<size_t>(tile)]++ == 0) film_->addTile(rect.i0, rect.j0, beauty);
+bool RestFilm::addTile(int tile, const TaskRect& rect, const RgbImage& beauty) {
+  if (has_[static_cast<size_t>(tile)]++ != 0) return false;
+  film_->addTile(rect.i0, rect.j0, beauty);
+  return true;
 }
 
 void RestFilm::frameDone() {

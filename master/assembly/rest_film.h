@@ -17,7 +17,8 @@ class RestFilm {
  public:
   // A frame begins. isFirst: it is the first of a new picture.
   void begin(const TileGrid& grid, bool keepsError, bool twoRadii, bool isFirst);
-  void addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
+  // False if the film has the tile already.
+  bool addTile(int tile, const TaskRect& rect, const RgbImage& beauty);
   void frameDone();
   const Film& film() const { return *film_; }
 

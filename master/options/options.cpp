@@ -142,6 +142,8 @@ void readFiles(const RawOptions& raw, Options& o) {
   if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
     failUsage("--output {}: the name must end in .exr, .png or .hdr", *o.output);
   if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
+  if (o.denoise == true && isLive(o) && !o.window && !ends(".png"))
+    failUsage("--denoise on, with --script or --animate, needs an --output that ends in .png");
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ inline bool filtersAtClients(const Options& o, PictureView view) {
 
 // Whether a picture gets a last touch (image/denoise.h): by default those that people look at.
 inline bool denoises(const Options& o) {
-  const bool isSeen = o.output && o.output->ends_with(".png");
+  const bool isSeen = o.window || (o.output && o.output->ends_with(".png"));
   return o.denoise.value_or(isSeen && o.preset != Preset::paper);
 }
 

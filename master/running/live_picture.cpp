@@ -28,7 +28,7 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   look_ = look;
   const TileGrid& grid = frame.view.shape.grid;
   rested_ = !plan.moving && frame.view.shape.layerMask != kDisplayMask;
-  if (rested_) beginRest(grid, plan.rested == 0);
+  if (rested_) beginRest(frame.view.shape, plan.rested == 0);
   traced_ = setup_.reuses && !isFiltered(frame.view.shape);
   if (traced_) {
     if (plan.world != world_) history_.forget();
@@ -38,9 +38,12 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   takeImage(frame.view.shape, !rested_ || plan.rested == 0);
 }
 
-void LivePicture::beginRest(const TileGrid& grid, bool isFirst) {
-  light_.begin(grid, setup_.keepsError || look_.view == PictureView::error, look_.twoRadii,
-               isFirst);
+void LivePicture::beginRest(const FrameShape& shape, bool isFirst) {
+  const TileGrid& grid = shape.grid;
+  const bool keepsError = setup_.keepsError || setup_.denoise || look_.view == PictureView::error;
+  light_.begin(grid, keepsError, look_.twoRadii, isFirst);
+  guided_ = setup_.denoise && !isFiltered(shape);
+  if (setup_.denoise) touch_.begin(grid, isFirst);
   const bool isNew = isFirst || look_.view != std::exchange(paintedView_, look_.view);
   if (isPainted(look_.view)) painted_.begin(grid, false, false, isNew);
 }
@@ -80,11 +83,16 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
     frame.task(tile, 0).copyRadiance(desk.beauty);
   else
     finishLayers(desk, frame, plan.moving, tile);
-  if (rested_) light_.addTile(tile, rect, desk.beauty);
+  if (rested_) addToRest(desk, rect, tile);
   if (!isFiltered(shape)) paintTile(desk, frame.view, owners, tile);
   if (rested_ && isPainted(look_.view)) painted_.addTile(tile, rect, desk.beauty);
   rested_ ? showMean(rect) : copyTile(rect, desk.beauty);
   if (look_.exposure) toneMap(rect);
+}
+
+void LivePicture::addToRest(const FilterDesk& desk, const TaskRect& rect, int tile) {
+  const bool isNew = light_.addTile(tile, rect, desk.beauty);
+  if (isNew && guided_) touch_.addPatch(desk.patch);
 }
 
 void LivePicture::finishLayers(FilterDesk& desk, const GatheredFrame& frame, bool moving,
@@ -144,6 +152,14 @@ void LivePicture::frameDone() {
   if (rested_) light_.frameDone();
   if (rested_ && isPainted(look_.view)) painted_.frameDone();
   if (traced_) history_.frameDone();
+  if (rested_ && guided_) touchUp();
+}
+
+void LivePicture::touchUp() {
+  touch_.frameDone();
+  if (!look_.exposure || !isLight(look_.view)) return;
+  touch_.show(light_.film(), image_->radiance, *look_.exposure, setup_.frames == frames(),
+              setup_.workers, image_->display);
 }
 
 double LivePicture::relativeError() const {

@@ -29,7 +29,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       onPicture_(std::move(onPicture)),
       picture_({options.surfaceTest, FrameMachine::workers(), kDepthShownWhite * job.sceneRadius,
-                pace.motion, pace.person}),
+                pace.motion, pace.person, denoises(options), pace.frames}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),

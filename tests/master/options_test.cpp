@@ -385,6 +385,10 @@ TEST(Options, PicturesForPeopleAreDenoised) {
   EXPECT_FALSE(denoises(parse("a.glb --preset paper --output a.png", {}, false)));
   EXPECT_FALSE(denoises(parse("a.glb --denoise off --output a.png", {}, false)));
   EXPECT_TRUE(denoises(parse("a.glb --denoise on --output a.exr", {}, false)));
+  EXPECT_TRUE(denoises(parse("a.glb --window", {}, false)));
+  EXPECT_NE(complaint("a.glb --animate 0:1:5 --denoise on --output a.####.exr", {}, false)
+                .find("--denoise"),
+            std::string::npos);
   EXPECT_NE(complaint("a.glb --denoise much").find("--denoise"), std::string::npos);
   EXPECT_NE(complaint("a.glb --filter-at clients --denoise on").find("--denoise"),
             std::string::npos);

@@ -1,0 +1,27 @@
+#include "master/assembly/rest_touch.h"
+
+namespace ninefold {
+
+void RestTouch::begin(const TileGrid& grid, bool isFirst) {
+  const bool fits = guides_ && width_ == grid.width() && height_ == grid.height();
+  if (fits && !isFirst) return;
+  width_ = grid.width(), height_ = grid.height(), frames_ = 0;
+  if (fits)
+    guides_->clear();
+  else
+    guides_.emplace(width_, height_);
+}
+
+void RestTouch::show(const Film& film, const RgbImage& mean, float exposure, bool isLast,
+                     int threads, DisplayImage& codes) {
+  const int64_t frames = film.frames();
+  if (frames < 2 || guides_->frames() != frames) return;
+  if (frames_ == 0 || isLast || 4 * frames >= 5 * frames_) {
+    touched_ = mean;
+    denoise(touched_, film.standardError(), guides_->guides(), threads);
+    frames_ = frames;
+  }
+  ToneMap(exposure).apply(touched_, codes);
+}
+
+}  // namespace ninefold

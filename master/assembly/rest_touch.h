@@ -1,0 +1,41 @@
+// rest_touch.h: the last touch (image/denoise.h) of a picture at rest, as codes for the display.
+// Radiance stays the film's mean: what is saved as light was never touched.
+//
+// A touch takes as long as a third of a frame's light or so. It is made anew whenever the film has
+// a quarter more frames than at the last one, and stays in between: 2, 3, 4, 5, 7, 9, 12, ...
+// frames. A still that only its last frame is seen of gets one.
+//
+// Not for frames that clients filter: they bring no guides. The first frame has no error yet, and
+// is shown as it is.
+// Threads: addTile for different tiles at once, else one at a time.   Errors: none.
+// Memory: 20 bytes a pixel for the guides, 15 for what is shown.
+// Proved: tests/master/live_picture_test.cpp.
+#pragma once
+
+#include <optional>
+
+#include "common/image/film.h"
+#include "common/image/guide_film.h"
+#include "common/image/tone_map.h"
+
+namespace ninefold {
+
+class RestTouch {
+ public:
+  // A frame begins. isFirst: it is the first of a new picture.
+  void begin(const TileGrid& grid, bool isFirst);
+  void addPatch(const Patch& patch) { guides_->addPatch(patch); }  // if the film took the tile
+  void frameDone() { guides_->frameDone(); }
+  // After the film's frame is done. mean: the film's. isLast: no further frame will be seen. Leaves
+  // the codes alone where there is nothing to touch.
+  void show(const Film& film, const RgbImage& mean, float exposure, bool isLast, int threads,
+            DisplayImage& codes);
+
+ private:
+  std::optional<GuideFilm> guides_;
+  int width_ = 0, height_ = 0;
+  RgbImage touched_;
+  int64_t frames_ = 0;  // of the film when it was touched; 0: not yet
+};
+
+}  // namespace ninefold
