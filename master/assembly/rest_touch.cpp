@@ -16,7 +16,7 @@ void RestTouch::show(const Film& film, const RgbImage& mean, float exposure, boo
                      int threads, DisplayImage& codes) {
   const int64_t frames = film.frames();
   if (frames < 2 || guides_->frames() != frames) return;
-  if (frames_ == 0 || isLast || 4 * frames >= 5 * frames_) {
+  if (frames_ == 0 || isLast || 4 * frames >= 5 * frames_ + 8) {
     touched_ = mean;
     denoise(touched_, film.standardError(), guides_->guides(), threads);
     frames_ = frames;
