@@ -181,20 +181,23 @@ class Strip {
 
 }  // namespace
 
-void denoise(RgbImage& picture, const std::vector<float>& standardError,
-             const DenoiseGuides& guides, int threads) {
+bool denoise(RgbImage& picture, const std::vector<float>& standardError,
+             const DenoiseGuides& guides, int threads, const std::stop_token& stop) {
   const DenoisePlanes planes(picture, standardError, guides);
   const int columns = (picture.width + kStripWidth - 1) / kStripWidth,
             rows = (picture.height + kBandHeight - 1) / kBandHeight;
   std::atomic<int> next{0};
   const auto work = [&] {
     Strip strip(planes, standardError, picture);
-    for (int i = next++; i < columns * rows; i = next++)
+    for (int i = next++; i < columns * rows && !stop.stop_requested(); i = next++)
       strip.run(i % columns * kStripWidth, i / columns * kBandHeight);
   };
-  std::vector<std::jthread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(work);
-  work();
+  {
+    std::vector<std::jthread> others;
+    for (int i = 1; i < threads; ++i) others.emplace_back(work);
+    work();
+  }
+  return !stop.stop_requested();
 }
 
 }  // namespace ninefold

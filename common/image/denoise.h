@@ -31,11 +31,12 @@
 // Source:  Bitterli et al. 2016 (nonlinearly weighted first-order regression); Rousselle, Manzi
 //          and Zwicker 2013 (distances of patches less their variance, guides).
 // Proved:  tests/image/denoise_test.cpp; measured in docs/performance.md.
-// Threads: starts and ends its own.   Memory: 56 bytes a pixel meanwhile.
+// Threads: starts and ends its own.   Memory: some 60 bytes a pixel meanwhile.
 // Errors:  none; the planes must be of the picture's size. Pixels that are not finite stay, and
 //          nobody takes from them.
 #pragma once
 
+#include <stop_token>
 #include <vector>
 
 #include "common/image/image.h"
@@ -49,7 +50,8 @@ struct DenoiseGuides {
   std::vector<float> nearness;  // 1/distance [1/m]; 0 where nothing is
 };
 
-void denoise(RgbImage& picture, const std::vector<float>& standardError,
-             const DenoiseGuides& guides, int threads);
+// False if it was stopped: then some of the picture is touched.
+bool denoise(RgbImage& picture, const std::vector<float>& standardError,
+             const DenoiseGuides& guides, int threads, const std::stop_token& stop = {});
 
 }  // namespace ninefold

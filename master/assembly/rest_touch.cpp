@@ -13,12 +13,13 @@ void RestTouch::begin(const TileGrid& grid, bool isFirst) {
 }
 
 void RestTouch::show(const Film& film, const RgbImage& mean, float exposure, bool isLast,
-                     int threads, DisplayImage& codes) {
+                     int threads, const std::stop_token& stop, DisplayImage& codes) {
   const int64_t frames = film.frames();
   if (frames < 2 || guides_->frames() != frames) return;
   if (frames_ == 0 || isLast || 4 * frames >= 5 * frames_ + 8) {
     touched_ = mean;
-    denoise(touched_, film.standardError(), guides_->guides(), threads);
+    frames_ = 0;
+    if (!denoise(touched_, film.standardError(), guides_->guides(), threads, stop)) return;
     frames_ = frames;
   }
   ToneMap(exposure).apply(touched_, codes);

@@ -27,9 +27,9 @@ class RestTouch {
   void addPatch(const Patch& patch) { guides_->addPatch(patch); }  // if the film took the tile
   void frameDone() { guides_->frameDone(); }
   // After the film's frame is done. mean: the film's. isLast: no further frame will be seen. Leaves
-  // the codes alone where there is nothing to touch.
+  // the codes alone where there is nothing to touch, or when it is stopped.
   void show(const Film& film, const RgbImage& mean, float exposure, bool isLast, int threads,
-            DisplayImage& codes);
+            const std::stop_token& stop, DisplayImage& codes);
 
  private:
   std::optional<GuideFilm> guides_;

@@ -148,18 +148,18 @@ void LivePicture::keepPickPlanes(const Patch& patch) {
   }
 }
 
-void LivePicture::frameDone() {
+void LivePicture::frameDone(const std::stop_token& stop) {
   if (rested_) light_.frameDone();
   if (rested_ && isPainted(look_.view)) painted_.frameDone();
   if (traced_) history_.frameDone();
-  if (rested_ && guided_) touchUp();
+  if (rested_ && guided_) touchUp(stop);
 }
 
-void LivePicture::touchUp() {
+void LivePicture::touchUp(const std::stop_token& stop) {
   touch_.frameDone();
   if (!look_.exposure || !isLight(look_.view)) return;
   touch_.show(light_.film(), image_->radiance, *look_.exposure, setup_.frames == frames(),
-              setup_.workers, image_->display);
+              setup_.workers, stop, image_->display);
 }
 
 double LivePicture::relativeError() const {

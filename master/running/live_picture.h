@@ -50,7 +50,8 @@ class LivePicture {
   // `owners`: by task, the client that it came from.
   void finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
                   const LiveLook& look, const std::vector<uint32_t>& owners, int tile);
-  void frameDone();
+  // stop: nobody waits for the last touch any more.
+  void frameDone(const std::stop_token& stop = {});
 
   std::shared_ptr<const LiveImage> image() const { return image_; }  // of the frames that are done
   int64_t frames() const { return rested_ ? shownFilm().film().frames() : 1; }
@@ -60,7 +61,7 @@ class LivePicture {
   void begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look);
   void beginRest(const FrameShape& shape, bool isFirst);
   void addToRest(const FilterDesk& desk, const TaskRect& rect, int tile);
-  void touchUp();
+  void touchUp(const std::stop_token& stop);
   void takeImage(const FrameShape& shape, bool isFirst);
   const RestFilm& shownFilm() const { return isPainted(look_.view) ? painted_ : light_; }
   void finishLayers(FilterDesk& desk, const GatheredFrame& frame, bool moving, int tile);

@@ -69,6 +69,7 @@ void LiveRun::change(const std::function<void()>& apply) {
     const LiveState next = newest();
     if (next == plan_.state()) return;
     firstWanted = plan_.change(next, Clock::now());
+    touching_.request_stop();
     if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
   }
   if (!firstWanted) return machine_.cluster().wake();
@@ -237,12 +238,15 @@ void LiveRun::gatherFrames() {
     const auto frame = machine_.next(Clock::now() + kLook);
     if (!frame) continue;
     std::shared_ptr<const Open> done;
+    std::stop_token stop;
     {
       const std::lock_guard lock(mutex_);
       if (plan_.completed(frame->key.frame, frame->finished)) done = open_.at(frame->key.frame);
+      touching_ = {};
+      stop = touching_.get_token();
     }
     if (done) {
-      picture_.frameDone();
+      picture_.frameDone(stop);
       publish(*done, frame->finished);
     }
     machine_.release(*frame);

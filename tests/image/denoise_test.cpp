@@ -164,6 +164,16 @@ TEST(Denoise, ManyThreadsGiveTheSameBytes) {
   for (const int threads : {2, 3, 7}) EXPECT_EQ(touched(picture, kErrors, wall(), threads), one);
 }
 
+TEST(Denoise, StopsWhenItIsTold) {
+  RgbImage picture = noisy(slope(), 0.1f, 4);
+  const RgbImage before = picture;
+  std::stop_source source;
+  source.request_stop();
+  EXPECT_FALSE(denoise(picture, kErrors, wall(), 2, source.get_token()));
+  EXPECT_EQ(picture, before);
+  EXPECT_TRUE(denoise(picture, kErrors, wall(), 2));
+}
+
 TEST(Denoise, NobodyTakesFromPixelsThatAreNotFinite) {
   RgbImage picture = noisy(slope(), 0.1f, 6);
   picture.pixels.g[picture.at(20, 20)] = std::numeric_limits<float>::quiet_NaN();
