@@ -1,9 +1,9 @@
 // rest_touch.h: the last touch (image/denoise.h) of a picture at rest, as codes for the display.
 // Radiance stays the film's mean: what is saved as light was never touched.
 //
-// A touch takes about as long as a frame, so it stays for a while. It is made anew when the film has
-// a quarter more frames, and two, than at the last one: after 2, 5, 9, 14, 20, 27, 36, ... frames.
-// A still of which only the last frame is seen gets one.
+// A touch takes about as long as a frame, so it stays for a while. It is made anew when the film
+// has a quarter more frames, and two, than at the last one: after 2, 5, 9, 14, 20, 27, 36, ...
+// frames. A still of which only the last frame is seen gets one.
 //
 // Not for frames that clients filter: they bring no guides. The first frame has no error yet, and
 // is shown as it is.
