@@ -16,13 +16,13 @@ void RestTouch::show(const Film& film, const RgbImage& mean, float exposure, boo
                      int threads, const std::stop_token& stop, DisplayImage& codes) {
   const int64_t frames = film.frames();
   if (frames < 2 || guides_->frames() != frames) return;
-  if (frames_ == 0 || isLast || 4 * frames >= 5 * frames_ + 8) {
+  if (isLast || 4 * frames >= 5 * frames_ + 16) {
     touched_ = mean;
     frames_ = 0;
     if (!denoise(touched_, film.standardError(), guides_->guides(), threads, stop)) return;
     frames_ = frames;
   }
-  ToneMap(exposure).apply(touched_, codes);
+  if (frames_ > 0) ToneMap(exposure).apply(touched_, codes);
 }
 
 }  // namespace ninefold

@@ -2,11 +2,11 @@
 // Radiance stays the film's mean: what is saved as light was never touched.
 //
 // A touch takes about as long as a frame, so it stays for a while. It is made anew when the film
-// has a quarter more frames, and two, than at the last one: after 2, 5, 9, 14, 20, 27, 36, ...
+// has a quarter more frames, and four, than at the last one: after 4, 9, 16, 24, 34, 47, ...
 // frames. A still of which only the last frame is seen gets one.
 //
-// Not for frames that clients filter: they bring no guides. The first frame has no error yet, and
-// is shown as it is.
+// Not for frames that clients filter: they bring no guides. The first frames have no error, or a
+// poor one, and are shown as they are.
 // Threads: addTile for different tiles at once, else one at a time.   Errors: none.
 // Memory: 20 bytes a pixel for the guides, 15 for what is shown.
 // Proved: tests/master/live_picture_test.cpp.
