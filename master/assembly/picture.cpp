@@ -36,8 +36,23 @@ void addTile(Film& film, const FilterDesk& desk, const TaskRect& rect) {
     film.addTile(rect.i0, rect.j0, desk.beauty);
 }
 
+namespace {
+
+bool isDenoised(const PictureMaker::Setup& setup) {
+  return setup.denoise && isLight(setup.view) && !isFiltered(setup.shape);
+}
+
+FilmKeeps keepsOf(const PictureMaker::Setup& setup) {
+  FilmKeeps keeps = setup.keeps;
+  keeps.error |= isDenoised(setup);
+  return keeps;
+}
+
+}  // namespace
+
 PictureMaker::PictureMaker(const Setup& setup)
-    : setup_(setup), film_(setup.shape.grid.width(), setup.shape.grid.height(), setup.keeps) {
+    : setup_(setup), film_(setup.shape.grid.width(), setup.shape.grid.height(), keepsOf(setup)) {
+  if (isDenoised(setup)) guides_.emplace(film_.width(), film_.height());
   if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<FilterDesk>(setup.surfaceTest));
@@ -53,6 +68,7 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
         setup_.depthScale, nullptr, desk.beauty);
   addTile(film_, desk, pixelsOf(frame.view.shape.grid, tile));
   if (aovs_) aovs_->addPatch(desk.patch);
+  if (guides_) guides_->addPatch(desk.patch);
 }
 
 void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile) {
@@ -64,6 +80,7 @@ void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int
 void PictureMaker::frameDone() {
   film_.frameDone();
   if (aovs_) aovs_->frameDone();
+  if (guides_) guides_->frameDone();
 }
 
 std::string PictureMaker::imageHash() const {
@@ -82,6 +99,7 @@ std::vector<Channel> PictureMaker::extraChannels() const {
 void PictureMaker::write(const std::string& path, const Metadata& metadata) const {
   RgbImage mean;
   film_.mean(mean);
+  if (guides_) denoise(mean, film_.standardError(), guides_->guides(), setup_.workers);
   if (setup_.view == PictureView::error)
     paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
   float exposure = 0;

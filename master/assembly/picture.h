@@ -1,4 +1,5 @@
-// picture.h: from gathered results to the picture: discontinuity buffer, film, tone map, file.
+// picture.h: from gathered results to the picture: discontinuity buffer, film, last touch, tone map,
+// file.
 //
 // The image hash is of the film's mean, so it depends on the frames and their order alone.
 // Threads: finishTile for different tiles and workers at once; everything else between frames.
@@ -12,6 +13,7 @@
 
 #include "common/image/aov_film.h"
 #include "common/image/film.h"
+#include "common/image/guide_film.h"
 #include "common/image/image_file.h"
 #include "common/image/patch_filter.h"
 #include "master/assembly/assembly.h"
@@ -30,6 +32,7 @@ class PictureMaker {
     SurfaceTest surfaceTest = SurfaceTest::surface;
     std::optional<float> exposure;  // [EV]; none: auto_exposure.h
     int workers = 1;
+    bool denoise = false;  // what is written, where layers came and the view is light
   };
   explicit PictureMaker(const Setup& setup);
 
@@ -49,7 +52,8 @@ class PictureMaker {
   const Setup setup_;
   std::vector<std::unique_ptr<FilterDesk>> desks_;
   Film film_;
-  std::optional<AovFilm> aovs_;  // if extra layers are wanted
+  std::optional<AovFilm> aovs_;      // if extra layers are wanted
+  std::optional<GuideFilm> guides_;  // if what is written is denoised
 };
 
 // A tile of the next frame onto the film: unfiltered and filtered, if it keeps both, else beauty.

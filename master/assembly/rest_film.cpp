@@ -16,8 +16,10 @@ void RestFilm::begin(const TileGrid& grid, FilmKeeps keeps, bool isFirst) {
   if (!fits || isFirst) has_.assign(static_cast<size_t>(grid.tiles()), 0);
 }
 
-void RestFilm::addTile(int tile, const TaskRect& rect, const FilterDesk& desk) {
-  if (has_[static_cast<size_t>(tile)]++ == 0) ninefold::addTile(*film_, desk, rect);
+bool RestFilm::addTile(int tile, const TaskRect& rect, const FilterDesk& desk) {
+  if (has_[static_cast<size_t>(tile)]++ != 0) return false;
+  ninefold::addTile(*film_, desk, rect);
+  return true;
 }
 
 void RestFilm::frameDone() {

@@ -18,7 +18,8 @@ class RestFilm {
  public:
   // A frame begins. isFirst: it is the first of a new picture.
   void begin(const TileGrid& grid, FilmKeeps keeps, bool isFirst);
-  void addTile(int tile, const TaskRect& rect, const FilterDesk& desk);
+  // False if the film has the tile already.
+  bool addTile(int tile, const TaskRect& rect, const FilterDesk& desk);
   void frameDone();
   const Film& film() const { return *film_; }
 

@@ -45,6 +45,7 @@ void readPicture(const RawOptions& raw, Options& o) {
     if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
       o.exposure = static_cast<float>(*ev);
   o.aovs = raw.isOn("aovs");
+  if (const auto touch = raw.choice("denoise", std::array{"off", "on"})) o.denoise = *touch == 1;
 }
 
 void readCluster(const RawOptions& raw, int cores, Options& o) {
@@ -80,6 +81,8 @@ void readDelivery(const RawOptions& raw, Options& o) {
         static_cast<int>(parseWhole("wire-level", *level, 0, uint64_t{Delivery::kHighestLevel}));
   if (!o.filterAtClients) return;
   if (o.aovs) failUsage("--aovs needs --filter-at master: clients send finished tiles only");
+  if (o.denoise == true)
+    failUsage("--denoise on needs --filter-at master: clients send no guides to filter by");
   const int pixels = kTaskSide * kTaskSide * o.settings.interleave.sets();
   if (pixels > kMaxTilePixels)
     failUsage("--filter-at clients: --interleave {}x{} makes tiles of {} pixels, at most are {}",
@@ -139,6 +142,8 @@ void readFiles(const RawOptions& raw, Options& o) {
   if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
     failUsage("--output {}: the name must end in .exr, .png or .hdr", *o.output);
   if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
+  if (o.denoise == true && isLive(o) && !o.window && !ends(".png"))
+    failUsage("--denoise on, with --script or --animate, needs an --output that ends in .png");
 }
 
 }  // namespace

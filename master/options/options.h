@@ -61,6 +61,7 @@ struct Options {
 
   std::optional<std::string> output;  // .exr, .png or .hdr
   bool aovs = false;
+  std::optional<bool> denoise;    // nothing: as denoises() says
   std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0
   bool autoExposure = false;      // instead: auto_exposure.h
   std::optional<std::string> stats;
@@ -81,6 +82,12 @@ inline bool filtersAtClients(const Options& o, PictureView view) {
 inline bool sharesNeighbours(const Options& o, Method method, PictureView view) {
   return o.converging && o.surfaceTest != SurfaceTest::none && !o.filterAtClients &&
          !isPainted(view) && !factsOf(method).isUnfiltered;
+}
+
+// Whether a picture gets a last touch (image/denoise.h): by default those that people look at.
+inline bool denoises(const Options& o) {
+  const bool isSeen = o.window || (o.output && o.output->ends_with(".png"));
+  return o.denoise.value_or(isSeen && o.preset != Preset::paper);
 }
 
 // Whether a live run has no use for radiance, unless it sums frames up.

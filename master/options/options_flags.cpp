@@ -29,6 +29,9 @@ constexpr Flag kPicture[] = {
     {"exposure", "EV|auto",
      "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
      "what the scene says, else 0)"},
+    {"denoise", "off|on",
+     "a last touch of filtering, of no pixel by more than its standard error (default: on in "
+     "the window and for .png, else off; paper off)"},
     {"view", "NAME",
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
      "error, clients, objects or weights"},

@@ -74,6 +74,7 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   setup.surfaceTest = options.surfaceTest;
   if (!options.autoExposure) setup.exposure = job.exposure;
   setup.workers = workers;
+  setup.denoise = denoises(options);
   return setup;
 }
 

@@ -28,7 +28,7 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   look_ = look;
   const TileGrid& grid = frame.view.shape.grid;
   rested_ = !plan.moving && frame.view.shape.layerMask != kDisplayMask;
-  if (rested_) beginRest(grid, plan.rested == 0);
+  if (rested_) beginRest(frame.view.shape, plan.rested == 0);
   traced_ = setup_.reuses && !isFiltered(frame.view.shape);
   if (traced_) {
     if (plan.world != world_) history_.forget();
@@ -38,8 +38,11 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   takeImage(frame.view.shape, !rested_ || plan.rested == 0);
 }
 
-void LivePicture::beginRest(const TileGrid& grid, bool isFirst) {
+void LivePicture::beginRest(const FrameShape& shape, bool isFirst) {
+  const TileGrid& grid = shape.grid;
   light_.begin(grid, look_.keeps, isFirst);
+  guided_ = setup_.denoise && !isFiltered(shape);
+  if (setup_.denoise) touch_.begin(grid, isFirst);
   const bool isNew = isFirst || look_.view != std::exchange(paintedView_, look_.view);
   if (isPainted(look_.view)) painted_.begin(grid, {.error = false}, isNew);
 }
@@ -79,11 +82,16 @@ void LivePicture::finishTile(int worker, const GatheredFrame& frame, const LiveF
     frame.task(tile, 0).copyRadiance(desk.beauty);
   else
     finishLayers(desk, frame, plan.moving, tile);
-  if (rested_) light_.addTile(tile, rect, desk);
+  if (rested_) addToRest(desk, rect, tile);
   if (!isFiltered(shape)) paintTile(desk, frame.view, owners, tile);
   if (rested_ && isPainted(look_.view)) painted_.addTile(tile, rect, desk);
   rested_ ? showMean(rect) : copyTile(rect, desk.beauty);
   if (look_.exposure) toneMap(rect);
+}
+
+void LivePicture::addToRest(const FilterDesk& desk, const TaskRect& rect, int tile) {
+  const bool isNew = light_.addTile(tile, rect, desk);
+  if (isNew && guided_) touch_.addPatch(desk.patch);
 }
 
 void LivePicture::finishLayers(FilterDesk& desk, const GatheredFrame& frame, bool moving,
@@ -141,10 +149,18 @@ void LivePicture::keepPickPlanes(const Patch& patch) {
   }
 }
 
-void LivePicture::frameDone() {
+void LivePicture::frameDone(const std::stop_token& stop) {
   if (rested_) light_.frameDone();
   if (rested_ && isPainted(look_.view)) painted_.frameDone();
   if (traced_) history_.frameDone();
+  if (rested_ && guided_) touchUp(stop);
+}
+
+void LivePicture::touchUp(const std::stop_token& stop) {
+  touch_.frameDone();
+  if (!look_.exposure || !isLight(look_.view)) return;
+  touch_.show(light_.film(), image_->radiance, *look_.exposure, setup_.frames == frames(),
+              setup_.workers, stop, image_->display);
 }
 
 double LivePicture::relativeError() const {

@@ -3,7 +3,8 @@
 // in one go, while it is in the cache; after a frame's last tile nothing is left to be done.
 //
 // At rest the light is summed up whatever view is shown, so that it is there when it is looked at
-// again. A view that paints something else is summed up beside it, from when it was chosen.
+// again. A view that paints something else is summed up beside it, from when it was chosen. Only a
+// last touch, if it is wanted, comes after the last tile.
 //
 // Threads: finishTile for different tiles and workers at once, all of one frame before the next's;
 // everything else between frames.
@@ -19,6 +20,7 @@
 #include "common/image/patch_filter.h"
 #include "master/assembly/assembly.h"
 #include "master/assembly/rest_film.h"
+#include "master/assembly/rest_touch.h"
 #include "master/assembly/view.h"
 #include "master/running/live_image.h"
 #include "master/running/live_plan.h"
@@ -39,13 +41,16 @@ class LivePicture {
     int workers = 1;
     float depthScale = 1;  // [m], see view.h
     bool reuses = false;   // light of one frame in the next, while only the camera moves
+    bool denoise = false;  // codes of light at rest get the last touch, see rest_touch.h
+    std::optional<int64_t> frames = {};  // of a rest, its last one is seen; nothing: all are
   };
   explicit LivePicture(const Setup& setup);
 
   // `owners`: by task, the client that it came from.
   void finishTile(int worker, const GatheredFrame& frame, const LiveFrame& plan,
                   const LiveLook& look, const std::vector<uint32_t>& owners, int tile);
-  void frameDone();
+  // stop: nobody waits for the last touch any more.
+  void frameDone(const std::stop_token& stop = {});
 
   std::shared_ptr<const LiveImage> image() const { return image_; }  // of the frames that are done
   int64_t frames() const { return rested_ ? shownFilm().film().frames() : 1; }
@@ -53,7 +58,9 @@ class LivePicture {
 
  private:
   void begin(const GatheredFrame& frame, const LiveFrame& plan, const LiveLook& look);
-  void beginRest(const TileGrid& grid, bool isFirst);
+  void beginRest(const FrameShape& shape, bool isFirst);
+  void addToRest(const FilterDesk& desk, const TaskRect& rect, int tile);
+  void touchUp(const std::stop_token& stop);
   void takeImage(const FrameShape& shape, bool isFirst);
   const RestFilm& shownFilm() const { return isPainted(look_.view) ? painted_ : light_; }
   void finishLayers(FilterDesk& desk, const GatheredFrame& frame, bool moving, int tile);
@@ -74,6 +81,8 @@ class LivePicture {
   LiveLook look_;
   bool rested_ = false;  // summed up; in a still of codes nothing is
   RestFilm light_, painted_;
+  bool guided_ = false;  // the frame brings what touch_ is guided by
+  RestTouch touch_;
   PictureView paintedView_ = PictureView::beauty;   // of painted_
   std::shared_ptr<PickPlanes> picks_;               // of the frame, or of the first one of the rest
   std::shared_ptr<LiveImage> image_;                // that tiles come into

@@ -29,7 +29,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       onPicture_(std::move(onPicture)),
       picture_({options.surfaceTest, FrameMachine::workers(), kDepthShownWhite * job.sceneRadius,
-                pace.motion}),
+                pace.motion, denoises(options), pace.frames}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
@@ -69,6 +69,7 @@ void LiveRun::change(const std::function<void()>& apply) {
     const LiveState next = newest();
     if (next == plan_.state()) return;
     firstWanted = plan_.change(next, Clock::now());
+    touching_.request_stop();
     if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
   }
   if (!firstWanted) return machine_.cluster().wake();
@@ -156,7 +157,7 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
 LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
   const Settings& settings = frame.order.settings;
   LiveLook look{view_, pace_.exposure, {}};
-  look.keeps.error = pace_.person || view_ == PictureView::error;
+  look.keeps.error = pace_.person || denoises(options_) || view_ == PictureView::error;
   look.keeps.twoRadii = options_.converging && usesPhotons(needs_, settings);
   look.keeps.neighbours = sharesNeighbours(options_, settings.method, PictureView::beauty);
   if (look.exposure && isFalseColor(view_)) look.exposure = 0;
@@ -240,12 +241,15 @@ void LiveRun::gatherFrames() {
     const auto frame = machine_.next(Clock::now() + kLook);
     if (!frame) continue;
     std::shared_ptr<const Open> done;
+    std::stop_token stop;
     {
       const std::lock_guard lock(mutex_);
       if (plan_.completed(frame->key.frame, frame->finished)) done = open_.at(frame->key.frame);
+      touching_ = {};
+      stop = touching_.get_token();
     }
     if (done) {
-      picture_.frameDone();
+      picture_.frameDone(stop);
       publish(*done, frame->finished);
     }
     machine_.release(*frame);

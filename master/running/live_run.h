@@ -18,6 +18,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -114,6 +115,7 @@ class LiveRun {
   bool picks_ = false;
   Pace pace_;
   std::map<uint32_t, std::shared_ptr<Open>> open_;
+  std::stop_source touching_;  // of the newest complete frame's last touch: a change ends it
   std::shared_ptr<const Shown> shown_;
 
   std::atomic<bool> ending_ = false;

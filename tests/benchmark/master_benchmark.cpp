@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "common/image/denoise.h"
 #include "common/image/film.h"
 #include "common/image/irradiance_history.h"
 #include "common/image/patch_filter.h"
@@ -169,7 +170,7 @@ BENCHMARK(FilterTraffic);
 
 // The film of a 1920 x 1080 picture, tile after tile: from memory.
 void FilmTile(benchmark::State& state) {
-  Film film(1920, 1056, false);
+  Film film(1920, 1056, {.error = false});
   RgbImage tile;
   tile.reset(96, 96);
   int next = 0;
@@ -272,6 +273,29 @@ void ShowCodes(benchmark::State& state) {
   perPixel(state);
 }
 BENCHMARK(ShowCodes)->ArgName("level")->Arg(0)->Arg(1);
+
+// The last touch of a whole picture, whose noise is as large as its error says.
+void Denoise(benchmark::State& state) {
+  constexpr int kWidth = 640, kHeight = 480;
+  constexpr size_t kCount = size_t{kWidth} * kHeight;
+  std::mt19937 random(1);
+  std::normal_distribution<float> noise(1, 0.1f);
+  RgbImage picture;
+  picture.reset(kWidth, kHeight);
+  for (auto* plane : {&picture.pixels.r, &picture.pixels.g, &picture.pixels.b})
+    for (float& v : *plane) v = noise(random);
+  DenoiseGuides guides;
+  guides.albedo.assign(kCount, 0.5f), guides.nearness.assign(kCount, 0.3f);
+  guides.normal.resize(kCount), guides.normal.b.assign(kCount, 1.0f);
+  const std::vector<float> errors(kCount, 0.06f);
+  for (auto _ : state) {
+    RgbImage touched = picture;
+    denoise(touched, errors, guides, static_cast<int>(state.range(0)));
+    benchmark::DoNotOptimize(touched);
+  }
+}
+BENCHMARK(Denoise)->ArgName("threads")->Arg(1)->Arg(2)->UseRealTime()->Unit(
+    benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace ninefold

@@ -77,25 +77,41 @@ GatheredFrame finished(uint32_t number, const RgbImage& picture, const ToneMap* 
 class LivePictureTest : public testing::Test {
  protected:
   // Tiles last first, as two workers might do them.
-  std::shared_ptr<const LiveImage> shown(const GatheredFrame& frame, const LiveFrame& plan,
-                                         const LiveLook& look) {
+  static std::shared_ptr<const LiveImage> shown(const GatheredFrame& frame, const LiveFrame& plan,
+                                                const LiveLook& look, LivePicture& by) {
     const TileGrid& grid = frame.view.shape.grid;
     const std::vector<uint32_t> owners(frame.tasks.size());
     for (int tile = grid.tiles() - 1; tile >= 0; --tile)
-      picture.finishTile(tile % 2, frame, plan, look, owners, tile);
-    picture.frameDone();
-    return picture.image();
+      by.finishTile(tile % 2, frame, plan, look, owners, tile);
+    by.frameDone();
+    return by.image();
+  }
+  std::shared_ptr<const LiveImage> shown(const GatheredFrame& frame, const LiveFrame& plan,
+                                         const LiveLook& look) {
+    return shown(frame, plan, look, picture);
   }
   std::shared_ptr<const LiveImage> inMotion(const GatheredFrame& frame, const LiveLook& look) {
     LiveFrame plan;
     plan.moving = true, plan.world = frame.view.key.frame;  // somebody edits
     return shown(frame, plan, look);
   }
-  std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
-                                          const LiveLook& look) {
+  static std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
+                                                 const LiveLook& look, LivePicture& by) {
     LiveFrame plan;
     plan.rested = rested;
-    return shown(frame, plan, look);
+    return shown(frame, plan, look, by);
+  }
+  std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
+                                          const LiveLook& look) {
+    return atRest(frame, rested, look, picture);
+  }
+  static void addGuides(const GatheredFrame& frame, GuideFilm& guides) {
+    Patch patch;
+    for (int t = 0; t < frame.view.shape.grid.tiles(); ++t) {
+      gather(frame, t, patch);
+      guides.addPatch(patch);
+    }
+    guides.frameDone();
   }
 
   // The same as PictureMaker and a file would make of the frames.
@@ -162,6 +178,42 @@ TEST_F(LivePictureTest, AtRestShowsTheMeanAndItsCodes) {
   EXPECT_EQ(picture.frames(), 4);
   const GatheredFrame next = frameOf(9, 200, 130);
   EXPECT_TRUE(atRest(next, 0, {kBeauty, 0.0f})->radiance == expectedMean({&next, 1}));
+}
+
+// The film's mean stays as it is; its codes are touched after 4 and 9 frames and stay meanwhile.
+TEST_F(LivePictureTest, CodesOfLightAtRestGetTheLastTouch) {
+  LivePicture touching{{kTest, 2, 1, true, false, true}};
+  Film film(200, 130);
+  GuideFilm guides(200, 130);
+  std::vector<GatheredFrame> frames;
+  DisplayImage before;
+  for (uint32_t i = 0; i < 9; ++i) {
+    frames.push_back(frameOf(i, 200, 130));
+    film.add(expectedMean({&frames.back(), 1}));
+    addGuides(frames.back(), guides);
+    const auto image = atRest(frames.back(), i, {kBeauty, 0.0f}, touching);
+    RgbImage expected = image->radiance;
+    EXPECT_TRUE(expected == expectedMean(frames));
+    if (i > 2) denoise(expected, film.standardError(), guides.guides(), 1);
+    const bool isHeld = i > 3 && i < 8;
+    EXPECT_TRUE(image->display == (isHeld ? before : codesOf(expected, 0))) << i;
+    EXPECT_EQ(image->display == codesOf(image->radiance, 0), i < 3) << i;
+    before = image->display;
+  }
+  // Another exposure is another code for the same picture.
+  EXPECT_FALSE(atRest(frameOf(9, 200, 130), 9, {kBeauty, 1.0f}, touching)->display == before);
+  const auto sets = atRest(frameOf(10, 200, 130), 10, {PictureView::sets, 0.0f}, touching);
+  EXPECT_TRUE(sets->display == codesOf(sets->radiance, 0));
+}
+
+TEST_F(LivePictureTest, FinishedTilesOfClientsAreNotTouched) {
+  LivePicture touching{{kTest, 2, 1, true, false, true}};
+  for (uint32_t i = 0; i < 3; ++i) {
+    const GatheredFrame frame = frameOf(i, 200, 130);
+    const GatheredFrame sent = finished(i, expectedMean({&frame, 1}), nullptr);
+    const auto image = atRest(sent, i, {kBeauty, 0.0f}, touching);
+    EXPECT_TRUE(image->display == codesOf(image->radiance, 0));
+  }
 }
 
 TEST_F(LivePictureTest, WithoutAnOnlookerThereAreNoCodes) {

@@ -364,19 +364,34 @@ TEST(Options, HelpAndNewKeyNeedNothingElse) {
 
 TEST(Options, HelpNamesEveryFlagOfTheInterface) {
   const std::string help = helpText();
-  for (const char* flag : {"size",          "camera",        "local-clients", "client-threads",
-                           "listen",        "key-file",      "new-key",       "wait-clients",
-                           "method",        "preset",        "interleave",    "direct-vpls",
-                           "indirect-vpls", "photons",       "path-length",   "specular-depth",
-                           "bound",         "photon-radius", "caustics",      "environment",
-                           "frames",        "seconds",       "until-error",   "animate",
-                           "output",        "aovs",          "exposure",      "view",
-                           "window",        "headless",      "seed",          "isa",
-                           "stats",         "randomization", "filter",        "vpl-roulette",
-                           "script",        "frame-time",    "help"})
+  for (const char* flag :
+       {"size",           "camera",      "local-clients", "client-threads", "listen",
+        "key-file",       "new-key",     "wait-clients",  "method",         "preset",
+        "interleave",     "direct-vpls", "indirect-vpls", "photons",        "path-length",
+        "specular-depth", "bound",       "photon-radius", "caustics",       "environment",
+        "frames",         "seconds",     "until-error",   "animate",        "output",
+        "aovs",           "exposure",    "view",          "window",         "headless",
+        "seed",           "isa",         "stats",         "randomization",  "filter",
+        "vpl-roulette",   "denoise",     "script",        "frame-time",     "help"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST(Options, PicturesForPeopleAreDenoised) {
+  EXPECT_TRUE(denoises(parse("a.glb --output a.png", {}, false)));
+  EXPECT_FALSE(denoises(parse("a.glb --output a.exr", {}, false)));
+  EXPECT_FALSE(denoises(parse("a.glb --output a.hdr", {}, false)));
+  EXPECT_FALSE(denoises(parse("a.glb --preset paper --output a.png", {}, false)));
+  EXPECT_FALSE(denoises(parse("a.glb --denoise off --output a.png", {}, false)));
+  EXPECT_TRUE(denoises(parse("a.glb --denoise on --output a.exr", {}, false)));
+  EXPECT_TRUE(denoises(parse("a.glb --window", {}, false)));
+  EXPECT_NE(complaint("a.glb --animate 0:1:5 --denoise on --output a.####.exr", {}, false)
+                .find("--denoise"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --denoise much").find("--denoise"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --filter-at clients --denoise on").find("--denoise"),
+            std::string::npos);
 }
 
 TEST(Options, ShortHelpIsHelpAndANegativeNumberIsAValue) {
