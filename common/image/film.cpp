@@ -27,14 +27,14 @@ Film::Film(int width, int height, FilmKeeps keeps)
     : width_(width),
       height_(height),
       keeps_(keeps),
-      unfiltered_(width, height, keeps.error || keeps.neighbours) {
+      unfiltered_(width, height, keeps.error || keeps.neighbours()) {
   clear();
 }
 
 void Film::clear() {
   frames_ = 0, bias_ = {};
-  unfiltered_ = FilmLayer(width_, height_, keeps_.error || keeps_.neighbours);
-  if (!keeps_.neighbours) return;
+  unfiltered_ = FilmLayer(width_, height_, keeps_.error || keeps_.neighbours());
+  if (!keeps_.neighbours()) return;
   shift_.emplace(width_, height_, true);
   share_.share.assign(pixelCount(width_, height_), 1);
   share_.squaredBias.assign(share_.share.size(), 0);
@@ -48,7 +48,7 @@ void Film::add(const RgbImage& frame) {
 }
 
 void Film::addTile(int x0, int y0, const RgbImage& tile, const RgbImage* filtered) {
-  NINEFOLD_CHECK(keeps_.neighbours == (filtered != nullptr));
+  NINEFOLD_CHECK(keeps_.neighbours() == (filtered != nullptr));
   unfiltered_.addTile(x0, y0, tile, frames_);
   if (filtered == nullptr) return;
   RgbImage shift;
@@ -73,7 +73,7 @@ NeighbourShare Film::newShare() const {
   const TaskRect all{0, 0, width_, height_};
   unfiltered_.write(all, filtered);
   shift_->add(all, std::vector<float>(filtered.count(), 1), filtered);
-  return NeighbourShare::of(filtered, unfiltered_.pixels(), shift_->pixels(), frames_);
+  return NeighbourShare::of(filtered, shift_->pixels(), frames_, keeps_.window);
 }
 
 void Film::shareNeighbours() {
@@ -112,7 +112,7 @@ std::vector<float> Film::standardError() const {
 }
 
 float Film::standardError(size_t pixel, int64_t frames) const {
-  NINEFOLD_CHECK(keeps_.error || keeps_.neighbours);
+  NINEFOLD_CHECK(keeps_.error || keeps_.neighbours());
   if (frames < 2) return 0;
   double squared = 0;
   if (shift_) {

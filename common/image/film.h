@@ -43,7 +43,9 @@ namespace ninefold {
 struct FilmKeeps {
   bool error = true;      // standardError() will be asked for; it takes eight means of every pixel
   bool twoRadii = false;  // even frames have photons of a wider radius than odd ones
-  bool neighbours = false;  // frames come filtered, too; keeps errors as well
+  // Frames come filtered, too, over this window; it keeps errors as well. 1x1: they do not.
+  Interleave window{1, 1};
+  bool neighbours() const { return window.sets() > 1; }
   bool operator==(const FilmKeeps&) const = default;
 };
 

@@ -90,30 +90,6 @@ class Replications {
   std::vector<T> mean_;  // replication by replication
 };
 
-struct Joint {
-  Estimate second;
-  double covariance = 0;  // of the two means
-};
-
-// Of quantity i of x and y.
-template <typename T>
-Joint estimateBoth(const Replications<T>& x, const Replications<T>& y, size_t i, int64_t frames) {
-  const auto used = static_cast<size_t>(std::min<int64_t>(frames, kReplications));
-  const double share = 1 / static_cast<double>(frames);
-  double meanX = 0, meanY = 0, variance = 0, covariance = 0;
-  for (size_t r = 0; r < used; ++r) {
-    const double c = framesOf(r, frames) * share;
-    meanX += c * x.at(r, i), meanY += c * y.at(r, i);
-  }
-  for (size_t r = 0; r < used; ++r) {
-    const double c = framesOf(r, frames) * share;
-    const double offX = c * (x.at(r, i) - meanX), offY = c * (y.at(r, i) - meanY);
-    covariance += offX * offY, variance += offY * offY;
-  }
-  const double more = static_cast<double>(used) / static_cast<double>(used - 1);
-  return {{meanY, more * variance}, more * covariance};
-}
-
 // Of x + a y, for quantity i of both.
 template <typename T>
 Estimate estimateSum(const Replications<T>& x, double a, const Replications<T>& y, size_t i,

@@ -30,7 +30,7 @@ void gather(const GatheredFrame& frame, int tile, Patch& patch) {
 }
 
 void addTile(Film& film, const FilterDesk& desk, const TaskRect& rect) {
-  if (film.keeps().neighbours)
+  if (film.keeps().neighbours())
     film.addTile(rect.i0, rect.j0, desk.unfiltered, &desk.beauty);
   else
     film.addTile(rect.i0, rect.j0, desk.beauty);
@@ -63,7 +63,7 @@ void PictureMaker::finishTile(int worker, const GatheredFrame& frame, int tile) 
   if (isFiltered(frame.view.shape)) return addFiltered(desk, frame, tile);
   gather(frame, tile, desk.patch);
   desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty,
-                      setup_.keeps.neighbours ? &desk.unfiltered : nullptr);
+                      setup_.keeps.neighbours() ? &desk.unfiltered : nullptr);
   paint(setup_.view, desk.patch, desk.filter, frame.view.neighbourWeight, frame.view.key.rotation,
         setup_.depthScale, nullptr, desk.beauty);
   addTile(film_, desk, pixelsOf(frame.view.shape.grid, tile));

@@ -40,7 +40,7 @@ struct Options {
   SurfaceTest surfaceTest = SurfaceTest::surface;
   bool filterAtClients = false;
   int wireLevel = Delivery::kAdaptive;
-  bool converging = true;  // radius and neighbours' weight shrink from frame to frame
+  bool converging = true;  // radius and neighbours' share shrink as the film knows better
 
   int localClients = 1;  // 0 = only remote ones
   int clientThreads = 1;

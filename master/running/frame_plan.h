@@ -7,12 +7,12 @@
 //     r(1) = F R     r^2(i+1) = r^2(i) (i + a) / (i + 1),  a = 2/3       photon radius [m]
 //     frames i take 2^(1/4) r(i) and 2^(-1/4) r(i) by turns, so that the film sees its bias
 //                                                                        (image/radius_bias.h)
-//     w(i) = min(1, K / i)                                               weight of neighbours
+//     w(i) = min(1, K / i)                      weight of neighbours in tiles that clients filter
 //
-// Both biases die out, so that the film's mean tends to the true picture. The first K frames filter
-// fully, for until then a pixel has not met all K sets by itself. A faster fall would be nearer to
-// the truth at the edges of caustics, but shows the pattern of the sets' noise for some hundred
-// frames (docs/performance.md). The paper's own pipeline keeps r and w = 1 fixed.
+// Both biases die out, so that the film's mean tends to the true picture. Where the master filters,
+// the film finds the neighbours' share by itself (image/neighbour_share.h). Clients send filtered
+// tiles alone: the first K frames filter fully, for until then a pixel has not met all K sets by
+// itself. The paper's own pipeline keeps r and w = 1 fixed.
 //
 // With a = 2/3 noise and blur of a smooth E fall alike, as i^(-2/3) of the squared error; rims,
 // which blur more slowly, are the narrower photons' part (gi/photons/photon_spread.h).

@@ -67,7 +67,8 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   setup.shape = job.shape;
   setup.keeps.error = options.aovs || options.view == PictureView::error;
   setup.keeps.twoRadii = options.converging && usesPhotons(job.needs, job.settings);
-  setup.keeps.neighbours = sharesNeighbours(options, job.settings.method, options.view);
+  if (sharesNeighbours(options, job.settings.method, options.view))
+    setup.keeps.window = job.settings.interleave;
   setup.aovMask = options.aovs ? job.shape.extraMask : 0;
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;

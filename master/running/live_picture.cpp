@@ -98,7 +98,7 @@ void LivePicture::finishLayers(FilterDesk& desk, const GatheredFrame& frame, boo
                                int tile) {
   const FrameView& view = frame.view;
   gather(frame, tile, desk.patch);
-  const bool isTwice = rested_ && look_.keeps.neighbours;
+  const bool isTwice = rested_ && look_.keeps.neighbours();
   desk.filter.compose(desk.patch, view.camera, view.neighbourWeight, desk.beauty,
                       isTwice ? &desk.unfiltered : nullptr);
   if (traced_) history_.blend(desk.patch, desk.filter, moving, desk.beauty);

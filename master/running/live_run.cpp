@@ -159,7 +159,8 @@ LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
   LiveLook look{view_, pace_.exposure, {}};
   look.keeps.error = pace_.person || denoises(options_) || view_ == PictureView::error;
   look.keeps.twoRadii = options_.converging && usesPhotons(needs_, settings);
-  look.keeps.neighbours = sharesNeighbours(options_, settings.method, PictureView::beauty);
+  if (sharesNeighbours(options_, settings.method, PictureView::beauty))
+    look.keeps.window = settings.interleave;
   if (look.exposure && isFalseColor(view_)) look.exposure = 0;
   const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
   if (!isSeen) look.exposure.reset();

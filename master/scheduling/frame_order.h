@@ -21,7 +21,7 @@ struct FrameOrder {
   bool urgent = false;  // somebody waits for it (FrameKind)
   uint8_t extraMask = 0;
   Delivery delivery;          // of the job, too
-  float neighbourWeight = 1;  // of the filter, in [0, 1]
+  float neighbourWeight = 1;  // of the filter, in [0, 1]; less than 1 only where clients filter
 
   TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }
 };

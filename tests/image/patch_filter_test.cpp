@@ -73,6 +73,23 @@ TEST(PatchFilter, TakesNothingFromOneFrameToTheNext) {
   EXPECT_EQ(first, again);
 }
 
+// U is what no neighbours give, F what all of them do.
+TEST(PatchFilter, ComposesWithAndWithoutNeighboursAtOnce) {
+  const TileGrid grid(64, 48, {3, 3});
+  const Frame frame = frameOfShape(
+      grid, wall, [](int x, int y, const Point&) { return static_cast<float>(x * y % 7); });
+  PatchFilter filter(SurfaceTest::surface);
+  Patch patch;
+  fill(patch, frame, 0);
+  RgbImage none, all, unfiltered, filtered;
+  filter.compose(patch, camera(), 0, none);
+  filter.compose(patch, camera(), 1, all);
+  filter.compose(patch, camera(), 1, filtered, &unfiltered);
+  EXPECT_TRUE(unfiltered == none);
+  EXPECT_TRUE(filtered == all);
+  EXPECT_FALSE(all == none);
+}
+
 // A patch that has held a mirror takes a tile of which one pixel mirrors: the other phases' results
 // have nothing in that layer.
 TEST(PatchFilter, TakesNothingFromTheTileThatThePatchHeldBefore) {

@@ -138,7 +138,7 @@ class LivePictureTest : public testing::Test {
     return codes;
   }
 
-  LivePicture picture{{kTest, 2, 1, true, true}};
+  LivePicture picture{{kTest, 2, 1, true}};
 };
 
 constexpr PictureView kBeauty = PictureView::beauty;
@@ -182,7 +182,7 @@ TEST_F(LivePictureTest, AtRestShowsTheMeanAndItsCodes) {
 
 // The film's mean stays as it is; its codes are touched after 4 and 9 frames and stay meanwhile.
 TEST_F(LivePictureTest, CodesOfLightAtRestGetTheLastTouch) {
-  LivePicture touching{{kTest, 2, 1, true, false, true}};
+  LivePicture touching{{kTest, 2, 1, true, true}};
   Film film(200, 130);
   GuideFilm guides(200, 130);
   std::vector<GatheredFrame> frames;
@@ -207,7 +207,7 @@ TEST_F(LivePictureTest, CodesOfLightAtRestGetTheLastTouch) {
 }
 
 TEST_F(LivePictureTest, FinishedTilesOfClientsAreNotTouched) {
-  LivePicture touching{{kTest, 2, 1, true, false, true}};
+  LivePicture touching{{kTest, 2, 1, true, true}};
   for (uint32_t i = 0; i < 3; ++i) {
     const GatheredFrame frame = frameOf(i, 200, 130);
     const GatheredFrame sent = finished(i, expectedMean({&frame, 1}), nullptr);

@@ -11,8 +11,9 @@
 //
 // t is tested by Kolmogorov and Smirnov's statistic block by block, F for blocks and pixels, and
 // for what the stop rule looks at. Frames are what the programs make, codec and filter included.
-// They differ in their neighbours' weight and photon radius: their variance grows a little and
-// their mean moves a little. Both make the stated error larger only, by less than the tolerances.
+// They differ in their photon radius: their variance grows a little and their mean moves a little.
+// Both make the stated error larger only, by less than the tolerances. Pixels have their neighbours
+// as the film takes them; blocks' means are those of unfiltered pixels.
 #include <gtest/gtest.h>
 
 #include <boost/math/distributions/students_t.hpp>
@@ -92,10 +93,13 @@ Films manyFilms(const Scene& scene, Settings settings) {
   for (int s = 0; s < kFilms; ++s) {
     settings.seed = static_cast<uint64_t>(s) + 1;
     testing::OneProcess way(tracer, settings);
-    Film film(kWidth, kHeight), blockFilm(kWidth / kErrorBlock, kHeight / kErrorBlock);
+    Film film(kWidth, kHeight, {.window = settings.interleave});
+    Film blockFilm(kWidth / kErrorBlock, kHeight / kErrorBlock);
     for (int frame = 0; frame < kFrames; ++frame) {
-      const Grey grey(way.nextFrame());
-      film.add(grey.pixels), blockFilm.add(grey.blocks);
+      const auto [unfiltered, filtered] = way.nextBoth();
+      const Grey grey(unfiltered), neighbours(filtered);
+      film.addTile(0, 0, grey.pixels, &neighbours.pixels), film.frameDone();
+      blockFilm.add(grey.blocks);
     }
     take(film, films.pixels), take(blockFilm, films.blocks);
     films.relativeError += std::pow(film.relativeError(), 2) / kFilms;

@@ -29,10 +29,24 @@ class OneProcess {
     beauty_.reset(settings.width, settings.height);
   }
 
+  // As clients filter it: neighbours fade from frame to frame.
   const RgbImage& nextFrame() {
     trace();
     for (int tile = 0; tile < frame_.view.shape.grid.tiles(); ++tile) finish(tile);
     return beauty_;
+  }
+  // As a film has it that keeps neighbours: unfiltered and filtered.
+  std::pair<RgbImage, RgbImage> nextBoth() {
+    GatheredFrame& frame = trace();
+    frame.view.neighbourWeight = 1;
+    std::pair<RgbImage, RgbImage> both;
+    both.first.reset(settings_.width, settings_.height);
+    for (int tile = 0; tile < frame.view.shape.grid.tiles(); ++tile) {
+      finish(tile, &unfiltered_);
+      put(unfiltered_, both.first);
+    }
+    both.second = beauty_;
+    return both;
   }
   // The next frame as it is before the filter.
   GatheredFrame& trace() {
@@ -64,14 +78,18 @@ class OneProcess {
     return decoder_.unpack(encoder_.encode(sent_, dither, 1).bytes,
                            {rect.width, rect.height, shape.layerMask, 0});
   }
-  void finish(int tile) {
+  void finish(int tile, RgbImage* unfiltered = nullptr) {
     gather(frame_, tile, patch_);
-    filter_.compose(patch_, settings_.camera, frame_.view.neighbourWeight, finished_);
-    for (int y = 0; y < finished_.height; ++y)
-      for (int x = 0; x < finished_.width; ++x) {
-        const Vec3 L = finished_.rgb(finished_.at(x, y));
-        const size_t i = beauty_.at(patch_.x0() + x, patch_.y0() + y);
-        beauty_.pixels.r[i] = L.x, beauty_.pixels.g[i] = L.y, beauty_.pixels.b[i] = L.z;
+    filter_.compose(patch_, settings_.camera, frame_.view.neighbourWeight, finished_, unfiltered);
+    put(finished_, beauty_);
+  }
+  // The patch's tile into a picture.
+  void put(const RgbImage& tile, RgbImage& picture) const {
+    for (int y = 0; y < tile.height; ++y)
+      for (int x = 0; x < tile.width; ++x) {
+        const Vec3 L = tile.rgb(tile.at(x, y));
+        const size_t i = picture.at(patch_.x0() + x, patch_.y0() + y);
+        picture.pixels.r[i] = L.x, picture.pixels.g[i] = L.y, picture.pixels.b[i] = L.z;
       }
   }
 
@@ -86,7 +104,7 @@ class OneProcess {
   TileResult sent_;
   Patch patch_;
   PatchFilter filter_{SurfaceTest::surface};
-  RgbImage finished_, beauty_;
+  RgbImage finished_, unfiltered_, beauty_;
 };
 
 }  // namespace ninefold::testing
