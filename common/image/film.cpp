@@ -38,7 +38,6 @@ void Film::clear() {
   shift_.emplace(width_, height_, true);
   share_.share.assign(pixelCount(width_, height_), 1);
   share_.squaredBias.assign(share_.share.size(), 0);
-  blockShares_.assign(unfiltered_.blockPixels().size(), 1);
   sharedAt_ = 0;
 }
 
@@ -63,8 +62,12 @@ void Film::frameDone() {
   const auto& n = unfiltered_.blockPixels();
   if (keeps_.twoRadii && frames_ % kReplications == 0)
     bias_ = RadiusBias::of(unfiltered_.blocks(), std::span(n).first(n.size() - 1), frames_);
-  if (shift_ && (frames_ <= kSharedEach || frames_ - sharedAt_ >= sharedAt_ / kSharedEach))
-    shareNeighbours();
+}
+
+void Film::updateShare() {
+  if (!shift_ || (frames_ > kSharedEach && frames_ - sharedAt_ < sharedAt_ / kSharedEach)) return;
+  share_ = newShare();
+  sharedAt_ = frames_;
 }
 
 NeighbourShare Film::newShare() const {
@@ -76,26 +79,11 @@ NeighbourShare Film::newShare() const {
   return NeighbourShare::of(filtered, shift_->pixels(), frames_, keeps_.window);
 }
 
-void Film::shareNeighbours() {
-  share_ = newShare();
-  sharedAt_ = frames_;
-  const auto& n = unfiltered_.blockPixels();
-  std::ranges::fill(blockShares_, 0);
-  for (size_t i = 0; i < share_.share.size(); ++i) {
-    const auto a = static_cast<double>(share_.share[i]);
-    blockShares_[unfiltered_.blockOf(i)] += a;
-    blockShares_.back() += a;
-  }
-  for (size_t b = 0; b < n.size(); ++b) blockShares_[b] /= n[b];
-}
-
 void Film::mean(RgbImage& out) const {
   out.reset(width_, height_);
   const TaskRect all{0, 0, width_, height_};
   unfiltered_.write(all, out);
-  if (!shift_) return;
-  if (sharedAt_ == frames_) return shift_->add(all, share_.share, out);
-  shift_->add(all, newShare().share, out);
+  if (shift_) shift_->add(all, newShare().share, out);
 }
 
 void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
@@ -106,19 +94,24 @@ void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
 }
 
 std::vector<float> Film::standardError() const {
+  const NeighbourShare share = shift_ ? newShare() : NeighbourShare{};
   std::vector<float> error(pixelCount(width_, height_));
-  for (size_t i = 0; i < error.size(); ++i) error[i] = standardError(i, frames_);
+  for (size_t i = 0; i < error.size(); ++i) error[i] = standardError(i, frames_, share);
   return error;
 }
 
 float Film::standardError(size_t pixel, int64_t frames) const {
+  return standardError(pixel, frames, share_);
+}
+
+float Film::standardError(size_t pixel, int64_t frames, const NeighbourShare& share) const {
   NINEFOLD_CHECK(keeps_.error || keeps_.neighbours());
   if (frames < 2) return 0;
   double squared = 0;
   if (shift_) {
-    const auto a = static_cast<double>(share_.share[pixel]);
+    const auto a = static_cast<double>(share.share[pixel]);
     squared = estimateSum(unfiltered_.pixels(), a, shift_->pixels(), pixel, frames).squaredError +
-              static_cast<double>(share_.squaredBias[pixel]);
+              static_cast<double>(share.squaredBias[pixel]);
   } else {
     squared = unfiltered_.pixels().estimate(pixel, frames).squaredError;
   }
@@ -126,23 +119,19 @@ float Film::standardError(size_t pixel, int64_t frames) const {
   return static_cast<float>(std::sqrt(squared));
 }
 
-double Film::squaredError(size_t block) const {
-  const auto& u = unfiltered_.blocks();
-  if (!shift_) return u.estimate(block, frames_).squaredError;
-  return estimateSum(u, blockShares_[block], shift_->blocks(), block, frames_).squaredError;
-}
-
 double Film::relativeError() const {
   if (frames_ < 2) return std::numeric_limits<double>::infinity();
   const auto& n = unfiltered_.blockPixels();
   double sum = 0;
-  for (size_t b = 0; b + 1 < n.size(); ++b) sum += n[b] * squaredError(b);
+  for (size_t b = 0; b + 1 < n.size(); ++b)
+    sum += n[b] * unfiltered_.blocks().estimate(b, frames_).squaredError;
   return relative(sum / n.back() + bias_.squared);
 }
 
 double Film::imageRelativeError() const {
   if (frames_ < 2) return std::numeric_limits<double>::infinity();
-  return relative(squaredError(unfiltered_.blockPixels().size() - 1));
+  const size_t whole = unfiltered_.blockPixels().size() - 1;
+  return relative(unfiltered_.blocks().estimate(whole, frames_).squaredError);
 }
 
 double Film::relative(double squaredError) const {

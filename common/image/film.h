@@ -19,13 +19,13 @@
 //   a^2 b^2  squared bias by the discontinuity buffer
 //   Y, e_Y   mean luminance of the image, and its standard error
 //
-// Both relative errors are infinite for fewer than two frames, and 0 for a black image. a of a block
-// is its pixels' mean.
+// Both relative errors are infinite for fewer than two frames, and 0 for a black image. Blocks and
+// the image have the errors of U: the filter moves light between pixels that are side by side.
 //
 // A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels. The last bits
-// depend on the order of frames: add them in the order of their index. a is worked out after each
-// of the first eight frames, then whenever the film has grown by an eighth: it costs as much as a
-// frame.
+// depend on the order of frames: add them in the order of their index. mean() and standardError()
+// of all pixels find a anew, which costs as much as a frame; what is asked of parts has a of the
+// last updateShare().
 //
 // Proved:  tests/image/film_test.cpp.
 // Threads: addTile and meanOfTile for different tiles at once, else one at a time.
@@ -58,6 +58,9 @@ class Film {
   // keeps neighbours.
   void addTile(int x0, int y0, const RgbImage& tile, const RgbImage* filtered = nullptr);
   void frameDone();  // all its tiles were added
+  // a for parts: after each of the first eight frames, then as the film grows by an eighth. Else it
+  // does nothing.
+  void updateShare();
   void add(const RgbImage& frame);
 
   int width() const { return width_; }
@@ -76,8 +79,7 @@ class Film {
 
  private:
   NeighbourShare newShare() const;
-  void shareNeighbours();
-  double squaredError(size_t block) const;
+  float standardError(size_t pixel, int64_t frames, const NeighbourShare& share) const;
   double relative(double squaredError) const;  // its root over Y
 
   int width_, height_;
@@ -86,8 +88,7 @@ class Film {
   FilmLayer unfiltered_;            // U
   std::optional<FilmLayer> shift_;  // D
   NeighbourShare share_;
-  std::vector<double> blockShares_;  // mean a of blocks, then of the whole image
-  int64_t sharedAt_ = 0;             // frames that share_ was worked out of
+  int64_t sharedAt_ = 0;  // frames that share_ was worked out of
   RadiusBias bias_;
 };
 

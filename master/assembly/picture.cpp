@@ -79,6 +79,7 @@ void PictureMaker::addFiltered(FilterDesk& desk, const GatheredFrame& frame, int
 
 void PictureMaker::frameDone() {
   film_.frameDone();
+  if (setup_.view == PictureView::error) film_.updateShare();
   if (aovs_) aovs_->frameDone();
   if (guides_) guides_->frameDone();
 }

@@ -24,6 +24,7 @@ bool RestFilm::addTile(int tile, const TaskRect& rect, const FilterDesk& desk) {
 
 void RestFilm::frameDone() {
   film_->frameDone();
+  film_->updateShare();
   std::ranges::fill(has_, 0);
 }
 

@@ -97,6 +97,7 @@ TEST(NeighbourShare, KeepsAllOfTheFilterInFlatPlaces) {
     Film film(kSide, kSide, kBoth);
     Frames frames(10 + f);
     for (int n = 0; n < kFrames; ++n) frames.add(film, flat);
+    film.updateShare();
     RgbImage mean;
     film.mean(mean);
     real += meanOver(1, kSide - 2,
@@ -129,6 +130,22 @@ TEST(NeighbourShare, TendsToTheTruthWhereTheFilterBlurs) {
   EXPECT_NEAR(blur[0] / blur[1], 16, 4);
 }
 
+// Parts have a of the last update; the whole has it anew.
+TEST(NeighbourShare, OfPartsIsUpdatedAsTheFilmGrows) {
+  Film film(kSide, kSide, kBoth);
+  Frames frames(5, 0.1f);
+  RgbImage whole, part;
+  part.reset(kSide, kSide);
+  for (int n = 1; n <= 20; ++n) {
+    frames.add(film, edge);
+    film.updateShare();
+    film.mean(whole);
+    film.meanOfTile({0, 0, kSide, kSide}, part);
+    const bool isUpdated = n <= 16 || n % 2 == 0;  // from 16 on two frames are an eighth
+    EXPECT_EQ(part == whole, isUpdated) << n;
+  }
+}
+
 // Of weak edges, too: noise and blur together are what the film states for the columns beside it.
 TEST(NeighbourShare, StatesTheBlurThatIsLeft) {
   constexpr int kFilms = 20, kFrames = 64;
@@ -138,6 +155,7 @@ TEST(NeighbourShare, StatesTheBlurThatIsLeft) {
       Film film(kSide, kSide, kBoth);
       Frames frames(100 + f, noise);
       for (int n = 0; n < kFrames; ++n) frames.add(film, edge);
+      film.updateShare();
       RgbImage mean;
       film.mean(mean);
       real += meanOver(kSide / 2 - 1, kSide / 2, [&](int x, int y) {
