@@ -3,16 +3,17 @@
 //   albedo.R G B   N.x y z   Z   irradiance.R G B   caustic.R G B     means over frames
 //   objectId                                                          of the newest frame
 //
-//   irradiance  E at the first hit after the discontinuity buffer, or the plane of that name where
+//   irradiance  E at the first hit, without neighbours, or the plane of that name where
 //               the method has one                                                     [W/m^2]
-//   caustic     the photons' part of E before the buffer                               [W/m^2]
+//   caustic     the photons' part of E                                                 [W/m^2]
 //   N           the mean, made unit again
 //   Z           mean over those frames in which the pixel met a surface                [m]
 //
 // Threads: addPatch for different tiles at once, else one at a time.
 #pragma once
 
-#include "common/image/patch_filter.h"
+#include "common/image/image.h"
+#include "common/image/patch.h"
 
 namespace ninefold {
 
@@ -21,7 +22,7 @@ class AovFilm {
   AovFilm(const TileGrid& grid, uint8_t extraMask);
 
   void clear();
-  // A tile of the next frame; `filter` has just composed `patch`.
+  // A tile of the next frame.
   void addPatch(const Patch& patch);
   void frameDone() { ++frames_; }  // all its tiles were added
   // The planes that the mask names and the irradiance, in the order above.

@@ -183,6 +183,7 @@ class Strip {
 
 bool denoise(RgbImage& picture, const std::vector<float>& standardError,
              const DenoiseGuides& guides, int threads, const std::stop_token& stop) {
+  if (std::ranges::none_of(standardError, [](float e) { return e > 0; })) return true;
   const DenoisePlanes planes(picture, standardError, guides);
   const int columns = (picture.width + kStripWidth - 1) / kStripWidth,
             rows = (picture.height + kBandHeight - 1) / kBandHeight;

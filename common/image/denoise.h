@@ -14,9 +14,9 @@
 //           a: albedo; z: how far q's nearness lies off p's tangent plane, over p's nearness
 //   h       1/(1 + kDoubt e_q^2/g_q)      g: geometric mean of e^2 over 7x7 pixels
 //   V       e^2 |c|^2/Y^2, mean over 3x3 pixels     e: the film's standard error of luminance Y
-//   t       min(1, e(p)/|Y(d)|)
+//   t       min(1, e(p)/|Y(d)|); 0 where e is 0
 //
-// So no pixel moves by more than its own standard error, and the touch dies out with the error:
+// So no luminance moves by more than its own standard error, and the touch dies out with the error:
 // what the film tends to, the shown picture tends to. A firefly has an error as large as itself: it
 // may be moved all the way, and counts for little where others are moved (h). Albedo comes in by
 // the regression, not by a division: a texture under even light is b0 + b albedo, too, while the
@@ -31,7 +31,7 @@
 // Source:  Bitterli et al. 2016 (nonlinearly weighted first-order regression); Rousselle, Manzi
 //          and Zwicker 2013 (distances of patches less their variance, guides).
 // Proved:  tests/image/denoise_test.cpp; measured in docs/performance.md.
-// Threads: starts and ends its own.   Memory: some 60 bytes a pixel meanwhile.
+// Threads: starts and ends its own.   Memory: some 80 bytes a pixel meanwhile.
 // Errors:  none; the planes must be of the picture's size. Pixels that are not finite stay, and
 //          nobody takes from them.
 #pragma once

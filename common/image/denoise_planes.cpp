@@ -54,7 +54,7 @@ void pad(const DenoisePlanes& planes, const RgbPlane& from, RgbPlane& to) {
 }
 
 // Of a plane at pixel i, whose neighbours are `step` apart: the smaller one of two differences, so
-// that an edge on one side does not count. hasBefore, hasAfter: those neighbours are in the picture.
+// that an edge on one side does not count. hasBefore, hasAfter: they are in the picture.
 float slope(const std::vector<float>& plane, size_t i, size_t step, bool hasBefore, bool hasAfter) {
   const float before = plane[i] - plane[i - step], after = plane[i + step] - plane[i];
   if (!hasBefore) return after;
@@ -80,7 +80,8 @@ DenoisePlanes::DenoisePlanes(const RgbImage& picture, const std::vector<float>& 
     }
     squared[i] = standardError[i] * standardError[i];
     const float y = luminance(c);
-    v[i] = y > 0 ? squared[i] * glm::dot(c, c) / (y * y) : 3 * squared[i];
+    const Vec3 hue = y > 0 ? c / y : Vec3(1);
+    v[i] = squared[i] * glm::dot(hue, hue);
   }
   pad(*this, finite, color);
   pad(*this, guides.normal, normal);

@@ -28,14 +28,15 @@ Film::Film(int width, int height, FilmKeeps keeps)
       height_(height),
       keeps_(keeps),
       unfiltered_(width, height, keeps.error || keeps.neighbours()) {
+  if (keeps.neighbours()) shift_.emplace(width, height, true);
   clear();
 }
 
 void Film::clear() {
   frames_ = 0, bias_ = {};
-  unfiltered_ = FilmLayer(width_, height_, keeps_.error || keeps_.neighbours());
-  if (!keeps_.neighbours()) return;
-  shift_.emplace(width_, height_, true);
+  unfiltered_.clear();
+  if (!shift_) return;
+  shift_->clear();
   share_.share.assign(pixelCount(width_, height_), 1);
   share_.squaredBias.assign(share_.share.size(), 0);
   sharedAt_ = 0;
@@ -65,7 +66,8 @@ void Film::frameDone() {
 }
 
 void Film::updateShare() {
-  if (!shift_ || (frames_ > kSharedEach && frames_ - sharedAt_ < sharedAt_ / kSharedEach)) return;
+  if (!shift_ || frames_ < NeighbourShare::kFirst) return;
+  if (frames_ > kSharedEach && frames_ - sharedAt_ < sharedAt_ / kSharedEach) return;
   share_ = newShare();
   sharedAt_ = frames_;
 }
@@ -76,7 +78,7 @@ NeighbourShare Film::newShare() const {
   const TaskRect all{0, 0, width_, height_};
   unfiltered_.write(all, filtered);
   shift_->add(all, std::vector<float>(filtered.count(), 1), filtered);
-  return NeighbourShare::of(filtered, shift_->pixels(), frames_, keeps_.window);
+  return NeighbourShare::of(filtered, shift_->pixels(), frames_, keeps_.pattern);
 }
 
 void Film::mean(RgbImage& out) const {

@@ -24,15 +24,20 @@ FilmLayer::FilmLayer(int width, int height, bool keepsPixels)
       height_(height),
       blockColumns_(ceilDivide(width, kErrorBlock)),
       blockRows_(ceilDivide(height, kErrorBlock)) {
-  const size_t blocks = pixelCount(blockColumns_, blockRows_), pixels = pixelCount(width, height);
-  blockMeans_.resize(blocks + 1);
+  blockMeans_.resize(pixelCount(blockColumns_, blockRows_) + 1);
   for (int by = 0; by < blockRows_; ++by)
     for (int bx = 0; bx < blockColumns_; ++bx)
       blockPixels_.push_back(std::min(kErrorBlock, width - bx * kErrorBlock) *
                              std::min(kErrorBlock, height - by * kErrorBlock));
   blockPixels_.push_back(static_cast<double>(width) * height);
+  if (keepsPixels) pixels_.resize(pixelCount(width, height));
+  clear();
+}
+
+void FilmLayer::clear() {
+  const size_t pixels = pixelCount(width_, height_);
   for (auto* mean : {&r_, &g_, &b_}) mean->assign(pixels, 0);
-  if (keepsPixels) pixels_.resize(pixels);
+  if (!pixels_.empty()) pixels_.resize(pixels);
   blocks_.resize(blockMeans_.size());
 }
 

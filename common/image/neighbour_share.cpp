@@ -40,7 +40,8 @@ class WindowSums {
 
 double meanLuminance(const RgbImage& image) {
   double sum = 0;
-  for (size_t i = 0; i < image.count(); ++i) sum += static_cast<double>(luminance(image.rgb(i)));
+  for (size_t i = 0; i < image.count(); ++i)
+    if (const float y = luminance(image.rgb(i)); std::isfinite(y)) sum += static_cast<double>(y);
   return sum / static_cast<double>(std::max<size_t>(1, image.count()));
 }
 
@@ -58,6 +59,7 @@ NeighbourShare NeighbourShare::of(const RgbImage& filtered, const Replications<f
   for (size_t i = 0; i < n; ++i) {
     const Estimate d = shift.estimate(i, frames);
     const float level = luminance(filtered.rgb(i));
+    if (!std::isfinite(level) || !std::isfinite(d.squaredError)) continue;  // scale 0
     scale[i] = 1 / (level * level + least);
     variance[i] = scale[i] * static_cast<float>(d.squaredError);
     square[i] = scale[i] * static_cast<float>(d.mean * d.mean);
@@ -66,7 +68,7 @@ NeighbourShare NeighbourShare::of(const RgbImage& filtered, const Replications<f
   for (auto* values : {&variance, &square, &weight}) window.sum(*values);
   for (size_t i = 0; i < n; ++i) {
     const float bias = std::max(0.0f, square[i] - kChance * variance[i]);
-    if (bias == 0) continue;
+    if (bias == 0 || scale[i] == 0) continue;
     const float a = out.share[i] = variance[i] / (variance[i] + bias);
     out.squaredBias[i] = a * a * bias / (weight[i] * scale[i]);
   }

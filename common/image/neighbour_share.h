@@ -6,8 +6,8 @@
 //   V = <Var D>   b^2 = max(0, <D^2> - c V) squared bias of F
 //
 //   Var D   squared standard error of D's luminance (replications.h)
-//   < >     mean over (2n - 1) x (2m - 1) pixels with weights (n - |i|)(m - |j|), so that each light
-//           set of the n x m pattern counts alike; each pixel divided by Y^2 + Y_0^2/100
+//   < >     mean over (2n - 1) x (2m - 1) pixels with weights (n - |i|)(m - |j|), so that all light
+//           sets of the n x m pattern count alike; each pixel divided by Y^2 + Y_0^2/100
 //   Y, Y_0  luminance of F there, and in the mean
 //
 // D^2 has the mean b^2 + V. Where the noise of the neighbours is independent of the pixel's own,

@@ -79,7 +79,7 @@ void PatchFilter::compose(const Patch& patch, const Camera& camera, float neighb
 
 void PatchFilter::addLayer(const Patch& patch, int layer, int phase, float neighbourWeight,
                            RgbPlane& sum, RgbPlane* unfiltered) {
-  const bool isKept = layer == kDiffuse && (keepsIrradiance_ || patch.extraMask() != 0);
+  const bool isKept = layer == kDiffuse && keepsIrradiance_;
   RgbPlane& kept = irradiance_[static_cast<size_t>(phase)];
   if (isKept) kept.resize(Patch::kPixels);
   if (patch.isDark(layer)) return;

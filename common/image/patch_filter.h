@@ -16,13 +16,12 @@ class PatchFilter {
  public:
   explicit PatchFilter(SurfaceTest test) : buffer_(test) {}
 
-  // Writes the tile's pixels; sets the shape of `beauty`. unfiltered: if not null, the same with E for
-  // E'.
+  // Writes the tile's pixels; sets the shape of `beauty`. unfiltered: if not null, the same with E
+  // for E'.
   void compose(const Patch& patch, const Camera& camera, float neighbourWeight, RgbImage& beauty,
                RgbImage* unfiltered = nullptr);
 
-  // Whether compose keeps E' of the diffuse layer for irradiance(). Without, it does so only for
-  // patches with extra planes.
+  // Whether compose keeps E' of the diffuse layer for irradiance().
   void keepIrradiance(bool keep) { keepsIrradiance_ = keep; }
   // E' of the diffuse layer after compose, in the patch's planes; 0 where the layer is dark.
   const RgbPlane& irradiance(int phase) const { return irradiance_[static_cast<size_t>(phase)]; }

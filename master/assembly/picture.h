@@ -1,5 +1,5 @@
-// picture.h: from gathered results to the picture: discontinuity buffer, film, last touch, tone map,
-// file.
+// picture.h: from gathered results to the picture: discontinuity buffer, film, last touch, tone
+// map, file.
 //
 // The image hash is of the film's mean, so it depends on the frames and their order alone.
 // Threads: finishTile for different tiles and workers at once; everything else between frames.

@@ -84,10 +84,12 @@ inline bool sharesNeighbours(const Options& o, Method method, PictureView view) 
          !isPainted(view) && !factsOf(method).isUnfiltered;
 }
 
-// Whether a picture gets a last touch (image/denoise.h): by default those that people look at.
-inline bool denoises(const Options& o) {
+// Whether a picture gets a last touch (image/denoise.h): by default those that people look at. Its
+// guides are the layers, which neither filtered tiles nor methods without filter bring.
+inline bool denoises(const Options& o, Method method) {
   const bool isSeen = o.window || (o.output && o.output->ends_with(".png"));
-  return o.denoise.value_or(isSeen && o.preset != Preset::paper);
+  const bool hasGuides = !o.filterAtClients && !factsOf(method).isUnfiltered;
+  return hasGuides && o.denoise.value_or(isSeen && o.preset != Preset::paper);
 }
 
 // Whether a live run has no use for radiance, unless it sums frames up.

@@ -68,14 +68,14 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   setup.keeps.error = options.aovs || options.view == PictureView::error;
   setup.keeps.twoRadii = options.converging && usesPhotons(job.needs, job.settings);
   if (sharesNeighbours(options, job.settings.method, options.view))
-    setup.keeps.window = job.settings.interleave;
+    setup.keeps.pattern = job.settings.interleave;
   setup.aovMask = options.aovs ? job.shape.extraMask : 0;
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;
   setup.surfaceTest = options.surfaceTest;
   if (!options.autoExposure) setup.exposure = job.exposure;
   setup.workers = workers;
-  setup.denoise = denoises(options);
+  setup.denoise = denoises(options, job.settings.method);
   return setup;
 }
 
@@ -100,7 +100,7 @@ std::optional<FrameOrder> HeadlessRun::nextWork() {
   if (enough_ || allOpened) return std::nullopt;
   FrameOrder order = order_;
   order.key = plan_.next();
-  if (order.delivery.wholeTiles()) order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
+  if (options_.filterAtClients) order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
   machine_.open(order, job_.shape);
   return order;
 }
@@ -152,11 +152,13 @@ ProgressState HeadlessRun::progressState() const {
 
 void HeadlessRun::writePicture() const {
   if (!options_.output) return;
+  const bool isDenoised = denoises(options_, job_.settings.method);
   picture_.write(*options_.output, {{"release", releaseName()},
                                     {"scene", options_.scene},
                                     {"scene_hash", job_.sceneHash},
                                     {"camera", job_.settings.camera.name},
                                     {"preset", nameOf(options_.preset)},
+                                    {"denoise", isDenoised ? "on" : "off"},
                                     {"seed", fmt::format("{}", job_.settings.seed)},
                                     {"frames", fmt::format("{}", picture_.frames())},
                                     {"image_hash", picture_.imageHash()}});

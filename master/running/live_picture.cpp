@@ -41,8 +41,8 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
 void LivePicture::beginRest(const FrameShape& shape, bool isFirst) {
   const TileGrid& grid = shape.grid;
   light_.begin(grid, look_.keeps, isFirst);
-  guided_ = setup_.denoise && !isFiltered(shape);
-  if (setup_.denoise) touch_.begin(grid, isFirst);
+  guided_ = look_.denoise && !isFiltered(shape);
+  if (look_.denoise) touch_.begin(grid, isFirst);
   const bool isNew = isFirst || look_.view != std::exchange(paintedView_, look_.view);
   if (isPainted(look_.view)) painted_.begin(grid, {.error = false}, isNew);
 }
@@ -153,7 +153,15 @@ void LivePicture::frameDone(const std::stop_token& stop) {
   if (rested_) light_.frameDone();
   if (rested_ && isPainted(look_.view)) painted_.frameDone();
   if (traced_) history_.frameDone();
+  if (rested_ && setup_.frames == frames()) showWholeMean();
   if (rested_ && guided_) touchUp(stop);
+}
+
+// Of a still's last frame: tiles have shown the neighbours' share of the frames before it.
+void LivePicture::showWholeMean() {
+  if (!look_.keeps.neighbours() || !isLight(look_.view)) return;
+  light_.film().mean(image_->radiance);
+  if (look_.exposure) toneMap({0, 0, image_->width, image_->height});
 }
 
 void LivePicture::touchUp(const std::stop_token& stop) {

@@ -1,10 +1,11 @@
 // live_picture.h: what a live session shows. Tiles become a picture: in motion the frame itself, at
 // rest the mean of all frames since the rest began. A tile is filtered, summed up and tone mapped
-// in one go, while it is in the cache; after a frame's last tile nothing is left to be done.
+// in one go, while it is in the cache.
 //
 // At rest the light is summed up whatever view is shown, so that it is there when it is looked at
-// again. A view that paints something else is summed up beside it, from when it was chosen. Only a
-// last touch, if it is wanted, comes after the last tile.
+// again. A view that paints something else is summed up beside it, from when it was chosen. After a
+// frame's last tile the film finds the neighbours' share for the tiles of the next frames, and now
+// and then codes get a last touch. Of a still the last frame has a share of its own.
 //
 // Threads: finishTile for different tiles and workers at once, all of one frame before the next's;
 // everything else between frames.
@@ -32,6 +33,7 @@ struct LiveLook {
   PictureView view = PictureView::beauty;
   std::optional<float> exposure;  // [EV] of the tone map; none: nobody looks at codes
   FilmKeeps keeps = {};           // of the light at rest; changes at a rest's beginning
+  bool denoise = false;  // codes of light at rest get the last touch (rest_touch.h); as keeps
 };
 
 class LivePicture {
@@ -41,7 +43,6 @@ class LivePicture {
     int workers = 1;
     float depthScale = 1;  // [m], see view.h
     bool reuses = false;   // light of one frame in the next, while only the camera moves
-    bool denoise = false;  // codes of light at rest get the last touch, see rest_touch.h
     std::optional<int64_t> frames = {};  // of a rest, its last one is seen; nothing: all are
   };
   explicit LivePicture(const Setup& setup);
@@ -67,6 +68,7 @@ class LivePicture {
   void paintTile(FilterDesk& desk, const FrameView& view, const std::vector<uint32_t>& owners,
                  int tile);
   void showMean(const TaskRect& tile);
+  void showWholeMean();
   void copyTile(const TaskRect& tile, const RgbImage& beauty);
   void toneMap(const TaskRect& tile);
   void keepPickPlanes(const Patch& patch);

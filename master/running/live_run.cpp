@@ -29,7 +29,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       onPicture_(std::move(onPicture)),
       picture_({options.surfaceTest, FrameMachine::workers(), kDepthShownWhite * job.sceneRadius,
-                pace.motion, denoises(options), pace.frames}),
+                pace.motion, pace.frames}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
@@ -46,7 +46,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
 }
 
 LiveRun::~LiveRun() {
-  ending_ = true;
+  end();
   if (thread_.joinable()) thread_.join();
 }
 
@@ -55,8 +55,15 @@ void LiveRun::start() {
   thread_ = std::thread([this] { gatherFrames(); });
 }
 
-void LiveRun::stop(const std::string& reason) {
+// Nobody waits for a touch any more.
+void LiveRun::end() {
+  const std::lock_guard lock(mutex_);
   ending_ = true;
+  touching_.request_stop();
+}
+
+void LiveRun::stop(const std::string& reason) {
+  end();
   machine_.cluster().stop(reason);
 }
 
@@ -69,7 +76,7 @@ void LiveRun::change(const std::function<void()>& apply) {
     const LiveState next = newest();
     if (next == plan_.state()) return;
     firstWanted = plan_.change(next, Clock::now());
-    touching_.request_stop();
+    if (firstWanted || plan_.isMoving()) touching_.request_stop();
     if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
   }
   if (!firstWanted) return machine_.cluster().wake();
@@ -157,10 +164,11 @@ std::shared_ptr<const Shown> LiveRun::shown() const {
 LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
   const Settings& settings = frame.order.settings;
   LiveLook look{view_, pace_.exposure, {}};
-  look.keeps.error = pace_.person || denoises(options_) || view_ == PictureView::error;
+  look.denoise = denoises(options_, settings.method);
+  look.keeps.error = pace_.person || look.denoise || view_ == PictureView::error;
   look.keeps.twoRadii = options_.converging && usesPhotons(needs_, settings);
   if (sharesNeighbours(options_, settings.method, PictureView::beauty))
-    look.keeps.window = settings.interleave;
+    look.keeps.pattern = settings.interleave;
   if (look.exposure && isFalseColor(view_)) look.exposure = 0;
   const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
   if (!isSeen) look.exposure.reset();
@@ -201,7 +209,7 @@ std::optional<FrameOrder> LiveRun::nextWork() {
   if (!frame) return std::nullopt;
   FrameOrder& order = frame->order;
   order.edit = std::exchange(unsent_, {});
-  if (order.delivery.wholeTiles()) order.neighbourWeight = frame->neighbourWeight;
+  if (options_.filterAtClients) order.neighbourWeight = frame->neighbourWeight;
   open_[order.key.frame] = std::make_shared<Open>(
       Open{*frame, plan_.state(), lookAt(*frame),
            std::vector<uint32_t>(static_cast<size_t>(order.grid().tasks()), 0)});
@@ -246,7 +254,7 @@ void LiveRun::gatherFrames() {
     {
       const std::lock_guard lock(mutex_);
       if (plan_.completed(frame->key.frame, frame->finished)) done = open_.at(frame->key.frame);
-      touching_ = {};
+      if (!ending_) touching_ = {};
       stop = touching_.get_token();
     }
     if (done) {

@@ -84,6 +84,7 @@ class LiveRun {
     LiveLook look;
     std::vector<uint32_t> owners;  // by task
   };
+  void end();
   std::optional<FrameOrder> nextWork();
   void noteOwner(const ReceivedTile& tile);
   uint32_t giveUp();

@@ -52,7 +52,7 @@ class Frames {
   std::normal_distribution<float> normal_;
 };
 
-constexpr FilmKeeps kBoth{.window = {3, 3}};
+constexpr FilmKeeps kBoth{.pattern = {3, 3}};
 
 double squaredError(const Film& film, size_t pixel) {
   return std::pow(static_cast<double>(film.standardError(pixel, film.frames())), 2);

@@ -182,7 +182,7 @@ TEST_F(LivePictureTest, AtRestShowsTheMeanAndItsCodes) {
 
 // The film's mean stays as it is; its codes are touched after 4 and 9 frames and stay meanwhile.
 TEST_F(LivePictureTest, CodesOfLightAtRestGetTheLastTouch) {
-  LivePicture touching{{kTest, 2, 1, true, true}};
+  LivePicture touching{{kTest, 2, 1, true}};
   Film film(200, 130);
   GuideFilm guides(200, 130);
   std::vector<GatheredFrame> frames;
@@ -191,7 +191,7 @@ TEST_F(LivePictureTest, CodesOfLightAtRestGetTheLastTouch) {
     frames.push_back(frameOf(i, 200, 130));
     film.add(expectedMean({&frames.back(), 1}));
     addGuides(frames.back(), guides);
-    const auto image = atRest(frames.back(), i, {kBeauty, 0.0f}, touching);
+    const auto image = atRest(frames.back(), i, {kBeauty, 0.0f, {}, true}, touching);
     RgbImage expected = image->radiance;
     EXPECT_TRUE(expected == expectedMean(frames));
     if (i > 2) denoise(expected, film.standardError(), guides.guides(), 1);
@@ -201,19 +201,54 @@ TEST_F(LivePictureTest, CodesOfLightAtRestGetTheLastTouch) {
     before = image->display;
   }
   // Another exposure is another code for the same picture.
-  EXPECT_FALSE(atRest(frameOf(9, 200, 130), 9, {kBeauty, 1.0f}, touching)->display == before);
-  const auto sets = atRest(frameOf(10, 200, 130), 10, {PictureView::sets, 0.0f}, touching);
+  EXPECT_FALSE(atRest(frameOf(9, 200, 130), 9, {kBeauty, 1.0f, {}, true}, touching)->display ==
+               before);
+  const auto sets =
+      atRest(frameOf(10, 200, 130), 10, {PictureView::sets, 0.0f, {}, true}, touching);
   EXPECT_TRUE(sets->display == codesOf(sets->radiance, 0));
 }
 
 TEST_F(LivePictureTest, FinishedTilesOfClientsAreNotTouched) {
-  LivePicture touching{{kTest, 2, 1, true, true}};
+  LivePicture touching{{kTest, 2, 1, true}};
   for (uint32_t i = 0; i < 3; ++i) {
     const GatheredFrame frame = frameOf(i, 200, 130);
     const GatheredFrame sent = finished(i, expectedMean({&frame, 1}), nullptr);
-    const auto image = atRest(sent, i, {kBeauty, 0.0f}, touching);
+    const auto image = atRest(sent, i, {kBeauty, 0.0f, {}, true}, touching);
     EXPECT_TRUE(image->display == codesOf(image->radiance, 0));
   }
+}
+
+// The same as headless, which looks at the film once it is done.
+TEST_F(LivePictureTest, AStillTakesOfItsNeighboursWhatTheFilmAllows) {
+  constexpr int64_t kFrames = 6;
+  LivePicture still{{kTest, 2, 1, false, kFrames}};
+  const Interleave pattern = frameOf(0, 200, 130).view.shape.grid.interleave();
+  const LiveLook look{kBeauty, 0.0f, {.pattern = pattern}};
+  Film film(200, 130, look.keeps);
+  FilterDesk desk(kTest);
+  std::shared_ptr<const LiveImage> image;
+  for (uint32_t i = 0; i < kFrames; ++i) {
+    const GatheredFrame frame = frameOf(i, 200, 130);
+    image = atRest(frame, i, look, still);
+    for (int t = 0; t < frame.view.shape.grid.tiles(); ++t) {
+      gather(frame, t, desk.patch);
+      desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty,
+                          &desk.unfiltered);
+      film.addTile(desk.patch.x0(), desk.patch.y0(), desk.unfiltered, &desk.beauty);
+    }
+    film.frameDone();
+  }
+  RgbImage expected;
+  film.mean(expected);
+  EXPECT_TRUE(image->radiance == expected);
+  EXPECT_TRUE(image->display == codesOf(expected, 0));
+  // A new picture knows nothing of the old one's share.
+  const GatheredFrame next = frameOf(9, 200, 130);
+  const RgbImage filtered = expectedMean({&next, 1});
+  const auto first = atRest(next, 0, look, still);
+  for (size_t i = 0; i < filtered.count(); ++i)
+    ASSERT_NEAR(first->radiance.pixels.g[i], filtered.pixels.g[i],
+                1e-5f * (1 + filtered.pixels.g[i]));
 }
 
 TEST_F(LivePictureTest, WithoutAnOnlookerThereAreNoCodes) {

@@ -379,13 +379,20 @@ TEST(Options, HelpNamesEveryFlagOfTheInterface) {
 }
 
 TEST(Options, PicturesForPeopleAreDenoised) {
-  EXPECT_TRUE(denoises(parse("a.glb --output a.png", {}, false)));
-  EXPECT_FALSE(denoises(parse("a.glb --output a.exr", {}, false)));
-  EXPECT_FALSE(denoises(parse("a.glb --output a.hdr", {}, false)));
-  EXPECT_FALSE(denoises(parse("a.glb --preset paper --output a.png", {}, false)));
-  EXPECT_FALSE(denoises(parse("a.glb --denoise off --output a.png", {}, false)));
-  EXPECT_TRUE(denoises(parse("a.glb --denoise on --output a.exr", {}, false)));
-  EXPECT_TRUE(denoises(parse("a.glb --window", {}, false)));
+  EXPECT_TRUE(denoises(parse("a.glb --output a.png", {}, false), Method::instantRadiosity));
+  EXPECT_FALSE(denoises(parse("a.glb --output a.exr", {}, false), Method::instantRadiosity));
+  EXPECT_FALSE(denoises(parse("a.glb --output a.hdr", {}, false), Method::instantRadiosity));
+  EXPECT_FALSE(
+      denoises(parse("a.glb --preset paper --output a.png", {}, false), Method::instantRadiosity));
+  EXPECT_FALSE(
+      denoises(parse("a.glb --denoise off --output a.png", {}, false), Method::instantRadiosity));
+  EXPECT_TRUE(
+      denoises(parse("a.glb --denoise on --output a.exr", {}, false), Method::instantRadiosity));
+  EXPECT_TRUE(denoises(parse("a.glb --window", {}, false), Method::instantRadiosity));
+  EXPECT_FALSE(denoises(parse("a.glb --filter-at clients --output a.png", {}, false),
+                        Method::instantRadiosity));
+  EXPECT_FALSE(denoises(parse("a.glb --output a.png", {}, false), Method::pathTrace))
+      << "without guides";
   EXPECT_NE(complaint("a.glb --animate 0:1:5 --denoise on --output a.####.exr", {}, false)
                 .find("--denoise"),
             std::string::npos);

@@ -93,7 +93,7 @@ Films manyFilms(const Scene& scene, Settings settings) {
   for (int s = 0; s < kFilms; ++s) {
     settings.seed = static_cast<uint64_t>(s) + 1;
     testing::OneProcess way(tracer, settings);
-    Film film(kWidth, kHeight, {.window = settings.interleave});
+    Film film(kWidth, kHeight, {.pattern = settings.interleave});
     Film blockFilm(kWidth / kErrorBlock, kHeight / kErrorBlock);
     for (int frame = 0; frame < kFrames; ++frame) {
       const auto [unfiltered, filtered] = way.nextBoth();
