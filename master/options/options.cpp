@@ -46,6 +46,9 @@ void readPicture(const RawOptions& raw, Options& o) {
       o.exposure = static_cast<float>(*ev);
   o.aovs = raw.isOn("aovs");
   if (const auto touch = raw.choice("denoise", std::array{"off", "on"})) o.denoise = *touch == 1;
+  if (o.denoise == true && factsOf(o.settings.method).isUnfiltered)
+    failUsage("--denoise on: --method {} gives no guides to filter by; leave --denoise out",
+              factsOf(o.settings.method).name);
 }
 
 void readCluster(const RawOptions& raw, int cores, Options& o) {

@@ -30,8 +30,8 @@ constexpr Flag kPicture[] = {
      "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
      "what the scene says, else 0)"},
     {"denoise", "off|on",
-     "a last touch of filtering, of no pixel by more than its standard error (default: on in "
-     "the window and for .png, else off; paper off)"},
+     "a last touch of filtering, by no more than a pixel's standard error (default: on in the "
+     "window and for .png, else off; off for path tracing, paper and --filter-at clients)"},
     {"view", "NAME",
      "what to show: beauty (default), albedo, normal, depth, direct, indirect, caustics, sets, "
      "error, clients, objects or weights"},

@@ -397,6 +397,9 @@ TEST(Options, PicturesForPeopleAreDenoised) {
                 .find("--denoise"),
             std::string::npos);
   EXPECT_NE(complaint("a.glb --denoise much").find("--denoise"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --method path-trace --denoise on --output a.png", {}, false)
+                .find("--method path-trace gives no guides"),
+            std::string::npos);
   EXPECT_NE(complaint("a.glb --filter-at clients --denoise on").find("--denoise"),
             std::string::npos);
 }
