@@ -2,6 +2,9 @@
 // over the picture's edge without a question. In the border colours are those of the nearest
 // pixel, and trust is 0: nobody takes from there.
 //
+// A strip of pixels is measured in its full width also where the picture is narrower. It then reads
+// on into the next rows, of which the border below has enough; what it finds there is not used.
+//
 // Threads: plain data.   Errors: none.
 #pragma once
 
@@ -22,7 +25,7 @@ struct DenoisePlanes {
   RgbPlane color, normal;
   std::vector<float> variance;              // V
   std::vector<float> trust;                 // h; 0 in the border and where colour is not finite
-  std::vector<float> albedo, nearness;      //
+  std::vector<float> albedo, nearness;      // of the guides
   std::vector<float> slopeX, slopeY, perZ;  // of nearness a pixel; 1/(nearness kNearness)
 
   size_t at(int x, int y) const {

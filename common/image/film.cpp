@@ -24,10 +24,7 @@ void subtract(const RgbImage& a, const RgbImage& b, RgbImage& out) {
 }  // namespace
 
 Film::Film(int width, int height, FilmKeeps keeps)
-    : width_(width),
-      height_(height),
-      keeps_(keeps),
-      unfiltered_(width, height, keeps.error || keeps.neighbours()) {
+    : width_(width), height_(height), keeps_(keeps), unfiltered_(width, height, keeps.pixels()) {
   if (keeps.neighbours()) shift_.emplace(width, height, true);
   clear();
 }
@@ -68,11 +65,12 @@ void Film::frameDone() {
 void Film::updateShare() {
   if (!shift_ || frames_ < NeighbourShare::kFirst) return;
   if (frames_ > kSharedEach && frames_ - sharedAt_ < sharedAt_ / kSharedEach) return;
-  share_ = newShare();
+  share_ = shareNow();
   sharedAt_ = frames_;
 }
 
-NeighbourShare Film::newShare() const {
+NeighbourShare Film::shareNow() const {
+  if (sharedAt_ == frames_) return share_;
   RgbImage filtered;
   filtered.reset(width_, height_);
   const TaskRect all{0, 0, width_, height_};
@@ -85,7 +83,7 @@ void Film::mean(RgbImage& out) const {
   out.reset(width_, height_);
   const TaskRect all{0, 0, width_, height_};
   unfiltered_.write(all, out);
-  if (shift_) shift_->add(all, newShare().share, out);
+  if (shift_) shift_->add(all, shareNow().share, out);
 }
 
 void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
@@ -96,7 +94,7 @@ void Film::meanOfTile(const TaskRect& tile, RgbImage& out) const {
 }
 
 std::vector<float> Film::standardError() const {
-  const NeighbourShare share = shift_ ? newShare() : NeighbourShare{};
+  const NeighbourShare share = shift_ ? shareNow() : NeighbourShare{};
   std::vector<float> error(pixelCount(width_, height_));
   for (size_t i = 0; i < error.size(); ++i) error[i] = standardError(i, frames_, share);
   return error;
@@ -107,7 +105,7 @@ float Film::standardError(size_t pixel, int64_t frames) const {
 }
 
 float Film::standardError(size_t pixel, int64_t frames, const NeighbourShare& share) const {
-  NINEFOLD_CHECK(keeps_.error || keeps_.neighbours());
+  NINEFOLD_CHECK(keeps_.pixels());
   if (frames < 2) return 0;
   double squared = 0;
   if (shift_) {

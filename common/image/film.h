@@ -24,11 +24,11 @@
 //
 // A frame comes tile by tile, each pixel once; tiles begin at multiples of 16 pixels. The last bits
 // depend on the order of frames: add them in the order of their index. mean() and standardError()
-// of all pixels find a anew, which costs as much as a frame; what is asked of parts has a of the
-// last updateShare().
+// of all pixels have a of all frames; to find it costs as much as a frame. What is asked of parts
+// has a of the last updateShare().
 //
 // Memory:  24 bytes a pixel, 56 with errors, 120 with neighbours, and 40 while a is found.
-// Proved:  tests/image/film_test.cpp.
+// Proved:  tests/image/film_test.cpp, tests/image/neighbour_share_test.cpp.
 // Threads: addTile and meanOfTile for different tiles at once, else one at a time.
 #pragma once
 
@@ -42,12 +42,12 @@
 namespace ninefold {
 
 struct FilmKeeps {
-  bool error = true;      // standardError() will be asked for; it takes eight means of every pixel
+  bool error = true;      // standardError() will be asked for
   bool twoRadii = false;  // even frames have photons of a wider radius than odd ones
-  // n x m of the discontinuity buffer, if frames come filtered, too; then the film keeps errors in
-  // any case. 1x1: they do not.
+  // n x m of the discontinuity buffer, if frames come filtered, too. 1x1: they do not.
   Interleave pattern{1, 1};
   bool neighbours() const { return pattern.sets() > 1; }
+  bool pixels() const { return error || neighbours(); }  // means of every pixel by replication
   bool operator==(const FilmKeeps&) const = default;
 };
 
@@ -80,7 +80,7 @@ class Film {
   double imageRelativeError() const;
 
  private:
-  NeighbourShare newShare() const;
+  NeighbourShare shareNow() const;  // a of all frames that are done
   float standardError(size_t pixel, int64_t frames, const NeighbourShare& share) const;
   double relative(double squaredError) const;  // its root over Y
 

@@ -1,11 +1,13 @@
-// film_layer.h: one quantity of all pixels that a film sums up: its mean, and the means by
-// replication of its luminance, of pixels and of blocks.
+// film_layer.h: one colour of each pixel, summed up over frames. A film has one layer, or two: of
+// unfiltered pixels, and of what the filter adds to them. Of luminance a layer also keeps the means
+// by replication (replications.h), of pixels and of blocks.
 //
 // Per pixel and channel it keeps a running mean in double: no drift over millions of frames, and
 // the mean of equal frames is exactly their value.
 //
 // Memory: 24 bytes a pixel, 56 with replications of pixels.
 // Owner: Film.   Threads: addTile for different tiles at once, else one at a time.   Errors: CHECK.
+// Proved: tests/image/film_test.cpp.
 #pragma once
 
 #include "common/image/image.h"

@@ -1,5 +1,5 @@
-// guide_film.h: means over frames of what pixels show, for denoise.h. All of it is in the layers
-// that light travels in, so no further plane has to be asked for.
+// guide_film.h: means over frames of what pixels show, for denoise.h. It is in the layers that
+// clients send in any case. Methods without filter, and clients that filter, send no layers.
 //
 //   albedo     pi times the layers' reflectance, mean of the channels
 //   normal     of the first layer that ends on a surface

@@ -7,7 +7,7 @@
 //
 // Not for frames that clients filter: they bring no guides. The first frames have no error, or a
 // poor one, and are shown as they are, unless they are a still's last.
-// Threads: addTile for different tiles at once, else one at a time.   Errors: none.
+// Threads: addPatch for different tiles at once, else one at a time.   Errors: none.
 // Memory: 20 bytes a pixel for the guides, 12 for what is shown; meanwhile as denoise.h says.
 // Proved: tests/master/live_picture_test.cpp.
 #pragma once

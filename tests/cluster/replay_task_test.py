@@ -82,7 +82,8 @@ class ReplayTask(ClusterTest):
         self.record(master)
         self.assertEqual(master.ends(), 0, master.text)
         # Tile 1 has the sphere itself: it shows each step, however small.
-        task = lambda frame: self.again(SCENES / "table_room.glb", *self.task(frame, 1, 2), "--recording", "r")
+        scene = SCENES / "table_room.glb"
+        task = lambda frame: self.again(scene, *self.task(frame, 1, 2), "--recording", "r")
         texts = [task(frame) for frame in (3, 5, 7)]  # of some ten or more; one may have been superseded
         done = [text for text in texts if "recorded" in text]
         self.assertGreater(len(done), 1, texts)
