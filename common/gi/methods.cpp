@@ -1,6 +1,7 @@
 #include "common/gi/methods.h"
 
 #include "common/base/error.h"
+#include "common/gi/bidirectional/bidirectional.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
 
@@ -12,6 +13,8 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
       return std::make_unique<const Radiosity>(t, dynamic_cast<const Radiosity*>(begun));
     case Method::pathTrace:
       return std::make_unique<const Reference>(t);
+    case Method::bidirectional:
+      return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
   }
   fail("method {} has no computing half", static_cast<int>(t.settings.method));
 }

@@ -44,7 +44,10 @@ enum class SampleUse : uint32_t {
   gather,
   rounding,
   probe,
-  glossyPath
+  glossyPath,
+  cameraPoint,
+  reverseVpl,
+  resampling
 };
 
 // The 24 highest bits as a number in [0, 1); more would round up to 1.

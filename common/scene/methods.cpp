@@ -2,6 +2,7 @@
 // v VPLs and f photons of the set:
 //
 //     n = p (2 + v) + v + 4 f        instant radiosity: a photon meets four surfaces
+//     n = the same + v r (2 + M)      bidirectional: what v r candidates bring to M camera points
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
 #include "common/scene/methods.h"
 
@@ -17,6 +18,11 @@ namespace {
 double radiosityRays(const Settings& s, double pixels) {
   const double vpls = s.directVpls + s.indirectVpls;
   return pixels * (2 + vpls) + vpls + 4.0 * s.photons;
+}
+
+double bidirectionalRays(const Settings& s, double pixels) {
+  const double candidates = s.resampling * (s.directVpls + 2.0 * s.indirectVpls);
+  return radiosityRays(s, pixels) + candidates * (2 + s.cameraPoints);
 }
 
 double pathRays(const Settings&, double pixels) { return 64 * pixels; }
@@ -42,6 +48,16 @@ constexpr std::array kTable{
                 .freeSets = true,
                 .missesPunctualCaustics = true,
                 .rays = pathRays},
+    MethodFacts{.method = Method::bidirectional,
+                .name = "bidirectional",
+                .title = "bidirectional instant radiosity",
+                .help = "also finds light that comes round corners",
+                .parts = kVpls | kCausticPhotons | kReverseVpls,
+                .isUnfiltered = false,
+                .lightNeedsView = true,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = bidirectionalRays},
 };
 
 constexpr bool isInOrder() {

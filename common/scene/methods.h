@@ -18,7 +18,12 @@
 namespace ninefold {
 
 // What light is made of. Settings and thinning in motion go by it.
-enum LightPart : uint8_t { kDirectVpls = 1, kIndirectVpls = 2, kCausticPhotons = 4 };
+enum LightPart : uint8_t {
+  kDirectVpls = 1,
+  kIndirectVpls = 2,
+  kCausticPhotons = 4,
+  kReverseVpls = 8
+};
 inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 
 struct MethodFacts {

@@ -13,7 +13,7 @@
 
 namespace ninefold {
 
-enum class Method : uint8_t { instantRadiosity, pathTrace };
+enum class Method : uint8_t { instantRadiosity, pathTrace, bidirectional };
 enum class Caustics : uint8_t { off, direct, all };
 
 struct Settings {
@@ -24,6 +24,8 @@ struct Settings {
   int directVpls = 4;          // per set
   int indirectVpls = 18;       // per set, mean
   int photons = 1000;          // caustic photons per set
+  int resampling = 10;         // r: candidates for each VPL that is kept (resampling.h)
+  int cameraPoints = 64;       // M, per set (camera_points.h)
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row
   float bound = 30;            // c of b = c/R^2

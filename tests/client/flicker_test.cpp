@@ -14,7 +14,7 @@
 #include <map>
 
 #include "client/render_job.h"
-#include "common/gi/radiosity/light_set.h"
+#include "common/gi/radiosity/radiosity.h"
 #include "common/scene/world.h"
 #include "tests/gi/make_scene.h"
 

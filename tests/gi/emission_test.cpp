@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/gi/radiosity/light_set.h"
+#include "common/gi/radiosity/radiosity.h"
 #include "common/gi/renderer.h"
 #include "common/gi/vpl/indirect_vpls.h"
 #include "common/sampling/sampler.h"
@@ -147,7 +147,7 @@ TEST(LightSet, DiffuseSceneTracesNoPhoton) {
   const Tracer tracer(scene, Isa::automatic);
   const Transport t(tracer, Settings{});
   EXPECT_EQ(layerMaskOf(t.needs, Method::instantRadiosity), kDiffuseBit);
-  const LightSet set = makeLightSet(t, FrameKey{0, 0, 0, 0.1f}, 0, lightPathsLog2(t));
+  const LightSet set = makeLightSet(t, FrameKey{0, 0, 0, 0.1f}, 0, lightPathsLog2(t, t.settings.indirectVpls));
   for (const PhotonGrid& grid : set.photons) EXPECT_TRUE(grid.empty());
   EXPECT_GT(set.vpls.size(), 8u);
 }

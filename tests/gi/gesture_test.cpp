@@ -3,7 +3,7 @@
 // and no energy is lost or added.
 #include <gtest/gtest.h>
 
-#include "common/gi/radiosity/light_set.h"
+#include "common/gi/radiosity/radiosity.h"
 #include "common/scene/edit.h"
 #include "common/scene/methods.h"
 #include "tests/gi/make_scene.h"

@@ -2,7 +2,7 @@
 // sets, a single receiver gathers them.
 #include <gtest/gtest.h>
 
-#include "common/gi/radiosity/light_set.h"
+#include "common/gi/radiosity/radiosity.h"
 #include "common/gi/vpl/vpl_gather.h"
 #include "tests/gi/closed_form.h"
 #include "tests/gi/make_scene.h"
@@ -33,7 +33,8 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
     receivers.pad();
     uint64_t rays = 0;
     VplGatherScratch scratch;
-    gatherVpls(transport, lights, ReceiverSamples(0, static_cast<uint32_t>(i), 0), 1, scratch,
+    gatherVpls(transport, lights, ReceiverSamples(0, static_cast<uint32_t>(i), 0), 1,
+               settings.vplRoulette, scratch,
                receivers, rays);
     const double e = receivers.er[0];
     sum += e, squares += e * e;

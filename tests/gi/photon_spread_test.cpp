@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/gi/radiosity/light_set.h"
+#include "common/gi/radiosity/radiosity.h"
 #include "tests/gi/make_scene.h"
 
 namespace ninefold {

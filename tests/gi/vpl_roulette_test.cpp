@@ -57,7 +57,7 @@ struct Open {
     for (int trial = 0; trial < trials; ++trial) {
       std::fill(receivers.er.begin(), receivers.er.end(), 0.0f);
       const ReceiverSamples samples(0, static_cast<uint32_t>(first + trial), 0);
-      gatherVpls(transport, {vpls, {}}, samples, 1, scratch, receivers, rays);
+      gatherVpls(transport, {vpls, {}}, samples, 1, f, scratch, receivers, rays);
       for (size_t i = 0; i < sum.size(); ++i) {
         const auto e = static_cast<double>(receivers.er[i]);
         sum[i] += e, squares[i] += e * e;

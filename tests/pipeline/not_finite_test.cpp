@@ -8,7 +8,7 @@
 
 #include "client/render_job.h"
 #include "common/gi/light_check.h"
-#include "common/gi/radiosity/light_set.h"
+#include "common/gi/radiosity/radiosity.h"
 #include "master/assembly/assembly.h"
 #include "master/assembly/picture.h"
 #include "proto/tile_names.h"

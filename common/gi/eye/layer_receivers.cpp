@@ -8,12 +8,10 @@ namespace ninefold {
 void LayerReceivers::add(TaskContext& c, int layer, const ShadingPoint& x, size_t pixel,
                          int absorber, Reflectance throughput, float gain, float distance,
                          uint16_t chain) {
-  Receiver r;
-  r.position = x.surface.position, r.ng = x.ng, r.ns = x.ns;
-  r.origin = offsetOrigin(x.surface, x.ng);
-  r.gain = gain, r.absorber = absorber;
   const int i = static_cast<int>(pixel) % c.rect.width, j = static_cast<int>(pixel) / c.rect.width;
-  r.pixel = static_cast<uint32_t>(c.pixelX(i) + c.view.width * c.pixelY(j));
+  Receiver r =
+      receiverAt(x, static_cast<uint32_t>(c.pixelX(i) + c.view.width * c.pixelY(j)), absorber);
+  r.gain = gain;
   of(layer).add(r);
   places_[static_cast<size_t>(layer)].push_back(static_cast<uint32_t>(pixel));
   LayerPlanes& planes = c.out.layers[static_cast<size_t>(layer)];

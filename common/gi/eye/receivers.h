@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/tracing/surface.h"
+#include "common/gi/light/shading.h"
 
 namespace ninefold {
 
@@ -21,6 +21,15 @@ struct Receiver {
   float gain = 1;      // 1 / probability of the lobe choices behind it; E is multiplied by it
   int absorber = -1;   // material of the absorbing solid that it lies in; -1 = none
 };
+
+// A diffuse point as it gathers light. pixel, absorber: as above.
+inline Receiver receiverAt(const ShadingPoint& x, uint32_t pixel, int absorber) {
+  Receiver r;
+  r.position = x.surface.position, r.ng = x.ng, r.ns = x.ns;
+  r.origin = offsetOrigin(x.surface, x.ng);
+  r.pixel = pixel, r.absorber = absorber;
+  return r;
+}
 
 class Receivers {
  public:
@@ -44,6 +53,10 @@ class Receivers {
   Vec3 origin(size_t i) const { return Vec3(ox[i], oy[i], oz[i]); }
   Vec3 irradiance(size_t i) const { return Vec3(er[i], eg[i], eb[i]); }
   void addIrradiance(size_t i, Vec3 e) { er[i] += e.x, eg[i] += e.y, eb[i] += e.z; }
+
+  void clearIrradiance() {
+    for (auto* plane : {&er, &eg, &eb}) std::fill(plane->begin(), plane->end(), 0.0f);
+  }
 
   // Copies the last receiver up to the next multiple of sixteen; size() stays.
   void pad() {

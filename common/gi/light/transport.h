@@ -49,6 +49,12 @@ struct Transport {
   // need to cut. And the light of a small lamp, once cut, is hardly ever met again by a short ray.
   float lightBound(uint32_t emitter) const;
 
+  // Where shadow rays to a point of a surface end: off the surface on n's side, by as much as
+  // rounding may do on the way from anywhere in the scene. error: as in SurfacePoint.
+  Vec3 rayTarget(Vec3 position, Vec3 n, float error) const {
+    return offsetOrigin(position, n, error + farRounding, n);
+  }
+
   // Whether a path whose D vertices number `count` (x included) is within the length limit.
   bool allows(int count) const { return settings.pathLength == 0 || count <= settings.pathLength; }
 };

@@ -159,13 +159,13 @@ void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, siz
 }  // namespace
 
 CausticPhotons causticPhotons(const Transport& t, const FrameKey& frame, int k,
-                              std::span<const Vpl> vpls, RayCounts& rays) {
+                              std::span<const Vpl> vpls, Caustics which, RayCounts& rays) {
   const Settings& s = t.settings;
-  if (s.caustics == Caustics::off || s.photons == 0 || !t.needs.caustics || t.emitters.empty())
+  if (which == Caustics::off || s.photons == 0 || !t.needs.caustics || t.emitters.empty())
     return {};
   // The split does not depend on what this set's walks happened to find: that would bias both
   // halves. A single photon has no half: it becomes one of each.
-  const bool all = s.caustics == Caustics::all && t.allows(2);
+  const bool all = which == Caustics::all && t.allows(2);
   const int fromVpls = all ? std::max(s.photons / 2, 1) : 0;
   const PhotonRadii radii(t, frame.photonRadius);
   SortedPhotons photons;

@@ -1,35 +1,24 @@
-// radiosity.h: instant radiosity. E at all receivers of a layer: VPLs, caustic photons and
-// compensation, each counted once.
+// radiosity.h: instant radiosity. VPLs stand on the lamps and at the D vertices of light paths; the
+// set is a pure function of (scene, settings, frame's randomization, k).
 //
-// Source:  Keller 1997; Wald et al. 2002; compensation: Kollig and Keller 2004.
+// Source:  Keller 1997; Wald et al. 2002, section 4.
 // Threads, owner, errors: as method.h says.
 #pragma once
 
-#include "common/gi/method/layered_method.h"
-#include "common/gi/radiosity/light_set.h"
-#include "common/gi/vpl/compensation.h"
-#include "common/gi/vpl/vpl_gather.h"
+#include "common/gi/light_set/light_set_method.h"
 
 namespace ninefold {
 
-struct RadiosityScratch final : LayeredScratch {
-  VplGatherScratch vplGather;
-  CompensationScratch compensation;
-};
+// pathsLog2: m of indirect_vpls.h; -1: no path is needed.
+LightSet makeLightSet(const Transport& transport, const FrameKey& frame, int k, int pathsLog2);
 
-class Radiosity final : public LayeredMethod {
+class Radiosity final : public LightSetMethod {
  public:
   // `begun`: of the scene that a gesture began with, null at rest; m stays as it is there.
   Radiosity(const Transport& transport, const Radiosity* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
                                           const View& view) const override;
-  std::unique_ptr<Scratch> makeScratch() const override;
-
- protected:
-  void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
-             LayeredScratch& scratch, Receivers& receivers, std::vector<Irradiance>* caustic,
-             RayCounts& rays) const override;
 
  private:
   const int pathsLog2_;  // m of indirect_vpls.h

@@ -53,20 +53,13 @@ Radiance excessEmission(const Transport& t, const Hit& hit, const ShadingPoint& 
   return excess(g, t.lightBound(static_cast<uint32_t>(emitter))) * emittedRadiance(t, y);
 }
 
-Receiver receiverAt(const ShadingPoint& y, uint32_t pixel, int absorber) {
-  Receiver r;
-  r.position = y.surface.position, r.ng = y.ng, r.ns = y.ns;
-  r.origin = offsetOrigin(y.surface, y.ng);
-  r.pixel = pixel, r.absorber = absorber;
-  return r;
-}
-
 // One level of the recursion: the receivers, and what their short rays met that is to be followed.
 struct Level {
   const Transport& t;
   const ReceiverSamples& samples;
   int pathVertices;
-  bool mayFollow;
+  CompensationParts parts;  // of what this level can bring
+  bool seesLamps;
   Receivers& receivers;
   Bounces& next;
   RayCounts& rays;
@@ -84,8 +77,8 @@ struct Level {
     const EyePathEnd end =
         followLobe(t, y, Lobe::reflection, 0, Vec3(1), media,
                    samples.glossyPath(receivers.pixel[i], pathVertices), 0, rays);
-    receivers.addIrradiance(i, kPi * factor * end.unfiltered);
-    if (end.arrived && mayFollow)
+    if (parts.emission) receivers.addIrradiance(i, kPi * factor * end.unfiltered);
+    if (end.arrived && parts.onward)
       follow(i, end.x, end.absorber, end.gain * factor * end.throughput * end.x.bsdf.diffuse);
   }
 
@@ -115,7 +108,7 @@ struct Level {
     const ShadingPoint y = t.shader.shade(s, -w, {});
     // Probability of a ray that is long enough, at least `above`.
     const float reached = std::max(1 - t.bound * hit.t * hit.t / cosX, above);
-    if (pathVertices > 1 || t.settings.directVpls > 0)
+    if (parts.emission && seesLamps)
       receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
     const Vec3 factor = above * left * y.bsdf.diffuse;
     float q = std::min(maxComponent(factor), kMaxSurvival), qGlossy = 0;
@@ -125,7 +118,7 @@ struct Level {
       q *= scale, qGlossy *= scale;
     }
     // y is in the same medium as the receiver whose ray met it.
-    if (xi < q && mayFollow) follow(i, y, receivers.absorber[i], factor / q);
+    if (xi < q && parts.onward) follow(i, y, receivers.absorber[i], factor / q);
     if (xi >= q && xi < q + qGlossy) followGlossy(i, y, above / qGlossy * left);
   }
 
@@ -149,13 +142,16 @@ struct Level {
 }  // namespace
 
 void compensate(const Transport& t, const ReceiverSamples& samples, int pathVertices,
-                CompensationScratch& scratch, Receivers& receivers, RayCounts& rays,
-                const IrradianceQuery& irradiance) {
+                CompensationParts parts, CompensationScratch& scratch, Receivers& receivers,
+                RayCounts& rays, const IrradianceQuery& irradiance) {
   const auto depth = static_cast<size_t>(pathVertices) - 1;
-  if (depth == scratch.size()) scratch.emplace_back();
+  while (scratch.size() <= depth) scratch.emplace_back();
   Bounces& next = scratch[depth];
   next.clear();
-  Level level{t, samples, pathVertices, t.allows(pathVertices + 1), receivers, next, rays};
+  parts.onward = parts.onward && t.allows(pathVertices + 1);
+  Level level{
+      t,         samples, pathVertices, parts, pathVertices > 1 || t.settings.directVpls > 0,
+      receivers, next,    rays};
   for (size_t first = 0; first < receivers.size(); first += kPacket) level.trace(first);
   if (next.parents.empty()) return;
   irradiance(pathVertices + 1, next.points);

@@ -54,9 +54,15 @@ using CompensationScratch = std::deque<Bounces>;  // one level a bounce, as deep
 // Adds E(y) to receivers whose paths have `pathVertices` D vertices. E(y) is compensated in turn.
 using IrradianceQuery = std::function<void(int pathVertices, Receivers& receivers)>;
 
+// What short rays bring back: all, or some of it where the rest is somebody else's.
+struct CompensationParts {
+  bool emission = true;  // W_e L_e
+  bool onward = true;    // W rho_y/pi E(y)
+};
+
 // Adds compensation to receivers.er/eg/eb. pathVertices as in layered_method.h.
 void compensate(const Transport& transport, const ReceiverSamples& samples, int pathVertices,
-                CompensationScratch& scratch, Receivers& receivers, RayCounts& rays,
-                const IrradianceQuery& irradiance);
+                CompensationParts parts, CompensationScratch& scratch, Receivers& receivers,
+                RayCounts& rays, const IrradianceQuery& irradiance);
 
 }  // namespace ninefold

@@ -79,12 +79,13 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
 
 }  // namespace
 
-void addDirectVpls(const Transport& t, const FrameKey& frame, int k, std::vector<Vpl>& vpls) {
+void addDirectVpls(const Transport& t, const FrameKey& frame, int k, int times,
+                   std::vector<Vpl>& vpls) {
   const bool onlyBehind = t.settings.directVpls == 0;
   if (onlyBehind && !(t.settings.compensate && t.allows(2))) return;
   const int count = onlyBehind ? Settings{}.directVpls : t.settings.directVpls;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    addOfStream(t, stream, frame, k, count, vpls);
+    addOfStream(t, stream, frame, k, times * count, vpls);
   if (onlyBehind)
     for (Vpl& vpl : vpls) vpl.firstVertex = 2;
 }

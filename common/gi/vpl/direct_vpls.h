@@ -15,8 +15,8 @@
 
 namespace ninefold {
 
-// Adds the direct VPLs of set k.
-void addDirectVpls(const Transport& transport, const FrameKey& frame, int k,
+// Adds the direct VPLs of set k: `times` as many as the settings say, at least once.
+void addDirectVpls(const Transport& transport, const FrameKey& frame, int k, int times,
                    std::vector<Vpl>& vpls);
 
 }  // namespace ninefold

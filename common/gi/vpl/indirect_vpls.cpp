@@ -60,20 +60,19 @@ void depositVpls(const Transport& t, const Arrival& a, float share, VplSet& set)
   set.vpls.push_back(vpl);
 }
 
-void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k,
+void addOfStream(const Transport& t, size_t stream, SampleUse use, uint32_t randomization, int k,
                  int pathsLog2OfFirst, VplSet& set, RayCounts& rays) {
   const auto wanted = static_cast<unsigned>(t.streams.samples(stream, 1 << pathsLog2OfFirst));
   const int pathsLog2 = std::bit_width(wanted) - 1;
   const float share = 1 / static_cast<float>(1u << pathsLog2);
-  walkIndirect(t, stream, SampleUse::lightPath, frame.randomization, k, pathsLog2, rays,
+  walkIndirect(t, stream, use, randomization, k, pathsLog2, rays,
                [&](const Arrival& a) { depositVpls(t, a, share, set); });
 }
 
 }  // namespace
 
-int lightPathsLog2(const Transport& t) {
-  if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(t.needs.glossy ? 1 : 2))
-    return -1;
+int lightPathsLog2(const Transport& t, int meanVpls) {
+  if (t.emitters.empty() || meanVpls == 0 || !t.allows(t.needs.glossy ? 1 : 2)) return -1;
   RayCounts rays;
   uint64_t vertices = 0;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
@@ -81,14 +80,19 @@ int lightPathsLog2(const Transport& t) {
                  [&](const Arrival&) { ++vertices; });
   if (vertices == 0) return -1;
   const double mean = static_cast<double>(vertices) / (1 << kPilotLog2);
-  const double wanted = std::log2(t.settings.indirectVpls / mean);
+  const double wanted = std::log2(meanVpls / mean);
   return std::clamp(static_cast<int>(std::lround(wanted)), 0, kMaxPathsLog2);
 }
 
 void addIndirectVpls(const Transport& t, const FrameKey& frame, int k, int pathsLog2, VplSet& set,
                      RayCounts& rays) {
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    addOfStream(t, stream, frame, k, pathsLog2, set, rays);
+    addOfStream(t, stream, SampleUse::lightPath, frame.randomization, k, pathsLog2, set, rays);
+}
+
+void addPilotVpls(const Transport& t, int pathsLog2, VplSet& set, RayCounts& rays) {
+  for (size_t stream = 0; stream < t.streams.count(); ++stream)
+    addOfStream(t, stream, SampleUse::probe, 1, 0, pathsLog2, set, rays);
 }
 
 }  // namespace ninefold

@@ -18,11 +18,15 @@
 
 namespace ninefold {
 
-// m, from a pilot of fixed size: the same on every client. -1: no path is needed.
-int lightPathsLog2(const Transport& transport);
+// m for this mean number of VPLs, from a pilot of fixed size: the same on every client. -1: no path
+// is needed.
+int lightPathsLog2(const Transport& transport, int meanVpls);
 
 // Adds the indirect VPLs of set k. pathsLog2: m of the first stream, at least 0.
 void addIndirectVpls(const Transport& transport, const FrameKey& frame, int k, int pathsLog2,
                      VplSet& set, RayCounts& rays);
+
+// The same of 2^pathsLog2 particles that belong to no set and no frame.
+void addPilotVpls(const Transport& transport, int pathsLog2, VplSet& set, RayCounts& rays);
 
 }  // namespace ninefold

@@ -8,11 +8,9 @@
 namespace ninefold {
 namespace {
 
-// Where shadow rays to a surface VPL end: off its surface on the emitting side, by as much as
-// rounding may do on the way from anywhere in the scene.
 Vec3 rayTarget(const Transport& t, const Vpl& vpl) {
   if (vpl.kind != Vpl::Kind::surface) return vpl.position;
-  return offsetOrigin(vpl.position, vpl.normal, vpl.error + t.farRounding, vpl.normal);
+  return t.rayTarget(vpl.position, vpl.normal, vpl.error);
 }
 
 // Shadow rays of a packet of receivers, to a point or in a direction.
@@ -101,14 +99,15 @@ void addStraight(const Transport& t, const VplSet& lights, const Vpl& vpl, RayPa
   }
 }
 
-// Asks for light along the rays of one VPL to a chunk of receivers, and adds it.
-void traceVpl(const Transport& t, const VplSet& lights, size_t v, int pathVertices,
-              VplGatherScratch& scratch, size_t begin, Receivers& receivers, uint64_t& shadowRays) {
-  const Vpl& vpl = lights.vpls[v];
+// Asks for light along the rays of one VPL to a chunk of receivers, and adds it. Its weights are
+// those of row `row`.
+void traceVpl(const Transport& t, const VplSet& lights, const Vpl& vpl, size_t row,
+              int pathVertices, VplGatherScratch& scratch, size_t begin, Receivers& receivers,
+              uint64_t& shadowRays) {
   RayPacket& rays = scratch.rays;
   const Vec3 target = rayTarget(t, vpl);
   for (size_t first = 0; first < scratch.weights.size(); first += kPacket) {
-    const float* weight = scratch.weights.at(v, first);
+    const float* weight = scratch.weights.at(row, first);
     const uint32_t active = activeLanes(weight, receivers.size() - begin - first);
     if (active == 0) continue;
     aimRays(vpl, target, receivers, begin + first, rays);
@@ -126,21 +125,31 @@ void traceVpl(const Transport& t, const VplSet& lights, size_t v, int pathVertic
   }
 }
 
+size_t paddedSize(const Receivers& receivers) {
+  return (receivers.size() + kPacket - 1) / kPacket * kPacket;
+}
+
 }  // namespace
 
 void gatherVpls(const Transport& t, const VplSet& lights, const ReceiverSamples& samples,
-                int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
+                int pathVertices, float roulette, VplGatherScratch& scratch, Receivers& receivers,
                 uint64_t& shadowRays) {
   const std::vector<Vpl>& vpls = lights.vpls;
-  const size_t padded = (receivers.size() + kPacket - 1) / kPacket * kPacket;
+  const size_t padded = paddedSize(receivers);
   const size_t chunk = VplWeights::chunk(vpls.size());
   for (size_t begin = 0; begin < padded; begin += chunk) {
     scratch.weights.fill(t, vpls, pathVertices, receivers, begin, std::min(chunk, padded - begin));
-    scratch.roulette.play(t.settings.vplRoulette, lights, samples, pathVertices, receivers, begin,
+    scratch.roulette.play(roulette, lights, samples, pathVertices, receivers, begin,
                           scratch.weights);
     for (size_t v = 0; v < vpls.size(); ++v)
-      traceVpl(t, lights, v, pathVertices, scratch, begin, receivers, shadowRays);
+      traceVpl(t, lights, vpls[v], v, pathVertices, scratch, begin, receivers, shadowRays);
   }
+}
+
+void gatherOneVpl(const Transport& t, const VplSet& lights, const Vpl& vpl, int pathVertices,
+                  VplGatherScratch& scratch, Receivers& receivers, uint64_t& shadowRays) {
+  scratch.weights.fill(t, {&vpl, 1}, pathVertices, receivers, 0, paddedSize(receivers));
+  traceVpl(t, lights, vpl, 0, pathVertices, scratch, 0, receivers, shadowRays);
 }
 
 }  // namespace ninefold

@@ -38,10 +38,15 @@ struct VplGatherScratch {
 };
 
 // Adds to receivers.er/eg/eb; receivers must be padded to kPacket. Leaves out VPLs whose path would
-// exceed the limit on D vertices; pathVertices as in layered_method.h. `shadowRays` counts active
-// lanes.
+// exceed the limit on D vertices; pathVertices as in layered_method.h. roulette: f of
+// vpl_roulette.h. `shadowRays` counts active lanes.
 void gatherVpls(const Transport& transport, const VplSet& lights, const ReceiverSamples& samples,
-                int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
+                int pathVertices, float roulette, VplGatherScratch& scratch, Receivers& receivers,
                 uint64_t& shadowRays);
+
+// The same for one VPL of the set, without roulette. For few receivers: they are one chunk.
+void gatherOneVpl(const Transport& transport, const VplSet& lights, const Vpl& vpl,
+                  int pathVertices, VplGatherScratch& scratch, Receivers& receivers,
+                  uint64_t& shadowRays);
 
 }  // namespace ninefold

@@ -65,7 +65,7 @@ void packetWeights(const Vpl& vpl, const Receivers& receivers, size_t first, flo
 
 }  // namespace
 
-void VplWeights::fill(const Transport& t, const std::vector<Vpl>& vpls, int pathVertices,
+void VplWeights::fill(const Transport& t, std::span<const Vpl> vpls, int pathVertices,
                       const Receivers& receivers, size_t begin, size_t size) {
   size_ = size;
   if (weights_.size() < vpls.size() * size) weights_.resize(vpls.size() * size);

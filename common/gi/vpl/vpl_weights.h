@@ -10,6 +10,8 @@
 // Source:  Keller 1997; Wald et al. 2002.   Threads: one owner at a time.   Errors: none.
 #pragma once
 
+#include <span>
+
 #include "common/gi/eye/receivers.h"
 #include "common/gi/light/transport.h"
 #include "common/gi/vpl/vpl.h"
@@ -26,7 +28,7 @@ class VplWeights {
   }
 
   // For receivers begin ... begin + size - 1; `size` a multiple of kPacket.
-  void fill(const Transport& transport, const std::vector<Vpl>& vpls, int pathVertices,
+  void fill(const Transport& transport, std::span<const Vpl> vpls, int pathVertices,
             const Receivers& receivers, size_t begin, size_t size);
 
   size_t size() const { return size_; }

@@ -1,0 +1,23 @@
+#include "common/gi/bidirectional/bidirectional.h"
+
+#include "common/gi/bidirectional/light_maker.h"
+#include "common/gi/vpl/indirect_vpls.h"
+
+namespace ninefold {
+
+Bidirectional::Bidirectional(const Transport& t, const Bidirectional* begun)
+    : LightSetMethod(t),
+      pathsLog2_(begun != nullptr && begun->pathsLog2_ >= 0
+                     ? begun->pathsLog2_
+                     : lightPathsLog2(t, t.settings.resampling * t.settings.indirectVpls)),
+      standardDensity_(t) {}
+
+std::shared_ptr<const FrameLight> Bidirectional::light(const FrameKey& frame, int set,
+                                                       const View& view) const {
+  auto light = std::make_shared<LightSet>();
+  if (!t_.emitters.empty())
+    LightMaker(t_, standardDensity_, pathsLog2_, frame, set, view).make(*light);
+  return light;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,42 @@
+// bidirectional.h: instant radiosity whose VPLs come from both ends: from the lamps, and from what
+// the camera sees. It finds light that comes round corners. Of r times as many candidates those are
+// kept that bring much to the picture. For each set:
+//
+//   1  standard candidates: as in instant radiosity, r times as many      direct_vpls.h,
+//                                                                         indirect_vpls.h
+//   2  M camera points, and places that they see: reverse candidates      camera_points.h,
+//                                                                         reverse_places.h
+//   3  each path belongs to one family or is shared between both          partition.h
+//   4  worth of each candidate, from guesses of its power                 worth.h
+//   5  few are kept; their power is made exact                            resampling.h, raw_light.h
+//
+// The set is good for any point, but best for those that its view sees. It costs about ten times as
+// much as one of instant radiosity, so that small pictures gain less.
+//
+// Source:  Segovia, Iehl, Mitanchey and Péroche, "Bidirectional Instant Radiosity", 2006.
+// Proved:  tests/gi/bidirectional_test.cpp; furnace, form factors, agreement with the path tracer.
+// Fails:   light that needs more than one bounce between what the view sees and any VPL that light
+//          paths leave is found as rarely as they leave them.
+// Threads, owner, errors: as method.h says.
+#pragma once
+
+#include "common/gi/bidirectional/standard_density.h"
+#include "common/gi/light_set/light_set_method.h"
+
+namespace ninefold {
+
+class Bidirectional final : public LightSetMethod {
+ public:
+  // `begun`: of the scene that a gesture began with, null at rest; the number of light paths stays
+  // as it is there.
+  Bidirectional(const Transport& transport, const Bidirectional* begun);
+
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
+                                          const View& view) const override;
+
+ private:
+  const int pathsLog2_;  // of the candidates, see indirect_vpls.h
+  const StandardDensity standardDensity_;
+};
+
+}  // namespace ninefold

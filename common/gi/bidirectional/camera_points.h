@@ -1,0 +1,29 @@
+// camera_points.h: what a view looks at: D ends x_1 ... x_M of M eye paths E S* D, stratified over
+// the picture.
+//
+// A path whose first hit has several lobes follows one of them, chosen by albedo. Paths that find no
+// diffuse point leave none, so that there may be fewer than M, or none at all.
+//
+//   radiance that a point shows in its pixel = share E(x)/pi,   share = throughput rho gain
+//
+// Source:  Segovia et al. 2006, section 3.1.   Threads: pure functions.   Errors: none.
+#pragma once
+
+#include <vector>
+
+#include "common/base/counters.h"
+#include "common/gi/eye/receivers.h"
+#include "common/gi/eye/task.h"
+
+namespace ninefold {
+
+struct CameraPoints {
+  Receivers points;          // padded
+  std::vector<Vec3> shares;  // one a point
+};
+
+// Those of set k of a frame; count: M.
+CameraPoints cameraPoints(const Transport& transport, const View& view, const FrameKey& frame,
+                          int k, int count, RayCounts& rays);
+
+}  // namespace ninefold

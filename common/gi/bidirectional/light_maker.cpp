@@ -1,0 +1,131 @@
+#include "common/gi/bidirectional/light_maker.h"
+
+#include "common/gi/vpl/direct_vpls.h"
+#include "common/gi/vpl/indirect_vpls.h"
+
+namespace ninefold {
+namespace {
+
+// So many of the raw VPLs tell on average what a reverse place may get.
+constexpr float kGuessingVpls = 20;
+
+Place placeOf(const Vpl& vpl) { return {vpl.position, vpl.normal, vpl.error}; }
+
+// A VPL at the place, for one watt of irradiance times area.
+Vpl vplAt(const Transport& t, const ReversePlace& y, float area) {
+  Vpl vpl;
+  vpl.position = y.place.position, vpl.normal = y.place.normal, vpl.error = y.place.error;
+  vpl.bound = t.bound, vpl.diffuseCount = 1;
+  vpl.power = kInvPi * area * y.rho;
+  return vpl;
+}
+
+int reverseRays(const Settings& s) { return s.resampling * s.indirectVpls; }
+
+}  // namespace
+
+LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensity, int pathsLog2,
+                       const FrameKey& frame, int set, const View& view)
+    : t_(t),
+      frame_(frame),
+      k_(set),
+      pathsLog2_(pathsLog2),
+      shot_(t.allows(2) ? reverseRays(t.settings) : 0),
+      samples_(t.settings.seed, frame.randomization, kLayers + static_cast<uint32_t>(set)),
+      raw_(t, rawSet()),
+      camera_(cameraPoints(t, view, frame, set, t.settings.cameraPoints, rays_)),
+      partition_{t, camera_.points, standardDensity,
+                 pathsLog2 < 0 ? 0 : static_cast<double>(1u << pathsLog2),
+                 static_cast<double>(shot_)},
+      places_(reversePlaces(t, camera_.points, frame, set, shot_, rays_)) {}
+
+LightSet LightMaker::rawSet() {
+  LightSet raw;
+  addDirectVpls(t_, frame_, k_, t_.settings.resampling, raw.vpls);
+  if (pathsLog2_ >= 0) {
+    addIndirectVpls(t_, frame_, k_, pathsLog2_, raw, rays_);
+    std::erase_if(raw.vpls, [](const Vpl& vpl) { return isBlack(vpl.power) && vpl.glossy < 0; });
+  }
+  raw.photons = causticPhotons(t_, frame_, k_, raw.vpls, Caustics::all, rays_);
+  return raw;
+}
+
+std::vector<float> LightMaker::worths() {
+  const LightSet& raw = raw_.set();
+  Worth worth(t_, camera_);
+  for (Vpl vpl : raw.vpls) {
+    if (vpl.diffuseCount > 0 && shot_ > 0)
+      vpl.power *= partition_.standardShare(
+          placeOf(vpl), guessReverseDensity(t_, camera_.points, placeOf(vpl), kNone, rays_));
+    worth.add(raw, vpl, scratch_.vplGather, rays_);
+  }
+  Receivers y;
+  for (const ReversePlace& place : places_) y.add(place.receiver);
+  y.pad();
+  const float guessing = std::max(static_cast<float>(raw.vpls.size()) / kGuessingVpls, 1.0f);
+  gatherVpls(t_, raw, samples_, kReverseLevel, guessing, scratch_.vplGather, y, rays_.shadow);
+  for (const PhotonGrid& grid : raw.photons) gatherPhotons(t_, grid, kReverseLevel, y, nullptr);
+  for (size_t j = 0; j < places_.size(); ++j) {
+    const ReversePlace& p = places_[j];
+    const float q = guessReverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
+    Vpl vpl = vplAt(t_, p, partition_.reverseArea(p.place, q));
+    vpl.power *= y.irradiance(j);
+    worth.add({}, vpl, scratch_.vplGather, rays_);
+  }
+  return worth.values();
+}
+
+void LightMaker::keepStandard(const Vpl& candidate, float gain, LightSet& out) {
+  Vpl vpl = candidate;
+  vpl.power *= gain;
+  if (vpl.diffuseCount > 0 && shot_ > 0) {
+    const Place y = placeOf(vpl);
+    vpl.power *= partition_.standardShare(y, reverseDensity(t_, camera_.points, y, kNone, rays_));
+  }
+  if (vpl.glossy >= 0) {
+    out.glossy.push_back(raw_.set().glossy[static_cast<size_t>(vpl.glossy)]);
+    out.glossy.back().flux *= gain;
+    vpl.glossy = static_cast<int>(out.glossy.size()) - 1;
+  }
+  if (vpl.glossy >= 0 || !isBlack(vpl.power)) out.vpls.push_back(vpl);
+}
+
+void LightMaker::keepReverse(const std::vector<Kept>& kept, size_t firstReverse, LightSet& out) {
+  std::vector<Vpl> vpls;
+  Receivers y;
+  for (const Kept& each : kept) {
+    if (each.index < firstReverse) continue;
+    const ReversePlace& p = places_[each.index - firstReverse];
+    const float q = reverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
+    vpls.push_back(vplAt(t_, p, each.gain * partition_.reverseArea(p.place, q)));
+    y.add(p.receiver);
+  }
+  if (vpls.empty()) return;
+  for (int c = 1; c <= raw_.sums(); ++c) {
+    y.clearIrradiance();
+    raw_.gather(c, samples_, scratch_, y, rays_);
+    for (size_t i = 0; i < vpls.size(); ++i) {
+      Vpl vpl = vpls[i];
+      vpl.power *= y.irradiance(i), vpl.diffuseCount = c;
+      if (!isBlack(vpl.power)) out.vpls.push_back(vpl);
+    }
+  }
+}
+
+void LightMaker::make(LightSet& out) {
+  const LightSet& raw = raw_.set();
+  const Settings& s = t_.settings;
+  const LightSampler sampler(s.seed, SampleUse::resampling, frame_.randomization,
+                             static_cast<uint32_t>(k_), 0, s.randomization);
+  const std::vector<Kept> kept =
+      resample(worths(), s.directVpls + s.indirectVpls, sampler.get1D(0, 0));
+  for (const Kept& each : kept)
+    if (each.index < raw.vpls.size()) keepStandard(raw.vpls[each.index], each.gain, out);
+  keepReverse(kept, raw.vpls.size(), out);
+  out.photons = s.caustics == Caustics::all
+                    ? raw.photons
+                    : causticPhotons(t_, frame_, k_, raw.vpls, s.caustics, rays_);
+  out.rays = rays_;
+}
+
+}  // namespace ninefold

@@ -1,0 +1,46 @@
+// light_maker.h: makes one light set of the bidirectional method; the steps of bidirectional.h.
+//
+// Threads: one set's working memory.   Owner: refers to its arguments.   Errors: none.
+#pragma once
+
+#include <vector>
+
+#include "common/gi/bidirectional/partition.h"
+#include "common/gi/bidirectional/raw_light.h"
+#include "common/gi/bidirectional/resampling.h"
+#include "common/gi/bidirectional/reverse_places.h"
+#include "common/gi/bidirectional/worth.h"
+
+namespace ninefold {
+
+class LightMaker {
+ public:
+  LightMaker(const Transport& transport, const StandardDensity& standardDensity, int pathsLog2,
+             const FrameKey& frame, int set, const View& view);
+
+  // Adds VPLs and photons to an empty set.
+  void make(LightSet& out);
+
+ private:
+  LightSet rawSet();
+  // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
+  std::vector<float> worths();
+  // Step 5.
+  void keepStandard(const Vpl& candidate, float gain, LightSet& out);
+  void keepReverse(const std::vector<Kept>& kept, size_t firstReverse, LightSet& out);
+
+  const Transport& t_;
+  const FrameKey& frame_;
+  const int k_;
+  const int pathsLog2_;
+  const int shot_;  // N_r
+  const ReceiverSamples samples_;
+  RayCounts rays_;
+  LightSetScratch scratch_;
+  const RawLight raw_;
+  CameraPoints camera_;
+  const Partition partition_;
+  const std::vector<ReversePlace> places_;
+};
+
+}  // namespace ninefold

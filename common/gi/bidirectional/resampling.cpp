@@ -1,0 +1,50 @@
+#include "common/gi/bidirectional/resampling.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace ninefold {
+namespace {
+
+constexpr double kUniformShare = 0.2;
+
+// tau for which sum min(1, c/tau) = count, 0 < count < c.size(): the largest are certain, the rest
+// share what is left.
+double threshold(std::vector<double> c, size_t count) {
+  std::sort(c.begin(), c.end(), std::greater<>());
+  double rest = 0;
+  for (const double v : c) rest += v;
+  size_t certain = 0;
+  while (certain < count && c[certain] * static_cast<double>(count - certain) >= rest)
+    rest -= c[certain++];
+  return certain == count ? c[count - 1] : rest / static_cast<double>(count - certain);
+}
+
+}  // namespace
+
+std::vector<Kept> resample(std::span<const float> worth, int count, float u) {
+  std::vector<Kept> kept;
+  if (count <= 0) return kept;
+  double sum = 0;
+  for (const float v : worth) sum += static_cast<double>(v);
+  const double floor = sum > 0 ? kUniformShare * sum / static_cast<double>(worth.size()) : 1.0;
+  std::vector<double> c;
+  for (const float v : worth) c.push_back(static_cast<double>(v) + floor);
+  const bool all = worth.size() <= static_cast<size_t>(count);
+  const double tau = all ? 0 : threshold(c, static_cast<size_t>(count));
+  double at = static_cast<double>(u);
+  for (uint32_t j = 0; j < c.size(); ++j) {
+    if (all || c[j] >= tau) {
+      kept.push_back({j, 1});
+      continue;
+    }
+    const double p = c[j] / tau;
+    at += p;
+    if (at < 1) continue;
+    at -= 1;
+    kept.push_back({j, static_cast<float>(1 / p)});
+  }
+  return kept;
+}
+
+}  // namespace ninefold

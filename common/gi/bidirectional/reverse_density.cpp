@@ -1,0 +1,72 @@
+#include "common/gi/bidirectional/reverse_density.h"
+
+#include <bit>
+
+namespace ninefold {
+namespace {
+
+// cos_x cos_y / (pi d^2) of sixteen points from `first` on; 0 where a cosine is not positive.
+void fillTerms(const Receivers& x, const Place& y, size_t first, float* term) {
+#pragma GCC ivdep
+  for (size_t lane = 0; lane < kPacket; ++lane) {
+    const size_t i = first + lane;
+    const float dx = y.position.x - x.px[i], dy = y.position.y - x.py[i],
+                dz = y.position.z - x.pz[i];
+    const float d2 = dx * dx + dy * dy + dz * dz;
+    const float cosXd = dx * x.gx[i] + dy * x.gy[i] + dz * x.gz[i];
+    const float cosYd = -(dx * y.normal.x + dy * y.normal.y + dz * y.normal.z);
+    const bool faces = (cosXd > 0) & (cosYd > 0) & (d2 > 0);
+    term[lane] = faces ? kInvPi * (cosXd / d2) * (cosYd / d2) : 0.0f;
+  }
+}
+
+// Sum of the terms of sixteen points that see y.
+float seenTerms(const Transport& t, const Receivers& x, const Place& y, Vec3 target, size_t first,
+                int drawnFrom, RayCounts& rays) {
+  float term[kPacket];
+  fillTerms(x, y, first, term);
+  RayPacket packet;
+  uint32_t asked = 0, seen = 0;
+  for (size_t lane = 0; lane < kPacket; ++lane) {
+    const size_t i = first + lane;
+    packet.set(lane, x.origin(i), target - x.origin(i), 0, 1);
+    if (i >= x.size() || term[lane] <= 0) continue;
+    (static_cast<int>(i) == drawnFrom ? seen : asked) |= 1u << lane;
+  }
+  rays.shadow += static_cast<uint64_t>(std::popcount(asked));
+  if (asked != 0) seen |= asked & ~t.tracer.occluded16(packet, asked);
+  float sum = 0;
+  for (size_t lane = 0; lane < kPacket; ++lane)
+    if ((seen >> lane & 1u) != 0) sum += term[lane];
+  return sum;
+}
+
+Vec3 targetOf(const Transport& t, const Place& y) {
+  return t.rayTarget(y.position, y.normal, y.error);
+}
+
+}  // namespace
+
+float reverseDensity(const Transport& t, const Receivers& x, const Place& y, int drawnFrom,
+                     RayCounts& rays) {
+  float sum = 0;
+  for (size_t first = 0; first < x.size(); first += kPacket)
+    sum += seenTerms(t, x, y, targetOf(t, y), first, drawnFrom, rays);
+  return x.size() == 0 ? 0 : sum / static_cast<float>(x.size());
+}
+
+float guessReverseDensity(const Transport& t, const Receivers& x, const Place& y, int drawnFrom,
+                          RayCounts& rays) {
+  if (x.size() == 0) return 0;
+  float sum = seenTerms(t, x, y, targetOf(t, y), 0, drawnFrom, rays);
+  size_t count = std::min<size_t>(kPacket, x.size());
+  if (drawnFrom >= kPacket) {
+    float term[kPacket];
+    const auto i = static_cast<size_t>(drawnFrom);
+    fillTerms(x, y, i / kPacket * kPacket, term);
+    sum += term[i % kPacket], ++count;
+  }
+  return sum / static_cast<float>(count);
+}
+
+}  // namespace ninefold

@@ -1,0 +1,37 @@
+#include "common/gi/bidirectional/worth.h"
+
+#include <numeric>
+
+namespace ninefold {
+namespace {
+
+constexpr double kDarkest = 0.1;  // e: darker points do not count for more than this share
+
+}  // namespace
+
+void Worth::add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays) {
+  ++count_;
+  Receivers& x = camera_.points;
+  if (x.size() == 0) return;
+  x.clearIrradiance();
+  gatherOneVpl(t_, lights, vpl, 1, scratch, x, rays.shadow);
+  for (size_t i = 0; i < x.size(); ++i)
+    added_.push_back(maxComponent(camera_.shares[i] * x.irradiance(i)));
+}
+
+std::vector<float> Worth::values() const {
+  const size_t points = camera_.points.size();
+  std::vector<double> all(points);
+  for (size_t j = 0; j < count_; ++j)
+    for (size_t i = 0; i < points; ++i) all[i] += double{added_[j * points + i]};
+  const double sum = std::accumulate(all.begin(), all.end(), 0.0);
+  std::vector<float> values(count_, 0.0f);
+  if (!(sum > 0)) return values;
+  const double least = kDarkest * sum / static_cast<double>(points);
+  for (size_t j = 0; j < count_; ++j)
+    for (size_t i = 0; i < points; ++i)
+      values[j] += static_cast<float>(double{added_[j * points + i]} / (all[i] + least));
+  return values;
+}
+
+}  // namespace ninefold
