@@ -2,7 +2,8 @@
 // v VPLs and f photons of the set:
 //
 //     n = p (2 + v) + v + 4 f        instant radiosity: a photon meets four surfaces
-//     n = the same + v r (2 + M)      bidirectional: what v r candidates bring to M camera points
+//     n = the same + r c (2 + M)     bidirectional: r c candidates, c = direct + 2 indirect VPLs,
+//                                    each with a ray to M camera points
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
 #include "common/scene/methods.h"
 

@@ -25,20 +25,23 @@ Scene boxInBox() {
 }
 
 struct Seen {
-  explicit Seen(const Scene& scene)
-      : tracer(scene, Isa::automatic), t(tracer, testing::small(Method::bidirectional)) {
+  explicit Seen(Scene seen)
+      : scene(std::move(seen)),
+        tracer(scene, Isa::automatic),
+        t(tracer, testing::small(Method::bidirectional)) {
     Settings s = t.settings;
     s.camera = scene.cameras.front();
     view = viewOf(t, s);
   }
-  Tracer tracer;
-  Transport t;
+  const Scene scene;
+  const Tracer tracer;
+  const Transport t;
   View view;
   RayCounts rays;
 };
 
-// The mean of f/q over rays is the integral of f over all surfaces that a camera point sees. Here
-// they see all of the outer box but what the inner one stands near, so that f is 1 on the ceiling:
+// The mean of f/q over rays is the integral of f over all that some camera point sees. All of the
+// ceiling is seen. With f = 1 there and 0 elsewhere:
 //
 //   mean of f/q = 4 m^2
 //
@@ -91,8 +94,7 @@ TEST(CameraPoints, AViewOfNothingHasNone) {
   SceneBuilder b;
   b.quad(b.material(testing::matte(Vec3(0.5f), Vec3(1))), Vec3(-1, -1, 0), Vec3(2, 0, 0),
          Vec3(0, 2, 0));
-  const Scene scene = b.camera(Vec3(0, 0, 1), Vec3(0, 0, 2), 0.5f).build();
-  Seen s(scene);
+  Seen s(b.camera(Vec3(0, 0, 1), Vec3(0, 0, 2), 0.5f).build());
   EXPECT_EQ(cameraPoints(s.t, s.view, kKey, 0, 64, s.rays).points.size(), 0u);
   EXPECT_EQ(testing::render(s.tracer, testing::small(Method::bidirectional), 4).grey(), 0);
 }

@@ -147,7 +147,8 @@ TEST(LightSet, DiffuseSceneTracesNoPhoton) {
   const Tracer tracer(scene, Isa::automatic);
   const Transport t(tracer, Settings{});
   EXPECT_EQ(layerMaskOf(t.needs, Method::instantRadiosity), kDiffuseBit);
-  const LightSet set = makeLightSet(t, FrameKey{0, 0, 0, 0.1f}, 0, lightPathsLog2(t, t.settings.indirectVpls));
+  const LightSet set =
+      makeLightSet(t, FrameKey{0, 0, 0, 0.1f}, 0, lightPathsLog2(t, t.settings.indirectVpls));
   for (const PhotonGrid& grid : set.photons) EXPECT_TRUE(grid.empty());
   EXPECT_GT(set.vpls.size(), 8u);
 }
@@ -157,8 +158,8 @@ TEST(LightSet, IsAFunctionOfItsKeyAlone) {
   const Scene scene = lit(Kind::area);
   const Tracer tracer(scene, Isa::automatic), other(scene, Isa::automatic);
   const Transport a(tracer, Settings{}), b(other, Settings{});
-  const int m = lightPathsLog2(a);
-  EXPECT_EQ(m, lightPathsLog2(b));
+  const int m = lightPathsLog2(a, 18);
+  EXPECT_EQ(m, lightPathsLog2(b, 18));
   for (int k = 8; k >= 0; --k) {
     const FrameKey key{5, 5, 5, 0.1f};
     const LightSet first = makeLightSet(a, key, k, m);

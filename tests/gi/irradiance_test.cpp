@@ -34,8 +34,7 @@ Measured irradianceAt(const Scene& scene, Vec3 x, Vec3 n, int directVpls = 16, i
     uint64_t rays = 0;
     VplGatherScratch scratch;
     gatherVpls(transport, lights, ReceiverSamples(0, static_cast<uint32_t>(i), 0), 1,
-               settings.vplRoulette, scratch,
-               receivers, rays);
+               settings.vplRoulette, scratch, receivers, rays);
     const double e = receivers.er[0];
     sum += e, squares += e * e;
   }

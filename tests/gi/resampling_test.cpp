@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "common/sampling/sampler.h"
@@ -35,9 +36,8 @@ TEST(Resampling, KeepsTheSumWhateverTheWorth) {
   const double all = std::accumulate(value.begin(), value.end(), 0.0);
   std::vector<float> spiky(100, 0.0f);
   spiky[3] = 1e20f, spiky[70] = 1;
-  for (const auto& worth :
-       {value, numbers(100, 2), std::vector<float>(100, 0.0f), std::vector<float>(100, 1e-30f),
-        spiky})
+  for (const auto& worth : {value, numbers(100, 2), std::vector<float>(100, 0.0f),
+                            std::vector<float>(100, 1e-30f), spiky})
     EXPECT_NEAR(meanKept(worth, value, 9), all, 0.01 * all);
 }
 
@@ -55,10 +55,10 @@ TEST(Resampling, ACandidateWorthMoreThanAPlaceIsKeptForCertain) {
   std::vector<float> worth(40, 0.01f);
   worth[17] = 10;
   for (const float u : numbers(50, 5)) {
-    bool found = false;
-    for (const Kept& each : resample(worth, 5, u))
-      if (each.index == 17) found = true, EXPECT_EQ(each.gain, 1);
-    EXPECT_TRUE(found);
+    const std::vector<Kept> kept = resample(worth, 5, u);
+    const auto found = std::ranges::find(kept, 17u, &Kept::index);
+    ASSERT_NE(found, kept.end());
+    EXPECT_EQ(found->gain, 1);
   }
 }
 

@@ -50,7 +50,7 @@ LightSet LightMaker::rawSet() {
   return raw;
 }
 
-std::vector<float> LightMaker::worths() {
+Worth LightMaker::worths() {
   const LightSet& raw = raw_.set();
   Worth worth(t_, camera_);
   for (Vpl vpl : raw.vpls) {
@@ -72,12 +72,12 @@ std::vector<float> LightMaker::worths() {
     vpl.power *= y.irradiance(j);
     worth.add({}, vpl, scratch_.vplGather, rays_);
   }
-  return worth.values();
+  return worth;
 }
 
-void LightMaker::keepStandard(const Vpl& candidate, float gain, LightSet& out) {
+void LightMaker::keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out) {
   Vpl vpl = candidate;
-  vpl.power *= gain;
+  vpl.power *= gain, vpl.seen = seen;
   if (vpl.diffuseCount > 0 && shot_ > 0) {
     const Place y = placeOf(vpl);
     vpl.power *= partition_.standardShare(y, reverseDensity(t_, camera_.points, y, kNone, rays_));
@@ -90,7 +90,8 @@ void LightMaker::keepStandard(const Vpl& candidate, float gain, LightSet& out) {
   if (vpl.glossy >= 0 || !isBlack(vpl.power)) out.vpls.push_back(vpl);
 }
 
-void LightMaker::keepReverse(const std::vector<Kept>& kept, size_t firstReverse, LightSet& out) {
+void LightMaker::keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out) {
+  const size_t firstReverse = raw_.set().vpls.size();
   std::vector<Vpl> vpls;
   Receivers y;
   for (const Kept& each : kept) {
@@ -98,6 +99,7 @@ void LightMaker::keepReverse(const std::vector<Kept>& kept, size_t firstReverse,
     const ReversePlace& p = places_[each.index - firstReverse];
     const float q = reverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
     vpls.push_back(vplAt(t_, p, each.gain * partition_.reverseArea(p.place, q)));
+    vpls.back().seen = worth.seen(each.index);
     y.add(p.receiver);
   }
   if (vpls.empty()) return;
@@ -117,11 +119,13 @@ void LightMaker::make(LightSet& out) {
   const Settings& s = t_.settings;
   const LightSampler sampler(s.seed, SampleUse::resampling, frame_.randomization,
                              static_cast<uint32_t>(k_), 0, s.randomization);
+  const Worth worth = worths();
   const std::vector<Kept> kept =
-      resample(worths(), s.directVpls + s.indirectVpls, sampler.get1D(0, 0));
+      resample(worth.values(), s.directVpls + s.indirectVpls, sampler.get1D(0, 0));
   for (const Kept& each : kept)
-    if (each.index < raw.vpls.size()) keepStandard(raw.vpls[each.index], each.gain, out);
-  keepReverse(kept, raw.vpls.size(), out);
+    if (each.index < raw.vpls.size())
+      keepStandard(raw.vpls[each.index], each.gain, worth.seen(each.index), out);
+  keepReverse(kept, worth, out);
   out.photons = s.caustics == Caustics::all
                     ? raw.photons
                     : causticPhotons(t_, frame_, k_, raw.vpls, s.caustics, rays_);

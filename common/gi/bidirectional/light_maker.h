@@ -24,10 +24,10 @@ class LightMaker {
  private:
   LightSet rawSet();
   // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
-  std::vector<float> worths();
+  Worth worths();
   // Step 5.
-  void keepStandard(const Vpl& candidate, float gain, LightSet& out);
-  void keepReverse(const std::vector<Kept>& kept, size_t firstReverse, LightSet& out);
+  void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
+  void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
 
   const Transport& t_;
   const FrameKey& frame_;

@@ -10,25 +10,30 @@ constexpr double kDarkest = 0.1;  // e: darker points do not count for more than
 }  // namespace
 
 void Worth::add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays) {
-  ++count_;
   Receivers& x = camera_.points;
+  seen_.push_back(1);
   if (x.size() == 0) return;
   x.clearIrradiance();
   gatherOneVpl(t_, lights, vpl, 1, scratch, x, rays.shadow);
-  for (size_t i = 0; i < x.size(); ++i)
+  float all = 0, visible = 0;
+  for (size_t i = 0; i < x.size(); ++i) {
+    const float weight = *scratch.weights.at(0, i);
+    all += weight, visible += isBlack(x.irradiance(i)) ? 0 : weight;
     added_.push_back(maxComponent(camera_.shares[i] * x.irradiance(i)));
+  }
+  if (all > 0) seen_.back() = visible / all;
 }
 
 std::vector<float> Worth::values() const {
   const size_t points = camera_.points.size();
   std::vector<double> all(points);
-  for (size_t j = 0; j < count_; ++j)
+  for (size_t j = 0; j < seen_.size(); ++j)
     for (size_t i = 0; i < points; ++i) all[i] += double{added_[j * points + i]};
   const double sum = std::accumulate(all.begin(), all.end(), 0.0);
-  std::vector<float> values(count_, 0.0f);
+  std::vector<float> values(seen_.size(), 0.0f);
   if (!(sum > 0)) return values;
   const double least = kDarkest * sum / static_cast<double>(points);
-  for (size_t j = 0; j < count_; ++j)
+  for (size_t j = 0; j < seen_.size(); ++j)
     for (size_t i = 0; i < points; ++i)
       values[j] += static_cast<float>(double{added_[j * points + i]} / (all[i] + least));
   return values;

@@ -24,6 +24,9 @@ class Worth {
 
   // The next candidate: a VPL of the set `lights`, with this power.
   void add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays);
+  // The share of what candidate j would add to the camera points, were nothing hidden, that it does
+  // add.
+  float seen(size_t j) const { return seen_[j]; }
   // v_j of all candidates, in their order.
   std::vector<float> values() const;
 
@@ -31,7 +34,7 @@ class Worth {
   const Transport& t_;
   CameraPoints& camera_;
   std::vector<float> added_;  // c_ij, candidate by candidate
-  size_t count_ = 0;
+  std::vector<float> seen_;   // by candidate
 };
 
 }  // namespace ninefold

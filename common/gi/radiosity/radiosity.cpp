@@ -19,8 +19,9 @@ LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int path
 
 Radiosity::Radiosity(const Transport& t, const Radiosity* begun)
     : LightSetMethod(t),
-      pathsLog2_(begun != nullptr && begun->pathsLog2_ >= 0 ? begun->pathsLog2_
-                                                            : lightPathsLog2(t, t.settings.indirectVpls)) {}
+      pathsLog2_(begun != nullptr && begun->pathsLog2_ >= 0
+                     ? begun->pathsLog2_
+                     : lightPathsLog2(t, t.settings.indirectVpls)) {}
 
 std::shared_ptr<const FrameLight> Radiosity::light(const FrameKey& frame, int set,
                                                    const View&) const {

@@ -31,7 +31,8 @@ struct Vpl {
   int diffuseCount = 0;  // surface: D vertices of the light path, this one too; 0 on an emitter
   int glossy = -1;       // surface: what its S lobe sends on, in VplSet::glossy; -1: nothing
   MediumStack media;     // surface: around the VPL
-  int firstVertex = 1;   // D vertices of an eye path from which on it counts
+  float seen = 1;  // guess of the share of receivers that it is not hidden from, for the roulette
+  int firstVertex = 1;  // D vertices of an eye path from which on it counts
 
   // Least number of D vertices that a path by way of the VPL has; a glossy VPL is none itself.
   int leastCount() const { return glossy >= 0 ? diffuseCount - 1 : diffuseCount; }

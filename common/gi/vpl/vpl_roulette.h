@@ -2,7 +2,8 @@
 // the VPLs that would add little, and weights the asked ones by 1/p_v.
 //
 //   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between; a
-//         glossy lobe counts by what it sends to the first receiver
+//         glossy lobe counts by what it sends to the first receiver. Where the set knows that a VPL
+//         is hidden from most (Vpl::seen), it counts by so much less.
 //   n     number of VPLs with c_v > 0; all are asked if n <= 5
 //   tau   sum c_v / max(n/f, 5)
 //   p_v   probability of VPL v: c_v / tau, clamped to [1/16, 1]; not less, as a faint VPL may be
