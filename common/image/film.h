@@ -27,7 +27,7 @@
 // of all pixels have a of all frames; to find it costs as much as a frame. What is asked of parts
 // has a of the last updateShare().
 //
-// Memory:  24 bytes a pixel, 56 with errors, 120 with neighbours, and 40 while a is found.
+// Memory:  24 bytes a pixel, 56 with errors, 108 with neighbours, and 40 while a is found.
 // Proved:  tests/image/film_test.cpp, tests/image/neighbour_share_test.cpp.
 // Threads: addTile and meanOfTile for different tiles at once, else one at a time.
 #pragma once
@@ -35,6 +35,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/image/film_blocks.h"
 #include "common/image/film_layer.h"
 #include "common/image/neighbour_share.h"
 #include "common/image/radius_bias.h"
@@ -80,15 +81,17 @@ class Film {
   double imageRelativeError() const;
 
  private:
+  void prefetch(size_t first, int count) const;
   NeighbourShare shareNow() const;  // a of all frames that are done
   float standardError(size_t pixel, int64_t frames, const NeighbourShare& share) const;
   double relative(double squaredError) const;  // its root over Y
 
   int width_, height_;
   FilmKeeps keeps_;
-  int64_t frames_ = 0;              // that are done
-  FilmLayer unfiltered_;            // U
-  std::optional<FilmLayer> shift_;  // D
+  int64_t frames_ = 0;                     // that are done
+  FilmLayer<double> unfiltered_;           // U
+  std::optional<FilmLayer<float>> shift_;  // D
+  FilmBlocks blocks_;                      // of U
   NeighbourShare share_;
   int64_t sharedAt_ = 0;  // frames that share_ was worked out of
   RadiusBias bias_;

@@ -19,7 +19,8 @@
 //
 // Fails:   b^2 of less than (c - 1) V is not seen; its blur is then of the noise that is left.
 // Source:  James and Stein 1961 (shrinkage).
-// Proved:  tests/image/neighbour_share_test.cpp.   Measured: docs/performance.md.
+// Proved:  tests/image/neighbour_share_test.cpp, neighbour_share_window_test.cpp.
+// Measured: docs/performance.md.
 // Threads: pure.   Errors: none.
 #pragma once
 

@@ -38,13 +38,13 @@ void addTile(Film& film, const FilterDesk& desk, const TaskRect& rect) {
 
 namespace {
 
-bool isDenoised(const PictureMaker::Setup& setup) {
+bool isTouched(const PictureMaker::Setup& setup) {
   return setup.denoise && isLight(setup.view) && !isFiltered(setup.shape);
 }
 
 FilmKeeps keepsOf(const PictureMaker::Setup& setup) {
   FilmKeeps keeps = setup.keeps;
-  keeps.error |= isDenoised(setup);
+  keeps.error |= isTouched(setup);
   return keeps;
 }
 
@@ -52,7 +52,7 @@ FilmKeeps keepsOf(const PictureMaker::Setup& setup) {
 
 PictureMaker::PictureMaker(const Setup& setup)
     : setup_(setup), film_(setup.shape.grid.width(), setup.shape.grid.height(), keepsOf(setup)) {
-  if (isDenoised(setup)) guides_.emplace(film_.width(), film_.height());
+  if (isTouched(setup)) guides_.emplace(film_.width(), film_.height());
   if (setup.aovMask != 0) aovs_.emplace(setup.shape.grid, setup.aovMask);
   for (int i = 0; i < setup.workers; ++i)
     desks_.push_back(std::make_unique<FilterDesk>(setup.surfaceTest));

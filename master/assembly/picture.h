@@ -43,6 +43,7 @@ class PictureMaker {
   int64_t frames() const { return film_.frames(); }
   double relativeError() const { return film_.relativeError(); }
   std::string imageHash() const;
+  bool isDenoised() const { return guides_.has_value(); }  // what is written
   void write(const std::string& path, const Metadata& metadata) const;
 
  private:

@@ -68,14 +68,15 @@ Json jsonOf(Interleave value) { return Json::array({value.n, value.m}); }
 Json jsonOf(Radiance value) { return list(value); }
 Json jsonOf(const Camera& value) { return object(value); }
 
-Json object(const Settings& s, const std::string& preset, SurfaceTest filter) {
-  Json all{{"preset", preset}};
+Json settingsOf(const RunStats& s) {
+  Json all{{"preset", s.preset}};
   forEachSetting([&](const auto& row) {
     std::string key = row.name;
     std::ranges::replace(key, '-', '_');
-    all[key] = jsonOf(s.*row.member);
+    all[key] = jsonOf(s.settings.*row.member);
   });
-  all["filter"] = nameOf(filter);
+  all["filter"] = nameOf(s.surfaceTest);
+  all["denoise"] = s.denoise ? "on" : "off";
   return all;
 }
 
@@ -128,7 +129,7 @@ void addJob(const RunStats& s, Json& json) {
   json["relative_error"] = numberOrNull(s.relativeError);
   json["needs"] = object(s.needs);
   json["method"] = textOf(s.settings.method);
-  json["settings"] = object(s.settings, s.preset, s.surfaceTest);
+  json["settings"] = settingsOf(s);
   json["seed"] = s.settings.seed;
   json["reproducible"] = s.reproducible;
   json["image_hash"] = s.imageHash;

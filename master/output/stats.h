@@ -46,6 +46,7 @@ struct RunStats {
   std::string preset;                              // settings.preset
   Settings settings;                               // method, settings, seed
   SurfaceTest surfaceTest = SurfaceTest::surface;  // settings.filter
+  bool denoise = false;                            // settings.denoise: what was written had it
   bool reproducible = true;
   std::string imageHash;
 };

@@ -152,13 +152,12 @@ ProgressState HeadlessRun::progressState() const {
 
 void HeadlessRun::writePicture() const {
   if (!options_.output) return;
-  const bool isDenoised = denoises(options_, job_.settings.method);
   picture_.write(*options_.output, {{"release", releaseName()},
                                     {"scene", options_.scene},
                                     {"scene_hash", job_.sceneHash},
                                     {"camera", job_.settings.camera.name},
                                     {"preset", nameOf(options_.preset)},
-                                    {"denoise", isDenoised ? "on" : "off"},
+                                    {"denoise", picture_.isDenoised() ? "on" : "off"},
                                     {"seed", fmt::format("{}", job_.settings.seed)},
                                     {"frames", fmt::format("{}", picture_.frames())},
                                     {"image_hash", picture_.imageHash()}});
@@ -176,6 +175,7 @@ void HeadlessRun::writeStatistics() const {
   stats.preset = nameOf(options_.preset);
   stats.settings = job_.settings;
   stats.surfaceTest = options_.surfaceTest;
+  stats.denoise = options_.output && picture_.isDenoised();
   writeStats(*options_.stats, toJson(stats));
 }
 

@@ -4,7 +4,7 @@ import os
 
 from report_lib import scenes
 
-SECTIONS = ("agreement", "speed", "interleaving", "randomization", "needs")
+SECTIONS = ("agreement", "speed", "crops", "interleaving", "randomization", "needs")
 
 FULL = dict(budgets="0.5,1,2,4,8,16", short_budgets="1,4", target_seconds=128, reference_seconds=300, runs=8,
             run_seconds=10, seeds=8, frames="1,16", rounds=10, few="table_room,office")
@@ -31,7 +31,7 @@ def parse(words):
     parser.add_argument("--budgets", help="seconds of each run of the section speed (default 0.5,1,2,...16)")
     parser.add_argument("--target-seconds", type=float,
                         help=f"how long runs of {' and '.join(scenes.TARGETS)} get at most for the smallest errors (default 128)")
-    parser.add_argument("--short-budgets", help="seconds of each run of the section interleaving (default 1,4)")
+    parser.add_argument("--short-budgets", help="seconds of each run of the sections interleaving and crops (default 1,4)")
     parser.add_argument("--runs", type=int, help="runs a scene of the section agreement, at least 2 (default 8)")
     parser.add_argument("--run-seconds", type=float, help="of each of them (default 10)")
     parser.add_argument("--seeds", type=int, help="runs of each kind in the sections interleaving and randomization, at least 2 (default 8)")

@@ -87,6 +87,12 @@ def sheet(rows):
     return _joined(lines, axis=0)
 
 
+def enlarged(pixels, least_width):
+    """Each pixel as a square of so many that the picture is at least that wide."""
+    times = -(-least_width // pixels.shape[1])
+    return pixels.repeat(times, axis=0).repeat(times, axis=1)
+
+
 def _joined(cells, axis):
     shape = list(cells[0].shape)
     shape[axis] = GAP

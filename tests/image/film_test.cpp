@@ -51,6 +51,25 @@ TEST(Film, DoesNotDriftOverAMillionFrames) {
   EXPECT_NEAR(film.standardError()[4] / errorOf(replications), 1, 0.05);
 }
 
+// What a filter adds is noise around little: skewed noise, as rounding might add up there. Its mean
+// after N frames is known to 1/sqrt N, a thousandth.
+TEST(Film, DifferencesInFloatDoNotDriftOverAMillionFrames) {
+  FilmLayer<float> layer(1, 1, false);
+  std::mt19937 random(12);
+  std::exponential_distribution<float> noise;
+  const int frames = 1000000;
+  long double sum = 0;
+  for (int n = 0; n < frames; ++n) {
+    const float x = noise(random) - 0.9f;
+    sum += x;
+    layer.add(0, {&x, &x, &x, {&x, 1}}, n);
+  }
+  RgbImage image;
+  image.reset(1, 1);
+  layer.write({0, 0, 1, 1}, image);
+  EXPECT_NEAR(image.pixels.g[0], static_cast<float>(sum / frames), 1e-5);
+}
+
 // Frames 8 apart make up for each other: what they differ by is no error, the replications' spread
 // is.
 TEST(Film, TakesTheErrorFromReplications) {

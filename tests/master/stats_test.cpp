@@ -86,13 +86,17 @@ TEST(Stats, RatesFollowFromCounts) {
   EXPECT_EQ(json["seed"].get<uint64_t>(), std::numeric_limits<uint64_t>::max());
 }
 
-TEST(Stats, SettingsNameRandomizationAndFilterAsTheFlagsDo) {
+TEST(Stats, SettingsNameRandomizationFilterAndLastTouchAsTheFlagsDo) {
   RunStats s = example();
   s.settings.randomization = Randomization::random;
   s.surfaceTest = SurfaceTest::none;
-  const Json settings = Json::parse(toJson(s))["settings"];
+  Json settings = Json::parse(toJson(s))["settings"];
   EXPECT_EQ(settings["randomization"], "random");
   EXPECT_EQ(settings["filter"], "none");
+  EXPECT_EQ(settings["denoise"], "off");
+  s.denoise = true;
+  settings = Json::parse(toJson(s))["settings"];
+  EXPECT_EQ(settings["denoise"], "on");
 }
 
 // Their keys are their names, with _ for -.

@@ -15,7 +15,7 @@ import numpy
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from report_lib import blocks, measure, options, pictures, seconds_to_error, tables  # noqa: E402
+from report_lib import blocks, crops, measure, options, pictures, scenes, seconds_to_error, tables  # noqa: E402
 from report_lib.references import Reference  # noqa: E402
 
 
@@ -130,6 +130,28 @@ class Pictures(unittest.TestCase):
         reference = numpy.ones((1, 3, 3), numpy.float32)
         picture = reference * numpy.array([2.0, 1.0, 0.0], numpy.float32).reshape(1, 3, 1)
         self.assertEqual(pictures.signed_error(picture, reference, 0.5)[0].tolist(), [[255, 0, 0], [255, 254, 254], [0, 0, 255]])
+
+
+    def test_enlarged_pixels_are_squares_of_at_least_the_width(self):
+        large = pictures.enlarged(numpy.array([[[1], [2], [3]], [[4], [5], [6]]]), 7)
+        self.assertEqual(large.shape, (6, 9, 1))
+        self.assertEqual(large[:, :, 0].tolist(), [[1] * 3 + [2] * 3 + [3] * 3] * 3 + [[4] * 3 + [5] * 3 + [6] * 3] * 3)
+
+
+class Crops(unittest.TestCase):
+    def test_lie_in_the_picture_and_keep_its_shape_whatever_its_size(self):
+        self.assertEqual(set(crops.CROPS), set(scenes.SHIPPED))
+        for parts in crops.CROPS.values():
+            for crop in parts:
+                for width in (160, 640):
+                    height = width * 3 // 4
+                    shape = crop.of(numpy.zeros((height, width, 3))).shape
+                    self.assertEqual(shape, (round(crop.side * height), round(crop.side * width), 3), crop.name)
+
+    def test_begin_where_they_say(self):
+        pixels = numpy.arange(40 * 30).reshape(30, 40, 1)
+        part = crops.Crop("", 0.5, 0.1, 0.2).of(pixels)
+        self.assertEqual((part[0, 0, 0], part[-1, -1, 0]), (3 * 40 + 20, 8 * 40 + 27))
 
 
 class Tables(unittest.TestCase):

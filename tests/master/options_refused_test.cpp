@@ -1,0 +1,150 @@
+// Which command lines are refused, and in what words.
+#include <gtest/gtest.h>
+
+#include "tests/master/command_line.h"
+
+namespace ninefold {
+namespace {
+
+using testing::complaint;
+using testing::parse;
+
+TEST(OptionsRefused, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--size", "0x480"},
+      {"--size", "16385x1"},
+      {"--size", "640"},
+      {"--interleave", "17x1"},
+      {"--interleave", "0x3"},
+      {"--direct-vpls", "65537"},
+      {"--direct-vpls", "-1"},
+      {"--indirect-vpls", "x"},
+      {"--photons", "16777217"},
+      {"--path-length", "1.5"},
+      {"--specular-depth", "0"},
+      {"--bound", "0"},
+      {"--bound", "nan"},
+      {"--photon-radius", "2"},
+      {"--vpl-roulette", "-1"},
+      {"--caustics", "some"},
+      {"--environment", "1,2"},
+      {"--environment", "-1"},
+      {"--environment", "blue"},
+      {"--frames", "0"},
+      {"--seconds", "0"},
+      {"--until-error", "0"},
+      {"--until-error", "2"},
+      {"--exposure", "1000"},
+      {"--exposure", "automatic"},
+      {"--seed", "-1"},
+      {"--isa", "sse"},
+      {"--local-clients", "-1"},
+      {"--client-threads", "0"},
+      {"--wait-clients", "0"},
+      {"--listen", "4700"},
+      {"--listen", "0.0.0.0:99999"},
+      {"--preset", "fast"},
+      {"--method", "voodoo"},
+      {"--filter", "blur"},
+      {"--randomization", "dice"},
+  };
+  for (const auto& [flag, value] : cases) {
+    const std::string line = complaint(std::string("room.glb ") + flag + " " + value);
+    EXPECT_NE(line.find(flag), std::string::npos) << flag << " " << value << ": " << line;
+    EXPECT_NE(line.find(value), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  }
+}
+
+TEST(OptionsRefused, WrongUsageIsRefused) {
+  EXPECT_NE(complaint("").find("no scene"), std::string::npos);
+  EXPECT_NE(complaint("a.glb b.glb").find("more than one scene"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --colour 3").find("colour"), std::string::npos);
+  EXPECT_NE(complaint("a.glb -x").find("-x is no option"), std::string::npos);
+  EXPECT_NE(complaint("-x").find("-x is no option"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --size 3x3 --size 4x4").find("size"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --siz 3x3").find("siz"), std::string::npos) << "no guessing";
+  EXPECT_NE(complaint("a.glb --seed").find("seed"), std::string::npos);
+}
+
+TEST(OptionsRefused, AFileForThePictureOrTheStatsIsNeeded) {
+  EXPECT_NE(complaint("a.glb", {}, false).find("--output"), std::string::npos);
+  EXPECT_EQ(complaint("a.glb --stats s.json", {}, false), "");
+  EXPECT_NE(complaint("a.glb --output a.jpg", {}, false).find(".exr"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --aovs --output a.png", {}, false).find("--aovs"), std::string::npos);
+}
+
+TEST(OptionsRefused, ListeningBeyondThisMachineNeedsAKey) {
+  EXPECT_NE(complaint("a.glb --listen 0.0.0.0:4700").find("--key-file"), std::string::npos);
+  EXPECT_EQ(complaint("a.glb --listen [::1]:4700"), "");
+  EXPECT_EQ(complaint("a.glb --listen localhost:0"), "");
+}
+
+TEST(OptionsRefused, PatienceIsNotNegative) {
+  EXPECT_NE(complaint("room.glb --patience -1").find("--patience"), std::string::npos);
+}
+
+TEST(OptionsRefused, ClientsFilterNoWidePatternsLayersOrPaintedViews) {
+  EXPECT_NE(complaint("room.glb --filter-at clients --interleave 5x4").find("--interleave"),
+            std::string::npos);
+  EXPECT_NE(complaint("room.glb --filter-at clients --aovs").find("--aovs"), std::string::npos);
+  EXPECT_NE(complaint("room.glb --filter-at clients --view normal").find("--filter-at master"),
+            std::string::npos);
+}
+
+TEST(OptionsRefused, AWireLevelHasABound) { EXPECT_NE(complaint("room.glb --wire-level 20"), ""); }
+
+TEST(OptionsRefused, AVariableIsHeldToTheRangeOfItsFlag) {
+  EXPECT_NE(complaint("room.glb", {{"NINEFOLD_AOVS", "yes"}}).find("NINEFOLD_AOVS"),
+            std::string::npos);
+  EXPECT_NE(complaint("room.glb", {{"NINEFOLD_SIZE", "huge"}}), "");
+}
+
+TEST(OptionsRefused, AnAnimationNeedsARangeAndNumberedPictures) {
+  for (const char* bad : {"0", "0:1", "0,1,25", "0:1:25:3", "1:0:25", "-1:1:25", "0:1:0",
+                          "0:1:2000", "0:inf:25", "0:x:25", "0:1:nan"})
+    EXPECT_NE(complaint(std::string("a.glb --output p.##.exr --animate ") + bad, {}, false)
+                  .find("--animate " + std::string(bad)),
+              std::string::npos)
+        << bad;
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --output p.exr", {}, false).find("####"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --seconds 3").find("--frames"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --script s.json").find("--script"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --filter-at clients"), "");
+}
+
+TEST(OptionsRefused, AWindowIsNotHeadless) {
+  EXPECT_NE(complaint("a.glb --window --headless"), "");
+}
+
+TEST(OptionsRefused, AScriptThatWritesNothingIsRefused) {
+  EXPECT_NE(complaint("a.glb --script s.json", {}, false), "");
+}
+
+TEST(OptionsRefused, AViewThatIsNotThereIsRefusedWithThoseThatAre) {
+  EXPECT_NE(complaint("a.glb --view clients"), "");
+  EXPECT_NE(complaint("a.glb --view upside-down").find("albedo, normal"), std::string::npos);
+}
+
+TEST(OptionsRefused, NothingIsDenoisedWithoutGuides) {
+  EXPECT_NE(complaint("a.glb --animate 0:1:5 --denoise on --output a.####.exr", {}, false)
+                .find("--denoise"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --denoise much").find("--denoise"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --method path-trace --denoise on --output a.png", {}, false)
+                .find("--method path-trace gives no guides"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --filter-at clients --denoise on").find("--denoise"),
+            std::string::npos);
+}
+
+TEST(OptionsRefused, ACameraMustBeTheScenes) {
+  Scene scene;
+  scene.cameras = {Camera{.name = "door"}};
+  EXPECT_THROW(makeSettings(parse("a.glb --camera attic"), scene), Error);
+}
+
+}  // namespace
+}  // namespace ninefold
