@@ -49,7 +49,10 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
                     haveSameLight(before->settings, settings)
                 ? before->begun
                 : std::make_shared<const Renderer>(scene->begun->tracer, settings)),
-      renderer(scene->tracer, settings, begun.get()),
+      renderer(before != nullptr && before->scene == scene &&
+                       differInViewAlone(before->settings, settings)
+                   ? Renderer(before->renderer, settings)
+                   : Renderer(scene->tracer, settings, begun.get())),
       sets([this](const FrameKey& frame, int set) { return renderer.light(frame, set); },
            kFramesKept) {
   for (int i = 0; i < threads; ++i) desks.push_back(std::make_unique<Desk>(renderer, filter));

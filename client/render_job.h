@@ -8,7 +8,8 @@
 //
 // Jobs that differ only in camera, size and form share their light: what was worked out about the
 // lamps, the light sets made so far, and the threads' working memory.
-// Where a method makes its light for a view, only jobs of one camera and size share.
+// Where a method makes its light for a view, jobs of other cameras and sizes share what was worked
+// out about the lamps, but make their own sets.
 //
 // Threads: run() at once for different `thread`; each has its own working memory, light sets are
 // shared through the cache.
@@ -58,8 +59,8 @@ struct TracedScene {
 
 class RenderJob {
  public:
-  // `before`: an earlier job. In the same gesture, with the same light, it lends what was worked
-  // out for the gesture's beginning.
+  // `before`: an earlier job. It lends what was worked out about the same scene under another view
+  // and, in the same gesture, with the same light, about the gesture's beginning.
   RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion, const Settings& settings,
             const Delivery& delivery, int threads, const RenderJob* before = nullptr);
   // Another view of the light of `lit`. Needs lit.hasLightOf(its scene, settings, delivery).

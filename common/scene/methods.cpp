@@ -83,11 +83,14 @@ bool usesPhotons(const Needs& needs, const Settings& settings) {
          settings.caustics != Caustics::off && settings.photons > 0;
 }
 
-bool haveSameLight(const Settings& a, const Settings& b) {
-  if (factsOf(a.method).lightNeedsView) return a == b;
+bool differInViewAlone(const Settings& a, const Settings& b) {
   Settings seenAlike = a;
   seenAlike.camera = b.camera, seenAlike.width = b.width, seenAlike.height = b.height;
   return seenAlike == b;
+}
+
+bool haveSameLight(const Settings& a, const Settings& b) {
+  return factsOf(a.method).lightNeedsView ? a == b : differInViewAlone(a, b);
 }
 
 std::string describeMethods() {

@@ -53,6 +53,9 @@ uint8_t layerMaskOf(const Needs& needs, Method method);
 // Whether pictures have light that photons bring.
 bool usesPhotons(const Needs& needs, const Settings& settings);
 
+// Whether `a` and `b` are the same but for camera and size.
+bool differInViewAlone(const Settings& a, const Settings& b);
+
 // Whether the light sets of `a` and `b` are the same, byte for byte.
 bool haveSameLight(const Settings& a, const Settings& b);
 

@@ -99,15 +99,14 @@ TEST(CameraPoints, AViewOfNothingHasNone) {
   EXPECT_EQ(testing::render(s.tracer, testing::small(Method::bidirectional), 4).grey(), 0);
 }
 
-// Two rooms and a keyhole of 8 cm in the wall between. The lamp is in one, the camera in the other.
-// All light comes through the hole: instant radiosity finds it by luck. The path tracer needs many
-// paths, too, but its error is stated.
-Scene keyhole() {
+// Two rooms and a hole in the wall between. The lamp is in one, the camera in the other. All light
+// comes through the hole: instant radiosity finds it by luck.
+Scene keyhole(float halfWidth) {
   SceneBuilder b;
   const int white = b.material(testing::matte(Vec3(0.75f)));
   const int lamp = b.material(testing::matte(Vec3(0), Vec3(200)));
   b.box(white, Vec3(-2, -1, -1), Vec3(2, 1, 1), true);
-  const float h = 0.04f;  // the wall at x = 0 around the hole
+  const float h = halfWidth;  // the wall at x = 0 around the hole
   b.quad(white, Vec3(0, -1, -1), Vec3(0, 1 - h, 0), Vec3(0, 0, 2));
   b.quad(white, Vec3(0, h, -1), Vec3(0, 1 - h, 0), Vec3(0, 0, 2));
   b.quad(white, Vec3(0, -h, -1), Vec3(0, 2 * h, 0), Vec3(0, 0, 1 - h));
@@ -116,33 +115,39 @@ Scene keyhole() {
   return b.camera(Vec3(-0.1f, 0.3f, 0.9f), Vec3(-1.5f, -0.2f, -1), 1.2f).build();
 }
 
-TEST(Bidirectional, FindsLightThroughAKeyholeSoonerThanInstantRadiosity) {
-  const Scene scene = keyhole();
+Settings inOneSet(Method method) {
+  Settings s = testing::small(method, 8);
+  s.interleave = {1, 1};
+  return s;
+}
+
+// The hole is 16 cm wide. Nothing but the path tracer knows the answer; its error is stated.
+TEST(Bidirectional, FindsLightThroughAKeyholeWhereInstantRadiosityDoesNot) {
+  const Scene scene = keyhole(0.08f);
   const Tracer tracer(scene, Isa::automatic);
-  Settings s = testing::small(Method::pathTrace, 16);
-  const auto reference = testing::render(tracer, s, 4000);
-  s.method = Method::bidirectional;
-  const auto both = testing::render(tracer, s, 100);
-  s.method = Method::instantRadiosity;
-  const auto lamps = testing::render(tracer, s, 100);
+  const auto reference = testing::render(tracer, inOneSet(Method::pathTrace), 4000);
+  const auto both = testing::render(tracer, inOneSet(Method::bidirectional), 400);
+  const auto lamps = testing::render(tracer, inOneSet(Method::instantRadiosity), 400);
   const double error = std::hypot(both.error(), reference.error());
   EXPECT_NEAR(both.grey(), reference.grey(), 4 * error);
-  EXPECT_LT(error, 0.1 * reference.grey());
-  EXPECT_LT(both.error(), lamps.error() / 3);  // as good as nine times the frames
+  EXPECT_LT(both.error(), 0.1 * reference.grey());
+  // Its own stated error is no help here: it is that of the paths it found.
+  EXPECT_LT(lamps.grey(), 0.8 * reference.grey()) << "instant radiosity finds it as well";
 }
 
 // The limit counts D vertices through both families, also where VPLs are kept apart by count.
-TEST(Bidirectional, KeepsThePathLengthThroughTheKeyhole) {
-  const Scene scene = keyhole();
+TEST(Bidirectional, KeepsThePathLengthThroughAHole) {
+  const Scene scene = keyhole(0.3f);
   const Tracer tracer(scene, Isa::automatic);
   for (const int length : {2, 3, 4}) {
-    Settings s = testing::small(Method::pathTrace, 16);
+    Settings s = inOneSet(Method::pathTrace);
     s.pathLength = length;
-    const auto reference = testing::render(tracer, s, 4000);
+    const auto reference = testing::render(tracer, s, 2000);
     s.method = Method::bidirectional;
-    const auto both = testing::render(tracer, s, 150);
+    const auto both = testing::render(tracer, s, 300);
     const double error = std::hypot(both.error(), reference.error());
     EXPECT_NEAR(both.grey(), reference.grey(), 4 * error) << "path length " << length;
+    EXPECT_LT(error, 0.1 * reference.grey()) << "path length " << length;
   }
 }
 

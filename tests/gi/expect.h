@@ -32,6 +32,7 @@ inline Estimator estimator(const MethodFacts& facts, int side = 8, int pathLengt
   Estimator e{facts.title, small(facts.method, side)};
   e.settings.interleave = {2, 2};
   e.settings.directVpls = 16, e.settings.indirectVpls = 64;
+  e.settings.resampling = 3;
   e.settings.photons = 2000, e.settings.photonRadius = 0.01f;
   e.settings.pathLength = pathLength, e.settings.specularDepth = 128;
   return e;

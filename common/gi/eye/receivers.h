@@ -55,7 +55,7 @@ class Receivers {
   void addIrradiance(size_t i, Vec3 e) { er[i] += e.x, eg[i] += e.y, eb[i] += e.z; }
 
   void clearIrradiance() {
-    for (auto* plane : {&er, &eg, &eb}) std::fill(plane->begin(), plane->end(), 0.0f);
+    for (auto* plane : {&er, &eg, &eb}) std::fill_n(plane->begin(), size_, 0.0f);
   }
 
   // Copies the last receiver up to the next multiple of sixteen; size() stays.
