@@ -46,7 +46,7 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
       layerMask(layerMaskOf(needsOf(*scene->scene, settings.environment), settings.method)),
       begun(!scene->begun ? nullptr
             : before != nullptr && before->scene->begun == scene->begun &&
-                    haveSameLight(before->settings, settings)
+                    differInViewAlone(before->settings, settings)
                 ? before->begun
                 : std::make_shared<const Renderer>(scene->begun->tracer, settings)),
       renderer(before != nullptr && before->scene == scene &&

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "common/scene/settings_check.h"
 #include "common/scene/settings_table.h"
 #include "proto/messages.h"
 #include "proto/text.h"
@@ -136,6 +137,7 @@ Settings fromWire(const pb::Settings& in) {
   });
   if (!given.empty())
     fail("{} is no setting that this release has", printable(given.begin()->first, kMaxText));
+  checkTogether(settings);
   return settings;
 }
 

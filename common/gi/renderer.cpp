@@ -20,6 +20,13 @@ struct Renderer::Impl {
 
   Impl(std::shared_ptr<const Light> l, const Settings& settings)
       : light(std::move(l)), view(viewOf(light->transport, settings)) {}
+
+  // Those of the light, seen from here.
+  Settings settings() const {
+    Settings seen = light->transport.settings;
+    seen.camera = view.camera, seen.width = view.width, seen.height = view.height;
+    return seen;
+  }
 };
 
 Renderer::Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun)
@@ -37,7 +44,7 @@ std::shared_ptr<const FrameLight> Renderer::light(const FrameKey& frame, int set
   auto light = impl_->light->method->light(frame, set, impl_->view);
 #ifndef NDEBUG
   const Transport& t = impl_->light->transport;
-  checkLight(*light, frame, set, t.tracer.scene(), t.settings);
+  checkLight(*light, frame, set, t.tracer.scene(), impl_->settings());
 #endif
   return light;
 }
@@ -47,10 +54,7 @@ void Renderer::render(const Task& task, const FrameLight& light, Scratch& scratc
   impl_->light->method->render(impl_->view, task, light, scratch, out);
 #ifndef NDEBUG
   const Transport& t = impl_->light->transport;
-  Settings seen = t.settings;
-  seen.camera = impl_->view.camera, seen.width = impl_->view.width,
-  seen.height = impl_->view.height;
-  checkLight(out, task, t.tracer.scene(), seen);
+  checkLight(out, task, t.tracer.scene(), impl_->settings());
 #endif
 }
 

@@ -24,6 +24,7 @@
 // Threads: const, reentrant.   Errors: none.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "common/math/vec.h"
@@ -49,6 +50,9 @@ enum class SampleUse : uint32_t {
   reverseVpl,
   resampling
 };
+
+// The least m with 2^m >= n: LightSampler's log2Count for n points.
+constexpr int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
 
 // The 24 highest bits as a number in [0, 1); more would round up to 1.
 inline float unitFloat(uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; }

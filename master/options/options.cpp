@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/scene/camera_choice.h"
+#include "common/scene/settings_check.h"
 #include "common/scene/settings_table.h"
 #include "master/options/numbered_name.h"
 #include "master/options/options_flags.h"
@@ -38,6 +39,11 @@ void readPicture(const RawOptions& raw, Options& o) {
     std::tie(o.settings.width, o.settings.height) = parseSize(*size);
   readSettings(raw, o.settings);
   if (raw.has("environment")) o.environment = o.settings.environment;
+  try {
+    checkTogether(o.settings);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
   o.camera = raw.text("camera").value_or("");
   assign(o.surfaceTest, raw.choice("filter", std::array{"none", "paper", "surface"}));
   o.autoExposure = raw.text("exposure") == "auto";

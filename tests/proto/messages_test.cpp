@@ -26,6 +26,7 @@ Settings oddSettings() {
   s.camera = {"küche", Vec3(1, 2, 3), Vec3(0, 0, 1), Vec3(0, 2, 0), 1.25f};
   s.interleave = {16, 1};
   s.directVpls = 0, s.indirectVpls = 65536, s.photons = 16777216;
+  s.resampling = 3, s.cameraPoints = 4096;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;
@@ -164,7 +165,7 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"width", [](Settings& s) { s.width = 0; }},
       {"width", [](Settings& s) { s.width = -5; }},
       {"height", [](Settings& s) { s.height = 16385; }},
-      {"method", [](Settings& s) { s.method = static_cast<Method>(2); }},
+      {"method", [](Settings& s) { s.method = static_cast<Method>(allMethods().size()); }},
       {"caustics", [](Settings& s) { s.caustics = static_cast<Caustics>(3); }},
       {"randomization", [](Settings& s) { s.randomization = static_cast<Randomization>(3); }},
       {"interleave columns", [](Settings& s) { s.interleave.n = 17; }},
@@ -172,6 +173,8 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"direct-vpls", [](Settings& s) { s.directVpls = 65537; }},
       {"indirect-vpls", [](Settings& s) { s.indirectVpls = -1; }},
       {"photons", [](Settings& s) { s.photons = 16777217; }},
+      {"resampling", [](Settings& s) { s.resampling = 0; }},
+      {"camera-points", [](Settings& s) { s.cameraPoints = 0; }},
       {"path-length", [](Settings& s) { s.pathLength = -1; }},
       {"specular-depth", [](Settings& s) { s.specularDepth = 0; }},
       {"bound", [](Settings& s) { s.bound = NAN; }},

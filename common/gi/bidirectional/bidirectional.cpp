@@ -10,13 +10,15 @@ Bidirectional::Bidirectional(const Transport& t, const Bidirectional* begun)
       pathsLog2_(begun != nullptr && begun->pathsLog2_ >= 0
                      ? begun->pathsLog2_
                      : lightPathsLog2(t, t.settings.resampling * t.settings.indirectVpls)),
-      standardDensity_(t) {}
+      standardDensity_(begun != nullptr && begun->pathsLog2_ >= 0
+                           ? begun->standardDensity_
+                           : std::make_shared<const StandardDensity>(t)) {}
 
 std::shared_ptr<const FrameLight> Bidirectional::light(const FrameKey& frame, int set,
                                                        const View& view) const {
   auto light = std::make_shared<LightSet>();
   if (!t_.emitters.empty())
-    LightMaker(t_, standardDensity_, pathsLog2_, frame, set, view).make(*light);
+    LightMaker(t_, *standardDensity_, pathsLog2_, frame, set, view).make(*light);
   return light;
 }
 

@@ -15,7 +15,8 @@
 //
 // Source:  Segovia, Iehl, Mitanchey and Péroche, "Bidirectional Instant Radiosity", 2006.
 // Proved:  tests/gi/bidirectional_test.cpp; furnace, form factors, agreement with the path tracer.
-// Fails:   light that needs more than one bounce between what the view sees and any VPL that light
+// Fails:   without compensation reverse VPLs lack what the bound cuts off, as all VPLs then do;
+//          light that needs more than one bounce between what the view sees and any VPL that light
 //          paths leave is found as rarely as they leave them.
 // Threads, owner, errors: as method.h says.
 #pragma once
@@ -27,8 +28,8 @@ namespace ninefold {
 
 class Bidirectional final : public LightSetMethod {
  public:
-  // `begun`: of the scene that a gesture began with, null at rest; the number of light paths stays
-  // as it is there.
+  // `begun`: of the scene that a gesture began with, null at rest; the number of light paths and the
+  // partition stay as they are there.
   Bidirectional(const Transport& transport, const Bidirectional* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
@@ -36,7 +37,7 @@ class Bidirectional final : public LightSetMethod {
 
  private:
   const int pathsLog2_;  // of the candidates, see indirect_vpls.h
-  const StandardDensity standardDensity_;
+  const std::shared_ptr<const StandardDensity> standardDensity_;
 };
 
 }  // namespace ninefold

@@ -1,6 +1,5 @@
 #include "common/gi/bidirectional/camera_points.h"
 
-#include <bit>
 #include <optional>
 
 #include "common/gi/eye/eye_path.h"
@@ -46,7 +45,7 @@ std::optional<End> follow(const Transport& t, const View& view, Vec2 film, float
 
 CameraPoints cameraPoints(const Transport& t, const View& view, const FrameKey& frame, int k,
                           int count, RayCounts& rays) {
-  const int log2Count = std::bit_width(static_cast<unsigned>(count - 1));
+  const int log2Count = log2Ceil(count);
   const LightSampler film(t.settings.seed, SampleUse::cameraPoint, frame.randomization,
                           static_cast<uint32_t>(k), log2Count, t.settings.randomization);
   const PixelStream chains(t.settings.seed, SampleUse::cameraPoint, frame.randomization, 1,

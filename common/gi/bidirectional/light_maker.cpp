@@ -1,11 +1,10 @@
 #include "common/gi/bidirectional/light_maker.h"
 
-#include "common/gi/vpl/direct_vpls.h"
-#include "common/gi/vpl/indirect_vpls.h"
-
 namespace ninefold {
 namespace {
 
+// Where pictures have layers, the gathering of set k has these numbers: exact, and guesses.
+constexpr uint32_t kFirstUse = kLayers, kMostSets = 256;
 // So many of the raw VPLs tell on average what a reverse place may get.
 constexpr float kGuessingVpls = 20;
 
@@ -20,6 +19,11 @@ Vpl vplAt(const Transport& t, const ReversePlace& y, float area) {
   return vpl;
 }
 
+// N'. Without direct VPLs there are those that light what the compensation meets.
+int keptVpls(const Settings& s) {
+  return (s.directVpls > 0 ? s.directVpls : Settings{}.directVpls) + s.indirectVpls;
+}
+
 int reverseRays(const Settings& s) { return s.resampling * s.indirectVpls; }
 
 }  // namespace
@@ -31,7 +35,9 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
       k_(set),
       pathsLog2_(pathsLog2),
       shot_(t.allows(2) ? reverseRays(t.settings) : 0),
-      samples_(t.settings.seed, frame.randomization, kLayers + static_cast<uint32_t>(set)),
+      samples_(t.settings.seed, frame.randomization, kFirstUse + static_cast<uint32_t>(set)),
+      guesses_(t.settings.seed, frame.randomization,
+               kFirstUse + kMostSets + static_cast<uint32_t>(set)),
       raw_(t, rawSet()),
       camera_(cameraPoints(t, view, frame, set, t.settings.cameraPoints, rays_)),
       partition_{t, camera_.points, standardDensity,
@@ -41,12 +47,10 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
 
 LightSet LightMaker::rawSet() {
   LightSet raw;
-  addDirectVpls(t_, frame_, k_, t_.settings.resampling, raw.vpls);
-  if (pathsLog2_ >= 0) {
-    addIndirectVpls(t_, frame_, k_, pathsLog2_, raw, rays_);
-    std::erase_if(raw.vpls, [](const Vpl& vpl) { return isBlack(vpl.power) && vpl.glossy < 0; });
-  }
-  raw.photons = causticPhotons(t_, frame_, k_, raw.vpls, Caustics::all, rays_);
+  const Settings& s = t_.settings;
+  addStandardVpls(t_, frame_, k_, s.resampling, pathsLog2_, raw);
+  const int photons = s.photons > 0 ? s.photons : Settings{}.photons;
+  raw.photons = causticPhotons(t_, frame_, k_, raw.vpls, Caustics::all, photons, raw.rays);
   return raw;
 }
 
@@ -63,7 +67,7 @@ Worth LightMaker::worths() {
   for (const ReversePlace& place : places_) y.add(place.receiver);
   y.pad();
   const float guessing = std::max(static_cast<float>(raw.vpls.size()) / kGuessingVpls, 1.0f);
-  gatherVpls(t_, raw, samples_, kReverseLevel, guessing, scratch_.vplGather, y, rays_.shadow);
+  gatherVpls(t_, raw, guesses_, kReverseLevel, guessing, scratch_.vplGather, y, rays_.shadow);
   for (const PhotonGrid& grid : raw.photons) gatherPhotons(t_, grid, kReverseLevel, y, nullptr);
   for (size_t j = 0; j < places_.size(); ++j) {
     const ReversePlace& p = places_[j];
@@ -120,16 +124,15 @@ void LightMaker::make(LightSet& out) {
   const LightSampler sampler(s.seed, SampleUse::resampling, frame_.randomization,
                              static_cast<uint32_t>(k_), 0, s.randomization);
   const Worth worth = worths();
-  const std::vector<Kept> kept =
-      resample(worth.values(), s.directVpls + s.indirectVpls, sampler.get1D(0, 0));
+  const std::vector<Kept> kept = resample(worth.values(), keptVpls(s), sampler.get1D(0, 0));
   for (const Kept& each : kept)
     if (each.index < raw.vpls.size())
       keepStandard(raw.vpls[each.index], each.gain, worth.seen(each.index), out);
   keepReverse(kept, worth, out);
-  out.photons = s.caustics == Caustics::all
+  out.photons = s.caustics == Caustics::all && s.photons > 0
                     ? raw.photons
-                    : causticPhotons(t_, frame_, k_, raw.vpls, s.caustics, rays_);
-  out.rays = rays_;
+                    : causticPhotons(t_, frame_, k_, raw.vpls, s.caustics, s.photons, rays_);
+  out.rays = rays_, out.rays += raw.rays;
 }
 
 }  // namespace ninefold

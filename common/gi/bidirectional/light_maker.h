@@ -34,7 +34,7 @@ class LightMaker {
   const int k_;
   const int pathsLog2_;
   const int shot_;  // N_r
-  const ReceiverSamples samples_;
+  const ReceiverSamples samples_, guesses_;
   RayCounts rays_;
   LightSetScratch scratch_;
   const RawLight raw_;

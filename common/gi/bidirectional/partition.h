@@ -12,10 +12,12 @@
 // w_r/(N_r q) rho/pi E(y) estimates the integral of w_r g wherever q > 0; where q = 0, w_r = 0. The
 // sum of both is the integral of g. It holds for every x, seen by the camera or not, and for every
 // s: a poor guess costs noise only. E(y) may be any unbiased estimate that does not depend on which
-// y were drawn (raw_light.h).
+// y were drawn (raw_light.h). What is kept may depend on guesses of E(y), if these have random numbers
+// of their own: what is added up is the mean over the exact ones.
 //
 // VPLs on lamps keep w_s = 1: reverse VPLs carry no emission. So do glossy lobes.
 //
+// Proved:  tests/gi (furnace, form factors, agreement with the path tracer; keyhole).
 // Source:  balance heuristic, Veach and Guibas 1995, over places; the two families: Segovia et al.
 //          2006, section 3.2.
 // Threads: const, reentrant.   Errors: none.
@@ -41,9 +43,9 @@ struct Partition {
     const double standard = standardCount(y);
     return static_cast<float>(standard / (standard + shot * double{q}));
   }
-  // w_r/(N_r q) at a place that a ray was drawn to, q > 0 [m^2].
+  // w_r/(N_r q) at a place that a ray was drawn to [m^2]. Rounding may make q = 0 there.
   float reverseArea(const Place& y, float q) const {
-    return static_cast<float>(1 / (standardCount(y) + shot * double{q}));
+    return q <= 0 ? 0.0f : static_cast<float>(1 / (standardCount(y) + shot * double{q}));
   }
 };
 

@@ -1,12 +1,13 @@
 #include "common/gi/bidirectional/resampling.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace ninefold {
 namespace {
 
-constexpr double kUniformShare = 0.2;
+constexpr double kUniform = 0.2;
 
 // tau for which sum min(1, c/tau) = count, 0 < count < c.size(): the largest are certain, the rest
 // share what is left.
@@ -20,16 +21,18 @@ double threshold(std::vector<double> c, size_t count) {
   return certain == count ? c[count - 1] : rest / static_cast<double>(count - certain);
 }
 
+double finite(float worth) { return std::isfinite(worth) ? static_cast<double>(worth) : 0; }
+
 }  // namespace
 
 std::vector<Kept> resample(std::span<const float> worth, int count, float u) {
   std::vector<Kept> kept;
   if (count <= 0) return kept;
   double sum = 0;
-  for (const float v : worth) sum += static_cast<double>(v);
-  const double floor = sum > 0 ? kUniformShare * sum / static_cast<double>(worth.size()) : 1.0;
+  for (const float v : worth) sum += finite(v);
+  const double floor = sum > 0 ? kUniform * sum / static_cast<double>(worth.size()) : 1.0;
   std::vector<double> c;
-  for (const float v : worth) c.push_back(static_cast<double>(v) + floor);
+  for (const float v : worth) c.push_back(finite(v) + floor);
   const bool all = worth.size() <= static_cast<size_t>(count);
   const double tau = all ? 0 : threshold(c, static_cast<size_t>(count));
   double at = static_cast<double>(u);

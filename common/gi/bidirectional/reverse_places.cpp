@@ -1,7 +1,5 @@
 #include "common/gi/bidirectional/reverse_places.h"
 
-#include <bit>
-
 #include "common/sampling/sampler.h"
 #include "common/sampling/warp.h"
 
@@ -11,9 +9,8 @@ std::vector<ReversePlace> reversePlaces(const Transport& t, const Receivers& x,
                                         const FrameKey& frame, int k, int count, RayCounts& rays) {
   std::vector<ReversePlace> found;
   if (x.size() == 0 || count <= 0) return found;
-  const LightSampler sampler(
-      t.settings.seed, SampleUse::reverseVpl, frame.randomization, static_cast<uint32_t>(k),
-      std::bit_width(static_cast<unsigned>(count - 1)), t.settings.randomization);
+  const LightSampler sampler(t.settings.seed, SampleUse::reverseVpl, frame.randomization,
+                             static_cast<uint32_t>(k), log2Ceil(count), t.settings.randomization);
   for (uint32_t j = 0; j < static_cast<uint32_t>(count); ++j) {
     const size_t i = std::min(
         static_cast<size_t>(sampler.get1D(j, 2) * static_cast<float>(x.size())), x.size() - 1);

@@ -13,6 +13,10 @@ void Worth::add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch,
   Receivers& x = camera_.points;
   seen_.push_back(1);
   if (x.size() == 0) return;
+  if (isBlack(vpl.power) && vpl.glossy < 0) {
+    added_.insert(added_.end(), x.size(), 0.0f);
+    return;
+  }
   x.clearIrradiance();
   gatherOneVpl(t_, lights, vpl, 1, scratch, x, rays.shadow);
   float all = 0, visible = 0;

@@ -1,14 +1,15 @@
 // worth.h: what each candidate is worth to the picture.
 //
-//   v_j = sum_i c_ij / (C_i + e mean C),   C_i = sum_j c_ij      c_ij: what candidate j adds to
-//                                                                camera point i, hidden or not
+//   v_j = sum_i c_ij / (C_i + mean(C)/10),   C_i = sum_j c_ij
+//
+//   c_ij   radiance that candidate j adds to camera point i; 0 if it is hidden      [W/(m^2 sr)]
 //
 // So a VPL counts by its share of each point's light, not by its power: a bright place in the
 // picture, such as a lit room behind a door, is one place among others. That is what the eye and
 // relative errors ask for. C is known: the candidates are many.
 //
 // Source:  Segovia et al. 2006, section 3.2, where v_j = sum_i c_ij.
-// Measured: docs/performance.md.   Threads: one set's working memory.   Errors: none.
+// Threads: one set's working memory.   Errors: none.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,7 @@ class Worth {
   // The next candidate: a VPL of the set `lights`, with this power.
   void add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays);
   // The share of what candidate j would add to the camera points, were nothing hidden, that it does
-  // add.
+  // add; 1 where nothing is known.
   float seen(size_t j) const { return seen_[j]; }
   // v_j of all candidates, in their order.
   std::vector<float> values() const;

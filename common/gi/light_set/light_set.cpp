@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "common/gi/light/light_path.h"
+#include "common/gi/vpl/direct_vpls.h"
+#include "common/gi/vpl/indirect_vpls.h"
 
 namespace ninefold {
 
@@ -16,6 +18,14 @@ std::string LightSet::oddValue() const {
         return fmt::format("a photon has a flux of ({}, {}, {})", photon.flux.x, photon.flux.y,
                            photon.flux.z);
   return {};
+}
+
+void addStandardVpls(const Transport& t, const FrameKey& frame, int k, int times, int pathsLog2,
+                     LightSet& set) {
+  addDirectVpls(t, frame, k, times, set.vpls);
+  if (pathsLog2 < 0) return;
+  addIndirectVpls(t, frame, k, pathsLog2, set, set.rays);
+  std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power) && vpl.glossy < 0; });
 }
 
 void gatherLightSet(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,

@@ -32,6 +32,11 @@ struct LightSetScratch {
   CompensationScratch compensation;
 };
 
+// Adds the VPLs that instant radiosity makes for set k, `times` as many direct ones as the settings
+// say. pathsLog2: m of indirect_vpls.h; -1: no path is needed.
+void addStandardVpls(const Transport& transport, const FrameKey& frame, int k, int times,
+                     int pathsLog2, LightSet& set);
+
 // Adds E to receivers; arguments as in layered_method.h.
 void gatherLightSet(const Transport& transport, const LightSet& lights,
                     const ReceiverSamples& samples, int pathVertices, LightSetScratch& scratch,

@@ -1,7 +1,5 @@
 #include "common/gi/photons/caustic_photons.h"
 
-#include <bit>
-
 #include "common/gi/light/light_path.h"
 #include "common/gi/photons/photon_footprint.h"
 #include "common/gi/photons/photon_spread.h"
@@ -12,8 +10,6 @@ namespace {
 constexpr uint32_t kTurnDimension = 7;  // the padded group before has room
 constexpr uint32_t kWalkDimension = 8;  // after the joint four of the start and one padded group
 constexpr uint32_t kPilot = 1024;       // photons of a stream that tell how its lamps' light lies
-
-int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
 
 // A photon at the first D vertex after an S vertex. flux: what it adds to E there, times area.
 struct Landed {
@@ -159,19 +155,18 @@ void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, siz
 }  // namespace
 
 CausticPhotons causticPhotons(const Transport& t, const FrameKey& frame, int k,
-                              std::span<const Vpl> vpls, Caustics which, RayCounts& rays) {
-  const Settings& s = t.settings;
-  if (which == Caustics::off || s.photons == 0 || !t.needs.caustics || t.emitters.empty())
-    return {};
+                              std::span<const Vpl> vpls, Caustics which, int count,
+                              RayCounts& rays) {
+  if (which == Caustics::off || count == 0 || !t.needs.caustics || t.emitters.empty()) return {};
   // The split does not depend on what this set's walks happened to find: that would bias both
   // halves. A single photon has no half: it becomes one of each.
   const bool all = which == Caustics::all && t.allows(2);
-  const int fromVpls = all ? std::max(s.photons / 2, 1) : 0;
+  const int fromVpls = all ? std::max(count / 2, 1) : 0;
   const PhotonRadii radii(t, frame.photonRadius);
   SortedPhotons photons;
   Deposit deposit{t, radii, photons, rays};
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    photonsFromEmitters(t, stream, frame, k, std::max(s.photons - fromVpls, 1), deposit);
+    photonsFromEmitters(t, stream, frame, k, std::max(count - fromVpls, 1), deposit);
   if (fromVpls > 0) {
     std::vector<const Vpl*> sources;
     for (const Vpl& vpl : vpls)

@@ -28,9 +28,10 @@
 
 namespace ninefold {
 
-// Photons of set k with these VPLs. which: as in the settings, or more. Adds its rays to `rays`.
+// Photons of set k with these VPLs. which, count: as in the settings, or more. Adds its rays to `rays`.
 CausticPhotons causticPhotons(const Transport& transport, const FrameKey& frame, int k,
-                              std::span<const Vpl> vpls, Caustics which, RayCounts& rays);
+                              std::span<const Vpl> vpls, Caustics which, int count,
+                              RayCounts& rays);
 
 // Adds the photons' irradiance to all receivers, and to `caustic`, one a receiver, if not null;
 // pathVertices as in layered_method.h.

@@ -1,6 +1,5 @@
 #include "common/gi/radiosity/radiosity.h"
 
-#include "common/gi/vpl/direct_vpls.h"
 #include "common/gi/vpl/indirect_vpls.h"
 
 namespace ninefold {
@@ -8,12 +7,9 @@ namespace ninefold {
 LightSet makeLightSet(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
   LightSet set;
   if (t.emitters.empty()) return set;
-  addDirectVpls(t, frame, k, 1, set.vpls);
-  if (pathsLog2 >= 0) {
-    addIndirectVpls(t, frame, k, pathsLog2, set, set.rays);
-    std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power) && vpl.glossy < 0; });
-  }
-  set.photons = causticPhotons(t, frame, k, set.vpls, t.settings.caustics, set.rays);
+  addStandardVpls(t, frame, k, 1, pathsLog2, set);
+  set.photons =
+      causticPhotons(t, frame, k, set.vpls, t.settings.caustics, t.settings.photons, set.rays);
   return set;
 }
 

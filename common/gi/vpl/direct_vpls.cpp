@@ -1,6 +1,5 @@
 #include "common/gi/vpl/direct_vpls.h"
 
-#include <bit>
 #include <unordered_map>
 
 #include "common/sampling/sampler.h"
@@ -8,8 +7,6 @@
 
 namespace ninefold {
 namespace {
-
-int log2Ceil(int n) { return n <= 1 ? 0 : std::bit_width(static_cast<unsigned>(n - 1)); }
 
 Vpl punctualVpl(const PunctualLight& light) {
   Vpl vpl;
@@ -82,7 +79,7 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
 void addDirectVpls(const Transport& t, const FrameKey& frame, int k, int times,
                    std::vector<Vpl>& vpls) {
   const bool onlyBehind = t.settings.directVpls == 0;
-  if (onlyBehind && !(t.settings.compensate && t.allows(2))) return;
+  if (onlyBehind && !t.allows(2)) return;
   const int count = onlyBehind ? Settings{}.directVpls : t.settings.directVpls;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
     addOfStream(t, stream, frame, k, times * count, vpls);
