@@ -16,8 +16,9 @@ class ReplayTask(ClusterTest):
     def again(self, *arguments, status=0):
         done = subprocess.run([str(a) for a in (BIN / "ninefold-replay-task", *arguments)], cwd=self.folder,
                               capture_output=True, text=True, timeout=100)
-        self.assertEqual(done.returncode, status, done.stdout + done.stderr)
-        return done.stdout if status == 0 else done.stderr.splitlines()[-1]
+        if status is not None:
+            self.assertEqual(done.returncode, status, done.stdout + done.stderr)
+        return done.stdout if done.returncode == 0 else done.stderr.splitlines()[-1]
 
     def recorded(self, *options, **more):
         """A run whose only client keeps what it did in the file r."""
@@ -81,11 +82,11 @@ class ReplayTask(ClusterTest):
                             "s.json", "--output", "last.png", "--local-clients", 0, "--key-file", "cluster.key")
         self.record(master)
         self.assertEqual(master.ends(), 0, master.text)
-        # Tile 1 has the sphere itself: it shows each step, however small.
+        # Tile 1 has the sphere itself: it shows each step, however small. A busy machine makes few frames, and some
+        # that are too small to have such a tile.
         scene = SCENES / "table_room.glb"
-        task = lambda frame: self.again(scene, *self.task(frame, 1, 2), "--recording", "r")
-        texts = [task(frame) for frame in (3, 5, 7)]  # of some ten or more; one may have been superseded
-        done = [text for text in texts if "recorded" in text]
+        texts = [self.again(scene, *self.task(frame, 1, 2), "--recording", "r", status=None) for frame in range(12)]
+        done = [text for text in texts if "hash" in text and "recorded" in text]
         self.assertGreater(len(done), 1, texts)
         self.assertEqual(len({self.hash_of(text) for text in done}), len(done), "the gesture does not show")
 

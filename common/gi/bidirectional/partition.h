@@ -1,9 +1,12 @@
 // partition.h: which estimator a path belongs to whose last D vertex before the receiver is y.
 //
-//   w_s(y) + w_r(y) = 1,   w_r = N_r q / (N_r q + N_s s)
+//   w_s(y) + w_r(y) = 1,   w_r = N_r q / (N_r (q + q_0) + N_s s)
 //
 //   N_r, q   reverse rays of the set, and the density of their ends                  [1/m^2]
 //   N_s, s   light paths of the set, and a guess how densely each leaves VPLs        [1/m^2]
+//   q_0      1/(4 pi R^2): places that hardly any camera point sees, by chance, have a tiny q.
+//            What the rays find there would be so bright that it shows as a spot in pixels near by.
+//            So the light paths keep them.                                           [1/m^2]
 //
 // Proof that nothing is lost or counted twice. Given the camera points, both are functions of the
 // place alone. The irradiance at any point x by way of y is the integral of g(y) over all places,
@@ -35,7 +38,10 @@ struct Partition {
   double paths;  // N_s
   double shot;   // N_r
 
-  double standardCount(const Place& y) const { return paths * double{standardDensity(y)}; }
+  double standardCount(const Place& y) const {
+    const double hardlySeen = 1 / (4 * double{kPi} * double{t.radius} * double{t.radius});
+    return shot * hardlySeen + paths * double{standardDensity(y)};
+  }
 
   // w_s for a density q at y.
   float standardShare(const Place& y, float q) const {

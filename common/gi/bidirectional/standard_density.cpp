@@ -9,7 +9,6 @@ namespace {
 constexpr int kPathsLog2 = 12;
 constexpr float kRadius = 0.05f;  // of R
 constexpr float kNormalCosine = 0.5f;
-constexpr float kPrior = 0.25f;
 
 std::vector<Photon> pilotOf(const Transport& t) {
   if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(2)) return {};
@@ -28,11 +27,11 @@ StandardDensity::StandardDensity(const Transport& t)
       scale_(1 / (kPi * pilot_.radius() * pilot_.radius() * (1 << kPathsLog2))) {}
 
 float StandardDensity::operator()(const Place& y) const {
-  float count = kPrior;
+  int count = 0;
   pilot_.near(y.position, y.position, [&](const Photon& photon) {
-    if (glm::dot(photon.normal, y.normal) > kNormalCosine) count += 1;
+    if (glm::dot(photon.normal, y.normal) > kNormalCosine) ++count;
   });
-  return scale_ * count;
+  return scale_ * static_cast<float>(count);
 }
 
 }  // namespace ninefold

@@ -1,12 +1,10 @@
 // standard_density.h: how densely light paths leave VPLs around a place, per path, as a pilot
 // tells.
 //
-//   s(y) = (n + 1/4) / (pi r^2 N)     [1/m^2]
+//   s(y) = n / (pi r^2 N)     [1/m^2]
 //
 //   n   VPLs of the pilot's N = 4096 paths within r, on the same side, normals within 60 degrees
 //   r   R/20
-//
-// Where the pilot found nothing, the quarter keeps the power of reverse VPLs bounded.
 //
 // The pilot is no part of any estimate. It only decides which estimator a place belongs to
 // (partition.h), so that its errors cost noise, never bias. It is the same for all frames and

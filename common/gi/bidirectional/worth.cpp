@@ -11,7 +11,7 @@ constexpr double kDarkest = 0.1;  // e: darker points do not count for more than
 
 void Worth::add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays) {
   Receivers& x = camera_.points;
-  seen_.push_back(1);
+  seen_.push_back(0);
   if (x.size() == 0) return;
   if (isBlack(vpl.power) && vpl.glossy < 0) {
     added_.insert(added_.end(), x.size(), 0.0f);

@@ -26,7 +26,7 @@ class Worth {
   // The next candidate: a VPL of the set `lights`, with this power.
   void add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays);
   // The share of what candidate j would add to the camera points, were nothing hidden, that it does
-  // add; 1 where nothing is known.
+  // add; 0 where nothing is known.
   float seen(size_t j) const { return seen_[j]; }
   // v_j of all candidates, in their order.
   std::vector<float> values() const;

@@ -52,8 +52,7 @@ void VplRoulette::playPacket(float f, const VplSet& lights, float u, Vec3 x, siz
   float sum = 0;
   int count = 0;
   for (size_t v = 0; v < vpls.size(); ++v) {
-    const float c = std::max(vpls[v].seen, kLeastChance) * brightness(lights, vpls[v], x) *
-                    largest(weights.at(v, first));
+    const float c = vpls[v].seen * brightness(lights, vpls[v], x) * largest(weights.at(v, first));
     contributions_[v] = c, sum += c, count += c > 0 ? 1 : 0;
   }
   if (count <= kLeast) return;

@@ -3,7 +3,8 @@
 //
 //   c_v   largest contribution of VPL v to a receiver of the packet if nothing is in between; a
 //         glossy lobe counts by what it sends to the first receiver. Where the set knows that a VPL
-//         is hidden from most (Vpl::seen), it counts by so much less.
+//         is hidden from most (Vpl::seen), it counts by so much less. With seen = 0 it counts
+//         nothing and is always asked: whoever sees it after all would get 16 times as much.
 //   n     number of VPLs with c_v > 0; all are asked if n <= 5
 //   tau   sum c_v / max(n/f, 5)
 //   p_v   probability of VPL v: c_v / tau, clamped to [1/16, 1]; not less, as a faint VPL may be
