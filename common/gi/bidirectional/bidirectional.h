@@ -1,6 +1,6 @@
 // bidirectional.h: instant radiosity whose VPLs come from both ends: from the lamps, and from what
-// the camera sees. It finds light that comes round corners. Of r times as many candidates those are
-// kept that bring much to the picture. For each set:
+// the camera sees. So it finds light that comes round corners. A set has r times as many candidates
+// as VPLs; it keeps those that bring much to the picture. For each set:
 //
 //   1  standard candidates: as in instant radiosity, r times as many      direct_vpls.h,
 //                                                                         indirect_vpls.h
@@ -15,9 +15,9 @@
 //
 // Source:  Segovia, Iehl, Mitanchey and Péroche, "Bidirectional Instant Radiosity", 2006.
 // Proved:  tests/gi/bidirectional_test.cpp; furnace, form factors, agreement with the path tracer.
-// Fails:   without compensation reverse VPLs lack what the bound cuts off, as all VPLs then do;
-//          light that needs more than one bounce between what the view sees and any VPL that light
-//          paths leave is found as rarely as they leave them.
+// Fails:   a reverse VPL where few camera points look may be bright, and shows as a spot. Light is
+//          found as rarely as light paths come within two bounces of what the view sees. Without
+//          compensation VPLs lack what the bound cuts off, reverse ones twice.
 // Threads, owner, errors: as method.h says.
 #pragma once
 
@@ -28,8 +28,8 @@ namespace ninefold {
 
 class Bidirectional final : public LightSetMethod {
  public:
-  // `begun`: of the scene that a gesture began with, null at rest; the number of light paths and the
-  // partition stay as they are there.
+  // `begun`: of the scene that a gesture began with, null at rest. The number of light paths and
+  // the partition stay as they are there.
   Bidirectional(const Transport& transport, const Bidirectional* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,

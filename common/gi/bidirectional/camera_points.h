@@ -1,8 +1,8 @@
 // camera_points.h: what a view looks at: D ends x_1 ... x_M of M eye paths E S* D, stratified over
 // the picture.
 //
-// A path whose first hit has several lobes follows one of them, chosen by albedo. Paths that find no
-// diffuse point leave none, so that there may be fewer than M, or none at all.
+// A path whose first hit has several lobes follows one of them, chosen by albedo. A path that finds
+// no diffuse point leaves none. So there may be fewer than M, or none at all.
 //
 //   radiance that a point shows in its pixel = share E(x)/pi,   share = throughput rho gain
 //

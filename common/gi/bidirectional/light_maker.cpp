@@ -3,14 +3,15 @@
 namespace ninefold {
 namespace {
 
-// Where pictures have layers, the gathering of set k has these numbers: exact, and guesses.
+// Random numbers of receivers are addressed by layer. Those of set k at reverse places come after
+// the layers of pictures: first for E(y), then for its guesses.
 constexpr uint32_t kFirstUse = kLayers, kMostSets = 256;
-// So many of the raw VPLs tell on average what a reverse place may get.
+// So many of the raw VPLs, on average, are asked for a guess of E(y).
 constexpr float kGuessingVpls = 20;
 
 Place placeOf(const Vpl& vpl) { return {vpl.position, vpl.normal, vpl.error}; }
 
-// A VPL at the place, for one watt of irradiance times area.
+// A VPL at y that stands for `area` [m^2], with a power for E(y) = 1 W/m^2.
 Vpl vplAt(const Transport& t, const ReversePlace& y, float area) {
   Vpl vpl;
   vpl.position = y.place.position, vpl.normal = y.place.normal, vpl.error = y.place.error;
@@ -24,6 +25,16 @@ int keptVpls(const Settings& s) {
   return (s.directVpls > 0 ? s.directVpls : Settings{}.directVpls) + s.indirectVpls;
 }
 
+// All of set k's standard VPLs, and the photons that E(y) needs whatever the picture shows.
+LightSet rawSet(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
+  LightSet raw;
+  const Settings& s = t.settings;
+  addStandardVpls(t, frame, k, s.resampling, pathsLog2, raw);
+  const int photons = s.photons > 0 ? s.photons : Settings{}.photons;
+  raw.photons = causticPhotons(t, frame, k, raw.vpls, Caustics::all, photons, raw.rays);
+  return raw;
+}
+
 int reverseRays(const Settings& s) { return s.resampling * s.indirectVpls; }
 
 }  // namespace
@@ -33,26 +44,16 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
     : t_(t),
       frame_(frame),
       k_(set),
-      pathsLog2_(pathsLog2),
       shot_(t.allows(2) ? reverseRays(t.settings) : 0),
       samples_(t.settings.seed, frame.randomization, kFirstUse + static_cast<uint32_t>(set)),
       guesses_(t.settings.seed, frame.randomization,
                kFirstUse + kMostSets + static_cast<uint32_t>(set)),
-      raw_(t, rawSet()),
+      raw_(t, rawSet(t, frame, set, pathsLog2)),
       camera_(cameraPoints(t, view, frame, set, t.settings.cameraPoints, rays_)),
       partition_{t, camera_.points, standardDensity,
                  pathsLog2 < 0 ? 0 : static_cast<double>(1u << pathsLog2),
                  static_cast<double>(shot_)},
       places_(reversePlaces(t, camera_.points, frame, set, shot_, rays_)) {}
-
-LightSet LightMaker::rawSet() {
-  LightSet raw;
-  const Settings& s = t_.settings;
-  addStandardVpls(t_, frame_, k_, s.resampling, pathsLog2_, raw);
-  const int photons = s.photons > 0 ? s.photons : Settings{}.photons;
-  raw.photons = causticPhotons(t_, frame_, k_, raw.vpls, Caustics::all, photons, raw.rays);
-  return raw;
-}
 
 Worth LightMaker::worths() {
   const LightSet& raw = raw_.set();

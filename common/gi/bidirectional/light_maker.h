@@ -22,7 +22,6 @@ class LightMaker {
   void make(LightSet& out);
 
  private:
-  LightSet rawSet();
   // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
   Worth worths();
   // Step 5.
@@ -32,7 +31,6 @@ class LightMaker {
   const Transport& t_;
   const FrameKey& frame_;
   const int k_;
-  const int pathsLog2_;
   const int shot_;  // N_r
   const ReceiverSamples samples_, guesses_;
   RayCounts rays_;

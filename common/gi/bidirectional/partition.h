@@ -15,8 +15,8 @@
 // w_r/(N_r q) rho/pi E(y) estimates the integral of w_r g wherever q > 0; where q = 0, w_r = 0. The
 // sum of both is the integral of g. It holds for every x, seen by the camera or not, and for every
 // s: a poor guess costs noise only. E(y) may be any unbiased estimate that does not depend on which
-// y were drawn (raw_light.h). What is kept may depend on guesses of E(y), if these have random numbers
-// of their own: what is added up is the mean over the exact ones.
+// y were drawn (raw_light.h). Guesses of E(y) decide what is kept. They have random numbers of their
+// own, so that the exact E(y) of what is kept has the right mean.
 //
 // VPLs on lamps keep w_s = 1: reverse VPLs carry no emission. So do glossy lobes.
 //

@@ -1,5 +1,6 @@
 // place.h: a point of a surface and the side of it that is meant. Cosines are signed, normals are
 // geometric: the back of a wall is another place.
+// Threads: plain data.
 #pragma once
 
 #include "common/math/vec.h"

@@ -7,7 +7,7 @@
 namespace ninefold {
 namespace {
 
-constexpr double kUniform = 0.2;
+constexpr double kUniform = 0.2;  // of the mean worth, for each candidate
 
 // tau for which sum min(1, c/tau) = count, 0 < count < c.size(): the largest are certain, the rest
 // share what is left.

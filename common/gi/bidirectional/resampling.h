@@ -5,9 +5,9 @@
 //
 // What is kept is divided by p_j: the sum over those kept has the mean of the sum over all.
 // Systematic sampling with one number u decides: j is kept when u + p_1 + ... + p_j passes an
-// integer. So exactly N' are kept (up to rounding), none twice, and a candidate that is worth a
-// whole place is kept for certain, without noise. v_j may be a rough guess: as every p_j is above 0,
-// it costs noise, never bias. No gain 1/p_j is above 6 N/N'. A worth that is no number counts as 0.
+// integer. So N' are kept, up to rounding, and none twice. A candidate that is worth a whole place is
+// kept for certain, without noise. v_j may be a rough guess: every p_j is above 0, so that it costs
+// noise, never bias. No gain 1/p_j is above 6 N/N'. A worth that is not finite counts as 0.
 //
 // Source:  importance resampling, Talbot et al. 2005, as in Segovia et al. 2006, section 3.3, which
 //          draws with replacement; systematic sampling: Cochran 1977, ch. 8.
@@ -26,7 +26,7 @@ struct Kept {
   float gain;      // 1/p_j
 };
 
-// worth: finite, >= 0. count: N', all are kept if there are no more. u in [0, 1).
+// worth: not negative. count: N'; all are kept if there are no more. u in [0, 1).
 std::vector<Kept> resample(std::span<const float> worth, int count, float u);
 
 }  // namespace ninefold

@@ -49,9 +49,10 @@ Vec3 targetOf(const Transport& t, const Place& y) {
 
 float reverseDensity(const Transport& t, const Receivers& x, const Place& y, int drawnFrom,
                      RayCounts& rays) {
+  const Vec3 target = targetOf(t, y);
   float sum = 0;
   for (size_t first = 0; first < x.size(); first += kPacket)
-    sum += seenTerms(t, x, y, targetOf(t, y), first, drawnFrom, rays);
+    sum += seenTerms(t, x, y, target, first, drawnFrom, rays);
   return x.size() == 0 ? 0 : sum / static_cast<float>(x.size());
 }
 

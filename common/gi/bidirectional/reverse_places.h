@@ -1,8 +1,8 @@
 // reverse_places.h: places that light what the camera sees: ends y of rays from camera points.
 //
-// A ray starts at one of the camera points, chosen alike, with density cos/pi and ends at y. What y sends on is
-// E(y) rho/pi. Only D counts: glossy lobes are left to the standard VPLs. Rays that end on nothing,
-// or where there is no D, are counted in N_r and give no place.
+// A ray starts at one of the camera points, chosen alike, with density cos/pi, and ends at y. What y
+// sends on is E(y) rho/pi. Only D counts: glossy lobes are left to the standard VPLs. N_r counts
+// all rays, also those that end on nothing or where there is no D; they give no place.
 //
 // Source:  Segovia et al. 2006, section 3.1.   Threads: pure functions.   Errors: none.
 #pragma once

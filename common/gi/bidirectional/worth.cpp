@@ -5,7 +5,7 @@
 namespace ninefold {
 namespace {
 
-constexpr double kDarkest = 0.1;  // e: darker points do not count for more than this share
+constexpr double kDarkest = 0.1;  // of mean C: what is added to each C_i
 
 }  // namespace
 

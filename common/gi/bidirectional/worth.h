@@ -2,7 +2,7 @@
 //
 //   v_j = sum_i c_ij / (C_i + mean(C)/10),   C_i = sum_j c_ij
 //
-//   c_ij   radiance that candidate j adds to camera point i; 0 if it is hidden      [W/(m^2 sr)]
+//   c_ij   pi times the radiance that candidate j adds to camera point i; 0 if it is hidden
 //
 // So a VPL counts by its share of each point's light, not by its power: a bright place in the
 // picture, such as a lit room behind a door, is one place among others. That is what the eye and

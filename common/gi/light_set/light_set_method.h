@@ -1,4 +1,4 @@
-// light_set_method.h: a method whose light is a LightSet. All that it does by itself is to make one.
+// light_set_method.h: a method whose light is a LightSet. What is left to it is to make one.
 //
 // Threads, owner, errors: as method.h says.
 #pragma once

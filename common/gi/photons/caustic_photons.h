@@ -28,7 +28,8 @@
 
 namespace ninefold {
 
-// Photons of set k with these VPLs. which, count: as in the settings, or more. Adds its rays to `rays`.
+// Photons of set k with these VPLs. which, count: as in the settings, or more. Adds its rays to
+// `rays`.
 CausticPhotons causticPhotons(const Transport& transport, const FrameKey& frame, int k,
                               std::span<const Vpl> vpls, Caustics which, int count,
                               RayCounts& rays);
