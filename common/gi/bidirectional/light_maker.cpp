@@ -55,14 +55,17 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
                  static_cast<double>(shot_)},
       places_(reversePlaces(t, camera_.points, frame, set, shot_, rays_)) {}
 
+float LightMaker::guess(const Place& y, int drawnFrom, const Worth& worth) const {
+  return guessReverseDensity(camera_.points, y, drawnFrom, worth.reached());
+}
+
 Worth LightMaker::worths() {
   const LightSet& raw = raw_.set();
   Worth worth(t_, camera_);
-  for (Vpl vpl : raw.vpls) {
-    if (vpl.diffuseCount > 0 && shot_ > 0)
-      vpl.power *= partition_.standardShare(
-          placeOf(vpl), guessReverseDensity(t_, camera_.points, placeOf(vpl), kNone, rays_));
+  for (const Vpl& vpl : raw.vpls) {
     worth.add(raw, vpl, scratch_.vplGather, rays_);
+    if (vpl.diffuseCount > 0 && vpl.glossy < 0 && shot_ > 0)
+      worth.scale(partition_.standardShare(placeOf(vpl), guess(placeOf(vpl), kNone, worth)));
   }
   Receivers y;
   for (const ReversePlace& place : places_) y.add(place.receiver);
@@ -72,10 +75,10 @@ Worth LightMaker::worths() {
   for (const PhotonGrid& grid : raw.photons) gatherPhotons(t_, grid, kReverseLevel, y, nullptr);
   for (size_t j = 0; j < places_.size(); ++j) {
     const ReversePlace& p = places_[j];
-    const float q = guessReverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
-    Vpl vpl = vplAt(t_, p, partition_.reverseArea(p.place, q));
+    Vpl vpl = vplAt(t_, p, 1);
     vpl.power *= y.irradiance(j);
     worth.add({}, vpl, scratch_.vplGather, rays_);
+    worth.scale(partition_.reverseArea(p.place, guess(p.place, p.drawnFrom, worth)));
   }
   return worth;
 }

@@ -24,6 +24,8 @@ class LightMaker {
  private:
   // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
   Worth worths();
+  // q of the place of the last candidate.
+  float guess(const Place& y, int drawnFrom, const Worth& worth) const;
   // Step 5.
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
@@ -36,7 +38,7 @@ class LightMaker {
   RayCounts rays_;
   LightSetScratch scratch_;
   const RawLight raw_;
-  CameraPoints camera_;
+  const CameraPoints camera_;
   const Partition partition_;
   const std::vector<ReversePlace> places_;
 };

@@ -7,8 +7,6 @@
 namespace ninefold {
 namespace {
 
-constexpr double kUniform = 0.2;  // of the mean worth, for each candidate
-
 // tau for which sum min(1, c/tau) = count, 0 < count < c.size(): the largest are certain, the rest
 // share what is left.
 double threshold(std::vector<double> c, size_t count) {
@@ -30,7 +28,7 @@ std::vector<Kept> resample(std::span<const float> worth, int count, float u) {
   if (count <= 0) return kept;
   double sum = 0;
   for (const float v : worth) sum += finite(v);
-  const double floor = sum > 0 ? kUniform * sum / static_cast<double>(worth.size()) : 1.0;
+  const double floor = sum > 0 ? sum / static_cast<double>(worth.size()) : 1.0;
   std::vector<double> c;
   for (const float v : worth) c.push_back(finite(v) + floor);
   const bool all = worth.size() <= static_cast<size_t>(count);

@@ -1,13 +1,16 @@
 // resampling.h: few of many candidates, in proportion to what they are worth.
 //
 //   p_j = min(1, c_j / tau)       sum p_j = N'     probability that candidate j is kept
-//   c_j = v_j + mean(v)/5                          v_j: estimated worth
+//   c_j = v_j + mean(v)                            v_j: estimated worth
 //
 // What is kept is divided by p_j: the sum over those kept has the mean of the sum over all.
 // Systematic sampling with one number u decides: j is kept when u + p_1 + ... + p_j passes an
 // integer. So N' are kept, up to rounding, and none twice. A candidate that is worth a whole place is
 // kept for certain, without noise. v_j may be a rough guess: every p_j is above 0, so that it costs
-// noise, never bias. No gain 1/p_j is above 6 N/N'. A worth that is not finite counts as 0.
+// noise, never bias. A worth that is not finite counts as 0.
+//
+// Half of the choice is blind, so that no gain 1/p_j is above 2 N/N'. What no judge sees may yet
+// light a few pixels: with a larger gain it shows as a spot there.
 //
 // Source:  importance resampling, Talbot et al. 2005, as in Segovia et al. 2006, section 3.3, which
 //          draws with replacement; systematic sampling: Cochran 1977, ch. 8.

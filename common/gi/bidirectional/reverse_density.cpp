@@ -3,6 +3,9 @@
 #include <bit>
 
 namespace ninefold {
+
+static_assert(kJudges <= kPacket);
+
 namespace {
 
 // cos_x cos_y / (pi d^2) of sixteen points from `first` on; 0 where a cosine is not positive.
@@ -56,18 +59,17 @@ float reverseDensity(const Transport& t, const Receivers& x, const Place& y, int
   return x.size() == 0 ? 0 : sum / static_cast<float>(x.size());
 }
 
-float guessReverseDensity(const Transport& t, const Receivers& x, const Place& y, int drawnFrom,
-                          RayCounts& rays) {
+float guessReverseDensity(const Receivers& x, const Place& y, int drawnFrom, uint32_t reached) {
   if (x.size() == 0) return 0;
-  float sum = seenTerms(t, x, y, targetOf(t, y), 0, drawnFrom, rays);
-  size_t count = std::min<size_t>(kPacket, x.size());
-  if (drawnFrom >= kPacket) {
-    float term[kPacket];
-    const auto i = static_cast<size_t>(drawnFrom);
-    fillTerms(x, y, i / kPacket * kPacket, term);
-    sum += term[i % kPacket], ++count;
-  }
-  return sum / static_cast<float>(count);
+  const size_t judges = std::min(x.size(), kJudges);
+  const size_t from = drawnFrom < 0 ? x.size() : static_cast<size_t>(drawnFrom);
+  float term[kPacket], mean = 0;
+  fillTerms(x, y, 0, term);
+  for (size_t i = 0; i < judges; ++i)
+    if (i == from || (reached >> i & 1u) != 0) mean += term[i] / static_cast<float>(judges);
+  if (from < judges || from == x.size()) return mean;
+  fillTerms(x, y, from / kPacket * kPacket, term);
+  return mean + (term[from % kPacket] - mean) / static_cast<float>(x.size());
 }
 
 }  // namespace ninefold

@@ -26,8 +26,10 @@ inline constexpr int kNone = -1;
 float reverseDensity(const Transport& transport, const Receivers& cameraPoints, const Place& y,
                      int drawnFrom, RayCounts& rays);
 
-// A guess, from the first sixteen points and the one that drew y.
-float guessReverseDensity(const Transport& transport, const Receivers& cameraPoints, const Place& y,
-                          int drawnFrom, RayCounts& rays);
+// A guess without rays: from the judges, which are the first camera points, and the point that drew
+// y. `reached`: the judges that y's light reaches, as bits.
+inline constexpr size_t kJudges = 16;
+float guessReverseDensity(const Receivers& cameraPoints, const Place& y, int drawnFrom,
+                          uint32_t reached);
 
 }  // namespace ninefold

@@ -10,36 +10,42 @@ constexpr double kDarkest = 0.1;  // of mean C: what is added to each C_i
 }  // namespace
 
 void Worth::add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays) {
-  Receivers& x = camera_.points;
   seen_.push_back(0);
-  if (x.size() == 0) return;
+  reached_ = 0;
+  if (judges_.size() == 0) return;
   if (isBlack(vpl.power) && vpl.glossy < 0) {
-    added_.insert(added_.end(), x.size(), 0.0f);
+    added_.insert(added_.end(), judges_.size(), 0.0f);
     return;
   }
-  x.clearIrradiance();
-  gatherOneVpl(t_, lights, vpl, 1, scratch, x, rays.shadow);
+  judges_.clearIrradiance();
+  gatherOneVpl(t_, lights, vpl, 1, scratch, judges_, rays.shadow);
   float all = 0, visible = 0;
-  for (size_t i = 0; i < x.size(); ++i) {
+  for (size_t i = 0; i < judges_.size(); ++i) {
     const float weight = *scratch.weights.at(0, i);
-    all += weight, visible += isBlack(x.irradiance(i)) ? 0 : weight;
-    added_.push_back(maxComponent(camera_.shares[i] * x.irradiance(i)));
+    const bool isReached = !isBlack(judges_.irradiance(i));
+    if (isReached) reached_ |= 1u << i;
+    all += weight, visible += isReached ? weight : 0;
+    added_.push_back(maxComponent(shares_[i] * judges_.irradiance(i)));
   }
   if (all > 0) seen_.back() = visible / all;
 }
 
+void Worth::scale(float factor) {
+  for (size_t i = added_.size() - judges_.size(); i < added_.size(); ++i) added_[i] *= factor;
+}
+
 std::vector<float> Worth::values() const {
-  const size_t points = camera_.points.size();
-  std::vector<double> all(points);
+  const size_t judges = judges_.size();
+  std::vector<double> all(judges);
   for (size_t j = 0; j < seen_.size(); ++j)
-    for (size_t i = 0; i < points; ++i) all[i] += double{added_[j * points + i]};
+    for (size_t i = 0; i < judges; ++i) all[i] += double{added_[j * judges + i]};
   const double sum = std::accumulate(all.begin(), all.end(), 0.0);
   std::vector<float> values(seen_.size(), 0.0f);
   if (!(sum > 0)) return values;
-  const double least = kDarkest * sum / static_cast<double>(points);
+  const double least = kDarkest * sum / static_cast<double>(judges);
   for (size_t j = 0; j < seen_.size(); ++j)
-    for (size_t i = 0; i < points; ++i)
-      values[j] += static_cast<float>(double{added_[j * points + i]} / (all[i] + least));
+    for (size_t i = 0; i < judges; ++i)
+      values[j] += static_cast<float>(double{added_[j * judges + i]} / (all[i] + least));
   return values;
 }
 

@@ -1,8 +1,8 @@
-// worth.h: what each candidate is worth to the picture.
+// worth.h: what each candidate is worth to the picture, as the first sixteen camera points judge.
 //
 //   v_j = sum_i c_ij / (C_i + mean(C)/10),   C_i = sum_j c_ij
 //
-//   c_ij   pi times the radiance that candidate j adds to camera point i; 0 if it is hidden
+//   c_ij   pi times the radiance that candidate j adds to judge i; 0 if it is hidden
 //
 // So a VPL counts by its share of each point's light, not by its power: a bright place in the
 // picture, such as a lit room behind a door, is one place among others. That is what the eye and
@@ -15,25 +15,36 @@
 #include <vector>
 
 #include "common/gi/bidirectional/camera_points.h"
+#include "common/gi/bidirectional/reverse_density.h"
 #include "common/gi/vpl/vpl_gather.h"
 
 namespace ninefold {
 
 class Worth {
  public:
-  Worth(const Transport& transport, CameraPoints& camera) : t_(transport), camera_(camera) {}
+  Worth(const Transport& transport, const CameraPoints& camera)
+      : t_(transport),
+        shares_(camera.shares),
+        judges_(camera.points.first(std::min(camera.points.size(), kJudges))) {}
 
   // The next candidate: a VPL of the set `lights`, with this power.
   void add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays);
-  // The share of what candidate j would add to the camera points, were nothing hidden, that it does
-  // add; 0 where nothing is known.
+  // The judges that the last candidate's light reaches, as bits.
+  uint32_t reached() const { return reached_; }
+  // Multiplies what the last candidate adds.
+  void scale(float factor);
+
+  // The share of what candidate j would add to the judges, were nothing hidden, that it does add; 0
+  // where nothing is known.
   float seen(size_t j) const { return seen_[j]; }
   // v_j of all candidates, in their order.
   std::vector<float> values() const;
 
  private:
   const Transport& t_;
-  CameraPoints& camera_;
+  const std::vector<Vec3>& shares_;
+  Receivers judges_;
+  uint32_t reached_ = 0;
   std::vector<float> added_;  // c_ij, candidate by candidate
   std::vector<float> seen_;   // by candidate
 };
