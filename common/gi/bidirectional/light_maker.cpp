@@ -15,7 +15,7 @@ Place placeOf(const Vpl& vpl) { return {vpl.position, vpl.normal, vpl.error}; }
 Vpl vplAt(const Transport& t, const ReversePlace& y, float area) {
   Vpl vpl;
   vpl.position = y.place.position, vpl.normal = y.place.normal, vpl.error = y.place.error;
-  vpl.bound = t.bound, vpl.diffuseCount = 1;
+  vpl.bound = t.bound, vpl.diffuseCount = 1, vpl.reverse = true;
   vpl.power = kInvPi * area * y.rho;
   return vpl;
 }
@@ -53,7 +53,22 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
       partition_{t, camera_.points, standardDensity,
                  pathsLog2 < 0 ? 0 : static_cast<double>(1u << pathsLog2),
                  static_cast<double>(shot_)},
-      places_(reversePlaces(t, camera_.points, frame, set, shot_, rays_)) {}
+      estimated_(
+          partition_.isEqual() && shot_ > 0
+              ? std::optional<EstimatedDensity>(std::in_place, t, view, frame, set, shot_, rays_)
+              : std::nullopt),
+      places_(reversePlaces(t, estimated_ ? estimated_->origins() : camera_.points, frame, set,
+                            shot_, rays_)) {}
+
+float LightMaker::density(const ReversePlace& y) {
+  return estimated_ ? estimated_->at(y, rays_)
+                    : reverseDensity(t_, camera_.points, y.place, y.drawnFrom, rays_);
+}
+
+float LightMaker::guessDensity(const ReversePlace& y) {
+  return estimated_ ? estimated_->guess(y, rays_)
+                    : guessReverseDensity(t_, camera_.points, y.place, y.drawnFrom, rays_);
+}
 
 Worth LightMaker::worths() {
   const LightSet& raw = raw_.set();
@@ -72,8 +87,7 @@ Worth LightMaker::worths() {
   for (const PhotonGrid& grid : raw.photons) gatherPhotons(t_, grid, kReverseLevel, y, nullptr);
   for (size_t j = 0; j < places_.size(); ++j) {
     const ReversePlace& p = places_[j];
-    const float q = guessReverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
-    Vpl vpl = vplAt(t_, p, partition_.reverseArea(p.place, q));
+    Vpl vpl = vplAt(t_, p, partition_.reverseArea(p.place, guessDensity(p)));
     vpl.power *= y.irradiance(j);
     worth.add({}, vpl, scratch_.vplGather, rays_);
   }
@@ -102,8 +116,7 @@ void LightMaker::keepReverse(const std::vector<Kept>& kept, const Worth& worth, 
   for (const Kept& each : kept) {
     if (each.index < firstReverse) continue;
     const ReversePlace& p = places_[each.index - firstReverse];
-    const float q = reverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
-    vpls.push_back(vplAt(t_, p, each.gain * partition_.reverseArea(p.place, q)));
+    vpls.push_back(vplAt(t_, p, each.gain * partition_.reverseArea(p.place, density(p))));
     vpls.back().seen = worth.seen(each.index);
     y.add(p.receiver);
   }

@@ -3,8 +3,10 @@
 // Threads: one set's working memory.   Owner: refers to its arguments.   Errors: none.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "common/gi/bidirectional/estimated_density.h"
 #include "common/gi/bidirectional/partition.h"
 #include "common/gi/bidirectional/raw_light.h"
 #include "common/gi/bidirectional/resampling.h"
@@ -22,6 +24,9 @@ class LightMaker {
   void make(LightSet& out);
 
  private:
+  // q where a ray ended, and a guess of it.
+  float density(const ReversePlace& y);
+  float guessDensity(const ReversePlace& y);
   // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
   Worth worths();
   // Step 5.
@@ -38,6 +43,7 @@ class LightMaker {
   const RawLight raw_;
   CameraPoints camera_;
   const Partition partition_;
+  const std::optional<EstimatedDensity> estimated_;  // for the rule `equal`
   const std::vector<ReversePlace> places_;
 };
 
