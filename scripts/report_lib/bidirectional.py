@@ -21,12 +21,12 @@ THEIRS = {"conference": "87 / 13 %", "u_office": "0 / 100 %"}
 KEPT_FRAMES = 16
 METHODS = {"instant radiosity": (), "instant radiosity, 1x1": ("--interleave", "1x1"), "bidirectional": OURS,
            "bidirectional, 1x1": (*OURS, "--interleave", "1x1"), "as published": PUBLISHED, "path tracer": TRACER}
-ONE_SET = ("--interleave", "1x1", "--filter", "none")
+ONE_SET = ("--interleave", "1x1", "--filter", "none", "--vpl-roulette", "0")
 FIGURE_SIZE = (320, 240)
-# 200 VPLs, without and with candidates of the camera; then 250 of 1250 and 1200.
+# 200 VPLs, without and with candidates of the camera; then 250 of 1250 and 1200. Those that no light reaches are left out.
 FIGURE_4 = {"lamps": (*ONE_SET, "--direct-vpls", "8", "--indirect-vpls", "192"),
             "both": (*OURS, *ONE_SET, "--direct-vpls", "8", "--indirect-vpls", "192", "--resampling", "1")}
-FIGURE_5 = {"published": (*PUBLISHED, "--filter", "none", "--direct-vpls", "10", "--indirect-vpls", "240")}
+FIGURE_5 = {"published": (*PUBLISHED, *ONE_SET, "--direct-vpls", "10", "--indirect-vpls", "240")}
 SPEED_SCENES, SPEED_SIZE, SPEED_FRAMES = ("u_office", "office", "conference"), (1024, 1024), 16
 TEXT = [
     "After Segovia, Iehl, Mitanchey and Péroche, \"Bidirectional Instant Radiosity\", 2006. 'Bidirectional' is --method "
@@ -102,7 +102,7 @@ def _figures(context, scene):
     camera = stats["settings"]["camera"]
     titles = {"lamps": "200 of light paths", "both": "200 of both", "published": "250 of 2450, as published"}
     plots.plans(os.path.join(context.folder, "figure_plan.png"), {titles[name]: lights for name, lights in plans.items()}, camera)
-    exposure = pictures.good_exposure(made[-1])
+    exposure = pictures.good_exposure(pictures.read(context.references.get(scene, scene.size(context.options.width)).picture))
     pictures.write(os.path.join(context.folder, "figure.png"), pictures.sheet([[pictures.shown(p, exposure) for p in made]]))
     return [Picture("figure_plan.png", "u_office from above, virtual lights on lamps (yellow), of light paths (blue) and from the "
                     "camera (red), as the paper's Figures 4a, 4b and 5a; the camera looks along the line", plot=True),

@@ -56,7 +56,7 @@ FAMILY_COLOURS = {"standard": COLOURS[0], "reverse": COLOURS[1], "lamp": COLOURS
 
 def plans(path, plans_of, camera):
     """plans_of: {title: virtual lights}, x to the right, z downwards [m]; camera: as --stats has it."""
-    figure, axes = plot.subplots(1, len(plans_of), figsize=(4.2 * len(plans_of), 3.0), squeeze=False, sharex=True, sharey=True,
+    figure, axes = plot.subplots(1, len(plans_of), figsize=(4.2 * len(plans_of), 3.9), squeeze=False, sharex=True, sharey=True,
                                  layout="constrained")
     eye, forward = camera["eye"], camera["forward"]
     for axis, (title, lights) in zip(axes.flat, plans_of.items()):
@@ -65,7 +65,7 @@ def plans(path, plans_of, camera):
             axis.plot([p[0] for p in at], [p[2] for p in at], "o", color=colour, markersize=2.5, alpha=0.7, label=f"{family}: {len(at)}")
         axis.plot([eye[0], eye[0] + forward[0]], [eye[2], eye[2] + forward[2]], color="black", linewidth=1)
         axis.set(title=title, aspect="equal", xlabel="x [m]", ylabel="z [m]")
-        axis.legend(fontsize=7)
+        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
     axes.flat[0].invert_yaxis()
     with open(path, "wb") as file:
         file.write(pictures.png_of_plot(figure))

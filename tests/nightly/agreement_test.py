@@ -32,7 +32,7 @@ SCENES = {
 }
 # The same by method; of the reference first.
 DARK_SCENES = {
-    "u_office": {BOTH_ENDS: (512, 0.01), REFERENCE: (1024, 0.03), "instant-radiosity": (512, 0.05)},
+    "u_office": {BOTH_ENDS: (768, 0.015), REFERENCE: (128, 0.02), "instant-radiosity": (768, 0.03)},
 }
 
 
