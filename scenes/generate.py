@@ -10,7 +10,8 @@ import pathlib
 
 from generator import glb
 
-NAMES = ("cornell", "table_room", "egg_room", "invisible_date", "office", "conference", "u_office")
+NAMES = ("cornell", "table_room", "egg_room", "invisible_date", "office", "conference", "u_office", "keyhole",
+         "three_turns")
 
 
 def main():

@@ -2,8 +2,8 @@
 // v VPLs and f photons of the set:
 //
 //     n = p (2 + v) + v + 4 f        instant radiosity: a photon meets four surfaces
-//     n = the same + r c (2 + M)     bidirectional: r c candidates, c = direct + 2 indirect VPLs,
-//                                    each with a ray to M camera points
+//     n = the same + 18 r c + M v    bidirectional: r c candidates, c = direct + 2 indirect VPLs,
+//                                    each judged by 16 camera points; those kept see all M
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
 #include "common/scene/methods.h"
 
@@ -23,7 +23,8 @@ double radiosityRays(const Settings& s, double pixels) {
 
 double bidirectionalRays(const Settings& s, double pixels) {
   const double candidates = s.resampling * (s.directVpls + 2.0 * s.indirectVpls);
-  return radiosityRays(s, pixels) + candidates * (2 + s.cameraPoints);
+  return radiosityRays(s, pixels) + 18 * candidates +
+         1.0 * s.cameraPoints * (s.directVpls + s.indirectVpls);
 }
 
 double pathRays(const Settings&, double pixels) { return 64 * pixels; }

@@ -15,17 +15,19 @@ namespace ninefold {
 
 enum class Method : uint8_t { instantRadiosity, pathTrace, bidirectional };
 enum class Caustics : uint8_t { off, direct, all };
+enum class PartitionRule : uint8_t { balance, equal };
 
 struct Settings {
   Method method = Method::instantRadiosity;
   int width = 640, height = 480;
   Camera camera;
   Interleave interleave;
-  int directVpls = 4;          // per set
-  int indirectVpls = 18;       // per set, mean
-  int photons = 1000;          // caustic photons per set
-  int resampling = 10;         // r: candidates for each VPL that is kept (resampling.h)
-  int cameraPoints = 64;       // M, per set (camera_points.h)
+  int directVpls = 4;     // per set
+  int indirectVpls = 18;  // per set, mean
+  int photons = 1000;     // caustic photons per set
+  int resampling = 10;    // r: candidates for each VPL that is kept (resampling.h)
+  int cameraPoints = 256;  // M, per set (camera_points.h)
+  PartitionRule partition = PartitionRule::balance;  // of paths that both families find
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row
   float bound = 30;            // c of b = c/R^2

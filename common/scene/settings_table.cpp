@@ -57,6 +57,11 @@ std::span<const char* const> namesOf(Caustics) {
   return kNames;
 }
 
+std::span<const char* const> namesOf(PartitionRule) {
+  static constexpr std::array kNames{"balance", "equal"};
+  return kNames;
+}
+
 std::span<const char* const> namesOf(Randomization) {
   static constexpr std::array kNames{"xor", "owen", "random"};
   return kNames;

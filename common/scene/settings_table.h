@@ -109,7 +109,14 @@ inline constexpr std::tuple kSettings{
                  .value = "M",
                  .help = "points of the picture that choose virtual lights, per set, {0} to {1}",
                  .parts = kReverseVpls,
-                 .slider = {"camera points", 1, 256}},
+                 .slider = {"camera points", 1, 1024}},
+    Setting<PartitionRule>{
+        .name = "partition",
+        .member = &Settings::partition,
+        .value = "balance|equal",
+        .help = "who brings light that paths of the lamps and of the camera both find: the one "
+                "that finds it more often, or each one half, as published",
+        .parts = kReverseVpls},
     Setting<int>{.name = "path-length",
                  .member = &Settings::pathLength,
                  .low = 0,
@@ -200,6 +207,7 @@ std::pair<int, int> parseSize(std::string_view text);
 // Names of an enum's values, in their order.
 std::span<const char* const> namesOf(Method);
 std::span<const char* const> namesOf(Caustics);
+std::span<const char* const> namesOf(PartitionRule);
 std::span<const char* const> namesOf(Randomization);
 
 // One word, as a flag takes it.

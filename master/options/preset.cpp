@@ -15,6 +15,13 @@ Settings settingsOf(Preset preset) {
     s.bound = 300, s.vplRoulette = 0;
     s.compensate = s.jitter = false;
   }
+  if (preset == Preset::segovia) {
+    s.method = Method::bidirectional;
+    s.partition = PartitionRule::equal;
+    s.interleave = {1, 1};
+    s.directVpls = 6, s.indirectVpls = 24;
+    s.resampling = 5, s.cameraPoints = 50;
+  }
   return s;
 }
 

@@ -3,6 +3,10 @@
 //   interactive   the defaults of Settings
 //   final         more of everything
 //   paper         Wald et al. 2002: 22 VPLs, 1000 photons from the lights, its sampling
+//   segovia       Segovia et al. 2006: one set of 30 VPLs, about a tenth of the candidates. Half of
+//                 them come from the lamps, half from the camera; each brings half of the light
+//                 (gi/bidirectional/estimated_density.h). Worth, bound, compensation and photons
+//                 are ours: the published form has none of the last three.
 //
 // Threads: pure functions.
 #pragma once
@@ -14,8 +18,8 @@
 
 namespace ninefold {
 
-enum class Preset : uint8_t { interactive, final, paper };
-inline constexpr std::array kPresetNames{"interactive", "final", "paper"};
+enum class Preset : uint8_t { interactive, final, paper, segovia };
+inline constexpr std::array kPresetNames{"interactive", "final", "paper", "segovia"};
 
 inline const char* nameOf(Preset preset) { return kPresetNames[static_cast<size_t>(preset)]; }
 

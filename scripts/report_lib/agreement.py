@@ -13,7 +13,7 @@ HEAD = ["scene", "runs x frames", "error between runs", "error as stated", "refe
         "error of that [%]", "blocks beyond 2 (chance)", "beyond 3 (chance)", "block difference (noise alone)",
         "worst block: t, difference"]
 TEXT = [
-    "Several runs of instant radiosity with different seeds, their mean held against a path-traced reference. "
+    "Several runs of instant radiosity with different seeds, their mean held against the reference. "
     "Bias: of the means of the image, from ninefold-compare, with the standard error of that difference. "
     "Blocks: means of 16 x 16 pixels; t is their difference over the standard error that the runs of both sides show, "
     "beside it the share of blocks that Student's t puts there by chance. "
@@ -69,7 +69,7 @@ def _runs(context, scene, size):
 
 
 def _row(scene, e):
-    return [scene.name + (" (low confidence)" if scene.low_confidence else ""), f"{e['runs']} x {e['frames'] // e['runs']}",
+    return [scene.name, f"{e['runs']} x {e['frames'] // e['runs']}",
             percent(e["error_between_runs"]), percent(e["error_stated"]), percent(e["reference_error"]),
             signed_percents([e["bias_r"], e["bias_g"], e["bias_b"]]),
             " ".join(f"{100 * e['bias_error_' + c]:.2f}" for c in "rgb"),

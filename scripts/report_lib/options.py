@@ -4,15 +4,15 @@ import os
 
 from report_lib import scenes
 
-SECTIONS = ("agreement", "speed", "crops", "interleaving", "randomization", "needs")
+SECTIONS = ("agreement", "speed", "bidirectional", "crops", "interleaving", "randomization", "needs")
 
 FULL = dict(budgets="0.5,1,2,4,8,16", short_budgets="1,4", target_seconds=128, reference_seconds=300, runs=8,
             run_seconds=10, seeds=8, frames="1,16", rounds=10, few="table_room,office")
 QUICK = dict(budgets="0.5,1,2", short_budgets="1", target_seconds=2, reference_seconds=10, runs=4, run_seconds=3, seeds=2,
              frames="4", rounds=0, few="table_room", scenes="cornell,table_room,egg_room")
 
-DESCRIPTION = """How wrong pictures are after how many seconds, for each scene and method, held against path-traced
-references: writes report.html, which opens from disk, and a .csv for each table. References are made once and kept in
+DESCRIPTION = """How wrong pictures are after how many seconds, for each scene and method, held against
+references by the path tracer, or by the bidirectional method where that hardly finds the light: writes report.html, which opens from disk, and a .csv for each table. References are made once and kept in
 out/references; a section that was run before stays in the page until it is run again. The full report takes about two
 hours on two cores the first time, nearly half of it for references (5 minutes a scene at most)."""
 
@@ -30,8 +30,8 @@ def parse(words):
     parser.add_argument("--width", type=int, default=160, help="pixels a row; 4:3, or 7/8 of it square (default 160)")
     parser.add_argument("--budgets", help="seconds of each run of the section speed (default 0.5,1,2,...16)")
     parser.add_argument("--target-seconds", type=float,
-                        help=f"how long runs of {' and '.join(scenes.TARGETS)} get at most for the smallest errors (default 128)")
-    parser.add_argument("--short-budgets", help="seconds of each run of the sections interleaving and crops (default 1,4)")
+                        help=f"how long runs of {', '.join(scenes.TARGETS)} get at most for the smallest errors (default 128)")
+    parser.add_argument("--short-budgets", help="seconds of each run of the sections interleaving, crops and bidirectional (default 1,4)")
     parser.add_argument("--runs", type=int, help="runs a scene of the section agreement, at least 2 (default 8)")
     parser.add_argument("--run-seconds", type=float, help="of each of them (default 10)")
     parser.add_argument("--seeds", type=int, help="runs of each kind in the sections interleaving and randomization, at least 2 (default 8)")

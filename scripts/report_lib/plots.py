@@ -1,4 +1,4 @@
-"""Log-log plots of error over time, one small plot for each scene."""
+"""Plots: error over time, one small log-log plot for each scene; virtual lights from above."""
 import math
 
 import matplotlib
@@ -9,7 +9,7 @@ from matplotlib.ticker import NullFormatter  # noqa: E402
 
 from report_lib import pictures  # noqa: E402
 
-COLOURS = ("#1f4e9c", "#c0392b", "#2e8b57", "#8e44ad")
+COLOURS = ("#1f4e9c", "#c0392b", "#2e8b57", "#8e44ad", "#d68910", "#5d6d7e")
 
 
 def error_over_time(path, series, label, slope, floors):
@@ -49,3 +49,24 @@ def _one_scene(axis, scene, methods, label, slope, floor):
         low, high = scale.get_view_interval()
         scale.set_minor_formatter("{x:g}" if high < 10 * low else NullFormatter())
     axis.grid(True, which="major", color="0.92")
+
+
+FAMILY_COLOURS = {"standard": COLOURS[0], "reverse": COLOURS[1], "lamp": COLOURS[4]}
+
+
+def plans(path, plans_of, camera):
+    """plans_of: {title: virtual lights}, x to the right, z downwards [m]; camera: as --stats has it."""
+    figure, axes = plot.subplots(1, len(plans_of), figsize=(4.2 * len(plans_of), 3.9), squeeze=False, sharex=True, sharey=True,
+                                 layout="constrained")
+    eye, forward = camera["eye"], camera["forward"]
+    for axis, (title, lights) in zip(axes.flat, plans_of.items()):
+        for family, colour in FAMILY_COLOURS.items():
+            at = [light["position"] for light in lights if light["family"] == family]
+            axis.plot([p[0] for p in at], [p[2] for p in at], "o", color=colour, markersize=2.5, alpha=0.7, label=f"{family}: {len(at)}")
+        axis.plot([eye[0], eye[0] + forward[0]], [eye[2], eye[2] + forward[2]], color="black", linewidth=1)
+        axis.set(title=title, aspect="equal", xlabel="x [m]", ylabel="z [m]")
+        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
+    axes.flat[0].invert_yaxis()
+    with open(path, "wb") as file:
+        file.write(pictures.png_of_plot(figure))
+    plot.close(figure)

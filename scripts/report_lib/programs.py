@@ -1,4 +1,4 @@
-"""Runs ninefold-master and ninefold-compare and gives back what they say. No figure is computed here."""
+"""Runs ninefold-master, ninefold-compare and ninefold-virtual-lights and gives back what they say. No figure is computed here."""
 import dataclasses
 import json
 import os
@@ -24,7 +24,7 @@ class Job:
 class Programs:
     def __init__(self, folder, clients, progress):
         self.folder, self.clients, self.progress = folder, clients, progress
-        for name in ("ninefold-master", "ninefold-client", "ninefold-compare"):
+        for name in ("ninefold-master", "ninefold-client", "ninefold-compare", "ninefold-virtual-lights"):
             if not os.access(os.path.join(folder, name), os.X_OK):
                 raise Failure(f"{folder} has no program {name}; build it, or name its folder by --programs")
 
@@ -42,6 +42,11 @@ class Programs:
     def compare(self, image, reference):
         """The object of ninefold-compare --json."""
         return json.loads(self._call("ninefold-compare", image, reference, "--json"))
+
+    def lights(self, job, frames):
+        """The object of ninefold-virtual-lights."""
+        self.progress(f"{job.scene.name} {' '.join(job.flags)} virtual lights of {frames} frames")
+        return json.loads(self._call("ninefold-virtual-lights", *job.arguments(), "--frames", str(frames)))
 
     def _call(self, name, *arguments):
         command = [os.path.join(self.folder, name), *arguments]

@@ -1,6 +1,7 @@
-"""Reference pictures by the path tracer, made once and kept in out/references.
+"""Reference pictures, made once and kept in out/references: by the path tracer, or, where it hardly finds the light
+(scenes.DARK), by the bidirectional method, which the section of that name holds against the path tracer.
 
-A reference is the mean of batches: path-traced pictures of equal numbers of frames and different seeds. More batches
+A reference is the mean of batches: pictures of equal numbers of frames and different seeds. More batches
 are added until it is good enough or the time is spent; a later report with more time goes on where this one stopped.
 Good enough: each channel's mean over the image has a relative standard error of at most `target`, and the noise of
 pixels, which every comparison is charged for, is at most NOISE_RELMSE. Where seconds to an error are asked for, that of
@@ -16,11 +17,13 @@ import os
 
 from report_lib import blocks, pictures
 from report_lib.programs import Job
-from report_lib.scenes import TARGETS
+from report_lib.scenes import DARK, TARGETS
 
 FIRST_SEED = 900001  # tested pictures have small seeds
 LEAST_BATCHES = 4
-METHOD = ("--method", "path-trace")
+TRACER = ("--method", "path-trace")
+# One light set a frame, hence no filter: nothing is blurred.
+BIDIRECTIONAL = ("--method", "bidirectional", "--interleave", "1x1")
 NOISE_RELMSE, TARGETS_NOISE_RELMSE = 0.01, 0.0008
 
 
@@ -40,16 +43,17 @@ class References:
         self.target, self.budget = target, budget  # relative error; seconds for each reference
         self.known = {}
 
-    def get(self, scene, size):
-        if (scene, size) not in self.known:
-            self.known[scene, size] = self._make(scene, size)
-        return self.known[scene, size]
+    def get(self, scene, size, method=None):
+        """method: flags; None: that of the scene."""
+        job = Job(scene, size, method or (BIDIRECTIONAL if scene.name in DARK else TRACER))
+        if job not in self.known:
+            self.known[job] = self._make(job)
+        return self.known[job]
 
-    def _make(self, scene, size):
-        job = Job(scene, size, METHOD)
+    def _make(self, job):
         folder = self._folder(job)
         state = _load(folder)
-        while self._wants_more(scene, state):
+        while self._wants_more(job.scene, state):
             self._add_batch(job, folder, state)
         return self._finish(folder, state)
 

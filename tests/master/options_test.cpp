@@ -169,6 +169,12 @@ TEST(Options, PresetsSetDefaultsThatFlagsOverride) {
   EXPECT_EQ(paper.settings.caustics, Caustics::direct);
   EXPECT_EQ(paper.surfaceTest, SurfaceTest::paper);
   EXPECT_FALSE(paper.converging);
+  const Options segovia = parse("room.glb --preset segovia --seed 3");
+  EXPECT_EQ(segovia.settings.method, Method::bidirectional);
+  EXPECT_EQ(segovia.settings.partition, PartitionRule::equal);
+  EXPECT_EQ(segovia.settings.interleave, (Interleave{1, 1}));
+  EXPECT_EQ(segovia.settings.directVpls + segovia.settings.indirectVpls, 30);
+  EXPECT_EQ(segovia.settings.cameraPoints, 50);
   const Options mixed = parse("room.glb --preset paper --filter surface --randomization owen");
   EXPECT_EQ(mixed.surfaceTest, SurfaceTest::surface);
   EXPECT_EQ(mixed.settings.randomization, Randomization::owen);

@@ -27,6 +27,7 @@ Settings oddSettings() {
   s.interleave = {16, 1};
   s.directVpls = 0, s.indirectVpls = 65536, s.photons = 16777216;
   s.resampling = 3, s.cameraPoints = 4096;
+  s.partition = PartitionRule::equal;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;
@@ -167,6 +168,7 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"height", [](Settings& s) { s.height = 16385; }},
       {"method", [](Settings& s) { s.method = static_cast<Method>(allMethods().size()); }},
       {"caustics", [](Settings& s) { s.caustics = static_cast<Caustics>(3); }},
+      {"partition", [](Settings& s) { s.partition = static_cast<PartitionRule>(2); }},
       {"randomization", [](Settings& s) { s.randomization = static_cast<Randomization>(3); }},
       {"interleave columns", [](Settings& s) { s.interleave.n = 17; }},
       {"interleave rows", [](Settings& s) { s.interleave.m = 0; }},

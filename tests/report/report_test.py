@@ -15,7 +15,7 @@ import numpy
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from report_lib import blocks, crops, measure, options, pictures, scenes, seconds_to_error, tables  # noqa: E402
+from report_lib import blocks, crops, keep, measure, options, pictures, scenes, section, seconds_to_error, tables  # noqa: E402
 from report_lib.references import Reference  # noqa: E402
 
 
@@ -152,6 +152,24 @@ class Crops(unittest.TestCase):
         pixels = numpy.arange(40 * 30).reshape(30, 40, 1)
         part = crops.Crop("", 0.5, 0.1, 0.2).of(pixels)
         self.assertEqual((part[0, 0, 0], part[-1, -1, 0]), (3 * 40 + 20, 8 * 40 + 27))
+
+
+class Kept(unittest.TestCase):
+    MADE = {"date": "today", "commit": "none", "machine": "none", "options": "none"}
+
+    def keep(self, folder, name, text, table):
+        made = section.Section(name, "About " + name, [text], [tables.Table(table, ["a"], [["1"]], [{"a": 1}])], [], self.MADE)
+        keep.write(folder, [made], folder)
+
+    def test_a_section_takes_its_own_place_and_leaves_the_others_alone(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text, table in (("x", "first", "t1"), ("y", "second", "t2"), ("x", "third", "t3")):
+                self.keep(folder, name, text, table)
+            with open(os.path.join(folder, "results.md"), encoding="utf-8") as file:
+                text = file.read()
+            self.assertEqual([text.count(word) for word in ("first", "second", "third")], [0, 1, 1])
+            self.assertLess(text.index("third"), text.index("second"))
+            self.assertEqual(sorted(os.listdir(folder)), ["results.md", "t2.csv", "t3.csv"])
 
 
 class Tables(unittest.TestCase):

@@ -27,7 +27,7 @@ std::string refusal(const MethodFacts& facts, const std::function<void(Settings&
 TEST(SettingsCheck, SaysWhatIsTooMuchAndWhatToLower) {
   const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
       {"lower --resampling", [](Settings& s) { s.resampling = 1000, s.directVpls = 65536; }},
-      {"lower --camera-points", [](Settings& s) { s.resampling = 1000, s.cameraPoints = 4096; }},
+      {"lower --camera-points", [](Settings& s) { s.directVpls = 20000, s.cameraPoints = 4096; }},
       {"path-length is 65", [](Settings& s) { s.pathLength = 65; }},
   };
   for (const MethodFacts& facts : allMethods())

@@ -14,9 +14,9 @@ import unittest
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 sys.path.insert(0, str(SCENES))
 
-from generator import cornell, glb  # noqa: E402
+from generator import cornell, glb, keyhole, three_turns  # noqa: E402
 
-# Triangles after instancing and lights, as the paper's tests had them (cornell, u_office: our own).
+# Triangles after instancing and lights, as the paper's tests had them (cornell, u_office and what follows: our own).
 EXPECTED = {
     "cornell": (46, 1),
     "table_room": (800, 1),
@@ -25,6 +25,8 @@ EXPECTED = {
     "office": (34000, 3),
     "conference": (290000, 104),
     "u_office": (19000, 1),
+    "keyhole": (74, 1),
+    "three_turns": (4400, 1),
 }
 _WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 _CODE = {5126: "f", 5123: "H", 5125: "I"}
@@ -116,15 +118,17 @@ class Scenes(unittest.TestCase):
             for thing in file.json["buffers"] + file.json.get("images", []):
                 self.assertNotIn("uri", thing)
             glass = [m for m in file.json["materials"] if m["name"] == "glass"]
-            self.assertEqual(len(glass), 0 if name == "cornell" else 1)
+            self.assertEqual(len(glass), 0 if name in ("cornell", "keyhole") else 1)
             for material in glass:
                 self.assertGreater(
                     material["extensions"]["KHR_materials_volume"]["thicknessFactor"], 0
                 )
 
     def test_come_from_this_generator(self):
-        """The one without textures stands for all: it is made in a moment."""
-        self.assertEqual(glb.encode(cornell.build()), (SCENES / "cornell.glb").read_bytes())
+        """Those without textures stand for all: they are made in a moment."""
+        for scene in (cornell, keyhole, three_turns):
+            made = scene.build()
+            self.assertEqual(glb.encode(made), (SCENES / f"{made.name}.glb").read_bytes())
 
 
 if __name__ == "__main__":

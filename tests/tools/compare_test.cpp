@@ -1,35 +1,23 @@
 // The program ninefold-compare as a user meets it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "common/base/release.h"
 #include "common/image/image_file.h"
+#include "tests/tools/run.h"
 
 namespace ninefold {
 namespace {
 
-struct Outcome {
-  int status = 0;
-  std::string output;  // stdout, then stderr
-};
+using testing::Outcome;
 
 Outcome compare(const std::string& arguments) {
-  const std::string command =
-      std::string(NINEFOLD_BIN) + "/ninefold-compare " +
-      (arguments.find('>') == std::string::npos ? arguments + " 2>&1" : arguments);
-  FILE* pipe = popen(command.c_str(), "r");
-  Outcome run;
-  char text[4096];
-  while (std::fgets(text, sizeof text, pipe) != nullptr) run.output += text;
-  run.status = WEXITSTATUS(pclose(pipe));
-  return run;
+  return testing::runProgram("ninefold-compare", arguments);
 }
 
 // Two grey images of 10 x 10 pixels, 1.1 and 1, and one of 10 x 11.

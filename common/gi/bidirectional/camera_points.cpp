@@ -46,10 +46,12 @@ std::optional<End> follow(const Transport& t, const View& view, Vec2 film, float
 CameraPoints cameraPoints(const Transport& t, const View& view, const FrameKey& frame, int k,
                           int count, RayCounts& rays) {
   const int log2Count = log2Ceil(count);
+  const Randomization points = t.settings.partition == PartitionRule::equal
+                                   ? Randomization::random
+                                   : t.settings.randomization;
   const LightSampler film(t.settings.seed, SampleUse::cameraPoint, frame.randomization,
-                          static_cast<uint32_t>(k), log2Count, t.settings.randomization);
-  const PixelStream chains(t.settings.seed, SampleUse::cameraPoint, frame.randomization, 1,
-                           t.settings.randomization);
+                          static_cast<uint32_t>(k), log2Count, points);
+  const PixelStream chains(t.settings.seed, SampleUse::cameraPoint, frame.randomization, 1, points);
   CameraPoints found;
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const auto end = follow(t, view, film.get2D(i, 0), film.get1D(i, 2),

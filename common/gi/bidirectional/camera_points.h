@@ -1,5 +1,5 @@
 // camera_points.h: what a view looks at: D ends x_1 ... x_M of M eye paths E S* D, stratified over
-// the picture.
+// the picture; with --partition equal independent, as estimated_density.h needs them.
 //
 // A path whose first hit has several lobes follows one of them, chosen by albedo. A path that finds
 // no diffuse point leaves none. So there may be fewer than M, or none at all.

@@ -15,7 +15,7 @@ Place placeOf(const Vpl& vpl) { return {vpl.position, vpl.normal, vpl.error}; }
 Vpl vplAt(const Transport& t, const ReversePlace& y, float area) {
   Vpl vpl;
   vpl.position = y.place.position, vpl.normal = y.place.normal, vpl.error = y.place.error;
-  vpl.bound = t.bound, vpl.diffuseCount = 1;
+  vpl.bound = t.bound, vpl.diffuseCount = 1, vpl.reverse = true;
   vpl.power = kInvPi * area * y.rho;
   return vpl;
 }
@@ -53,10 +53,21 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
       partition_{t, camera_.points, standardDensity,
                  pathsLog2 < 0 ? 0 : static_cast<double>(1u << pathsLog2),
                  static_cast<double>(shot_)},
-      places_(reversePlaces(t, camera_.points, frame, set, shot_, rays_)) {}
+      estimated_(
+          partition_.isEqual() && shot_ > 0
+              ? std::optional<EstimatedDensity>(std::in_place, t, view, frame, set, shot_, rays_)
+              : std::nullopt),
+      places_(reversePlaces(t, estimated_ ? estimated_->origins() : camera_.points, frame, set,
+                            shot_, rays_)) {}
 
-float LightMaker::guess(const Place& y, int drawnFrom, const Worth& worth) const {
-  return guessReverseDensity(camera_.points, y, drawnFrom, worth.reached());
+float LightMaker::density(const ReversePlace& y) {
+  return estimated_ ? estimated_->at(y, rays_)
+                    : reverseDensity(t_, camera_.points, y.place, y.drawnFrom, rays_);
+}
+
+float LightMaker::guessDensity(const ReversePlace& y, uint32_t reached) {
+  return estimated_ ? estimated_->guess(y, rays_)
+                    : guessReverseDensity(camera_.points, y.place, y.drawnFrom, reached);
 }
 
 Worth LightMaker::worths() {
@@ -65,7 +76,9 @@ Worth LightMaker::worths() {
   for (const Vpl& vpl : raw.vpls) {
     worth.add(raw, vpl, scratch_.vplGather, rays_);
     if (vpl.diffuseCount > 0 && vpl.glossy < 0 && shot_ > 0)
-      worth.scale(partition_.standardShare(placeOf(vpl), guess(placeOf(vpl), kNone, worth)));
+      worth.scale(partition_.standardShare(
+          placeOf(vpl),
+          guessReverseDensity(camera_.points, placeOf(vpl), kNone, worth.reached())));
   }
   Receivers y;
   for (const ReversePlace& place : places_) y.add(place.receiver);
@@ -78,7 +91,7 @@ Worth LightMaker::worths() {
     Vpl vpl = vplAt(t_, p, 1);
     vpl.power *= y.irradiance(j);
     worth.add({}, vpl, scratch_.vplGather, rays_);
-    worth.scale(partition_.reverseArea(p.place, guess(p.place, p.drawnFrom, worth)));
+    worth.scale(partition_.reverseArea(p.place, guessDensity(p, worth.reached())));
   }
   return worth;
 }
@@ -105,8 +118,7 @@ void LightMaker::keepReverse(const std::vector<Kept>& kept, const Worth& worth, 
   for (const Kept& each : kept) {
     if (each.index < firstReverse) continue;
     const ReversePlace& p = places_[each.index - firstReverse];
-    const float q = reverseDensity(t_, camera_.points, p.place, p.drawnFrom, rays_);
-    vpls.push_back(vplAt(t_, p, each.gain * partition_.reverseArea(p.place, q)));
+    vpls.push_back(vplAt(t_, p, each.gain * partition_.reverseArea(p.place, density(p))));
     vpls.back().seen = worth.seen(each.index);
     y.add(p.receiver);
   }

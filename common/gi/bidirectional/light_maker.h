@@ -3,8 +3,10 @@
 // Threads: one set's working memory.   Owner: refers to its arguments.   Errors: none.
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "common/gi/bidirectional/estimated_density.h"
 #include "common/gi/bidirectional/partition.h"
 #include "common/gi/bidirectional/raw_light.h"
 #include "common/gi/bidirectional/resampling.h"
@@ -22,10 +24,11 @@ class LightMaker {
   void make(LightSet& out);
 
  private:
+  // q where a ray ended, and a guess of it. reached: as in reverse_density.h.
+  float density(const ReversePlace& y);
+  float guessDensity(const ReversePlace& y, uint32_t reached);
   // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
   Worth worths();
-  // q of the place of the last candidate.
-  float guess(const Place& y, int drawnFrom, const Worth& worth) const;
   // Step 5.
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
@@ -40,6 +43,7 @@ class LightMaker {
   const RawLight raw_;
   const CameraPoints camera_;
   const Partition partition_;
+  const std::optional<EstimatedDensity> estimated_;  // for the rule `equal`
   const std::vector<ReversePlace> places_;
 };
 

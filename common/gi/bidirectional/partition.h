@@ -18,6 +18,9 @@
 // y were drawn (raw_light.h). Guesses of E(y) decide what is kept. They have random numbers of their
 // own, so that the exact E(y) of what is kept has the right mean.
 //
+// --partition equal is the published form: w_s = w_r = 1/2 where q > 0. There q is
+// estimated, with a proof of its own: estimated_density.h.
+//
 // VPLs on lamps keep w_s = 1: reverse VPLs carry no emission. So do glossy lobes.
 //
 // Proved:  tests/gi (furnace, form factors, agreement with the path tracer; keyhole).
@@ -38,6 +41,8 @@ struct Partition {
   double paths;  // N_s
   double shot;   // N_r
 
+  bool isEqual() const { return t.settings.partition == PartitionRule::equal; }
+
   double standardCount(const Place& y) const {
     const double hardlySeen = 1 / (4 * double{kPi} * double{t.radius} * double{t.radius});
     return shot * hardlySeen + paths * double{standardDensity(y)};
@@ -46,12 +51,15 @@ struct Partition {
   // w_s for a density q at y.
   float standardShare(const Place& y, float q) const {
     if (q <= 0) return 1;
+    if (isEqual()) return 0.5f;
     const double standard = standardCount(y);
     return static_cast<float>(standard / (standard + shot * double{q}));
   }
   // w_r/(N_r q) at a place that a ray was drawn to [m^2]. Rounding may make q = 0 there.
   float reverseArea(const Place& y, float q) const {
-    return q <= 0 ? 0.0f : static_cast<float>(1 / (standardCount(y) + shot * double{q}));
+    if (q <= 0) return 0;
+    if (isEqual()) return static_cast<float>(0.5 / (shot * double{q}));
+    return static_cast<float>(1 / (standardCount(y) + shot * double{q}));
   }
 };
 

@@ -21,10 +21,12 @@ std::vector<ReversePlace> reversePlaces(const Transport& t, const Receivers& x,
     if (!hit) continue;
     const ShadingPoint y = t.shader.shade(t.tracer.surface(hit), -w, {});
     if (isBlack(y.bsdf.diffuse)) continue;
+    const float cosines = glm::dot(w, x.ng(i)) * glm::dot(-w, y.ng);
     found.push_back({{y.surface.position, y.ng, y.surface.error},
                      receiverAt(y, j, x.absorber[i]),
                      y.bsdf.diffuse,
-                     static_cast<int>(i)});
+                     static_cast<int>(i),
+                     kInvPi * cosines / (hit.t * hit.t)});
   }
   return found;
 }

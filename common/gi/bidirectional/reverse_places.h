@@ -21,6 +21,7 @@ struct ReversePlace {
   Receiver receiver;  // y as it gathers light
   Reflectance rho{0};
   int drawnFrom = 0;  // camera point
+  float density = 0;  // with which that point's rays end there [1/m^2]
 };
 
 std::vector<ReversePlace> reversePlaces(const Transport& transport, const Receivers& cameraPoints,

@@ -20,8 +20,9 @@ namespace ninefold {
 
 struct Vpl {
   enum class Kind : uint8_t { surface, point, spot, directional } kind = Kind::surface;
-  bool emits = false;  // surface: on an emitter (path length 1 at x)
-  Vec3 position{0};    // directional: unused
+  bool emits = false;    // surface: on an emitter (path length 1 at x)
+  bool reverse = false;  // surface: found from the camera
+  Vec3 position{0};      // directional: unused
   // surface: of the emitting side; spot: axis; directional: where the light comes from
   Vec3 normal{0};
   float bound = std::numeric_limits<float>::infinity();  // surface: of its geometry term [1/m^2]

@@ -1,0 +1,27 @@
+#include "common/gi/bidirectional/estimated_density.h"
+
+#include "common/gi/bidirectional/reverse_density.h"
+
+namespace ninefold {
+namespace {
+
+constexpr int kFew = 4;
+// Camera points are addressed by set. Those where rays start come after all sets'.
+constexpr int kMostSets = 256;
+
+}  // namespace
+
+EstimatedDensity::EstimatedDensity(const Transport& t, const View& view, const FrameKey& frame,
+                                   int k, int shot, RayCounts& rays)
+    : t_(t),
+      origins_(cameraPoints(t, view, frame, kMostSets + k, shot, rays)),
+      others_(cameraPoints(t, view, frame, k, t.settings.cameraPoints - 1, rays)),
+      few_(cameraPoints(t, view, frame, k, kFew, rays)) {}
+
+float EstimatedDensity::with(const Receivers& others, const ReversePlace& y,
+                             RayCounts& rays) const {
+  const auto count = static_cast<float>(others.size());
+  return (y.density + count * reverseDensity(t_, others, y.place, kNone, rays)) / (count + 1);
+}
+
+}  // namespace ninefold

@@ -1,0 +1,26 @@
+// The scene three_turns: light makes three bounces or more before it comes into the room, so that a
+// path to what the camera sees has four diffuse vertices at least.
+#include <gtest/gtest.h>
+
+#include "common/scene/reader.h"
+#include "tests/gi/expect.h"
+
+namespace ninefold {
+namespace {
+
+Settings ofLength(Method method, int length) {
+  Settings s = testing::small(method, 16);
+  s.interleave = {1, 1}, s.pathLength = length;
+  return s;
+}
+
+TEST(ThreeTurns, IsBlackUntilLightMayBounceThreeTimes) {
+  const Scene scene = readScene(NINEFOLD_SCENES "/three_turns.glb");
+  const Tracer tracer(scene, Isa::automatic);
+  for (const MethodFacts& facts : allMethods())
+    EXPECT_EQ(testing::render(tracer, ofLength(facts.method, 3), 50).grey(), 0) << facts.name;
+  EXPECT_GT(testing::render(tracer, ofLength(Method::bidirectional, 4), 50).grey(), 0);
+}
+
+}  // namespace
+}  // namespace ninefold
