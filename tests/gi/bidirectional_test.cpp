@@ -2,9 +2,12 @@
 // see, and light that comes to the eye by way of a keyhole.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "common/gi/bidirectional/camera_points.h"
 #include "common/gi/bidirectional/reverse_density.h"
 #include "common/gi/bidirectional/reverse_places.h"
+#include "common/gi/bidirectional/worth.h"
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 
@@ -65,20 +68,52 @@ TEST(ReverseDensity, IntegratesToTheAreaThatRaysHit) {
   EXPECT_LT(error, 0.08);
 }
 
+Vpl lightAt(const Place& y) {
+  Vpl vpl;
+  vpl.position = y.position, vpl.normal = y.normal, vpl.error = y.error;
+  vpl.power = Vec3(1);
+  return vpl;
+}
+
 // The guess has the same mean as the density, over the choice of the points.
 TEST(ReverseDensity, TheGuessIsRightOnTheMean) {
   Seen s(boxInBox());
   const Place y{Vec3(0.3f, 1, 0.2f), Vec3(0, -1, 0), 1e-6f};
   double density = 0, guess = 0, square = 0;
+  VplGatherScratch scratch;
   constexpr int kSets = 400;
   for (int k = 0; k < kSets; ++k) {
     const CameraPoints camera = cameraPoints(s.t, s.view, kKey, k, 64, s.rays);
     const double q = double{reverseDensity(s.t, camera.points, y, kNone, s.rays)};
-    const double g = double{guessReverseDensity(s.t, camera.points, y, kNone, s.rays)};
+    Worth worth(s.t, camera);
+    worth.add({}, lightAt(y), scratch, s.rays);
+    const double g = double{guessReverseDensity(camera.points, y, kNone, worth.reached())};
     density += q / kSets, guess += g / kSets, square += (g - q) * (g - q) / kSets;
   }
   EXPECT_GT(density, 0.01);
   EXPECT_NEAR(guess, density, 4 * std::sqrt(square / kSets));
+}
+
+// At a place that a ray was drawn to, the point that drew it is known to see it, among the judges or
+// not. The guess is over all places' mean what the density is.
+TEST(ReverseDensity, TheGuessKnowsThePointThatDrew) {
+  Seen s(boxInBox());
+  VplGatherScratch scratch;
+  double ratio = 0;
+  int count = 0;
+  for (int k = 0; k < 40; ++k) {
+    const CameraPoints camera = cameraPoints(s.t, s.view, kKey, k, 64, s.rays);
+    Worth worth(s.t, camera);
+    for (const ReversePlace& y : reversePlaces(s.t, camera.points, kKey, k, 50, s.rays)) {
+      worth.add({}, lightAt(y.place), scratch, s.rays);
+      const float q = reverseDensity(s.t, camera.points, y.place, y.drawnFrom, s.rays);
+      const float guess = guessReverseDensity(camera.points, y.place, y.drawnFrom, worth.reached());
+      ASSERT_GT(guess, 0);
+      ratio += std::log(double{guess} / double{q}), ++count;
+    }
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_NEAR(std::exp(ratio / count), 1, 0.15);
 }
 
 TEST(ReverseDensity, TheBackOfAWallIsAnotherPlace) {
@@ -142,12 +177,89 @@ TEST(Bidirectional, KeepsThePathLengthThroughAHole) {
   for (const int length : {2, 3, 4}) {
     Settings s = inOneSet(Method::pathTrace);
     s.pathLength = length;
-    const auto reference = testing::render(tracer, s, 2000);
+    const auto reference = testing::render(tracer, s, 8000);
     s.method = Method::bidirectional;
-    const auto both = testing::render(tracer, s, 300);
+    const auto both = testing::render(tracer, s, 800);
     const double error = std::hypot(both.error(), reference.error());
     EXPECT_NEAR(both.grey(), reference.grey(), 4 * error) << "path length " << length;
-    EXPECT_LT(error, 0.1 * reference.grey()) << "path length " << length;
+    EXPECT_LT(error, 0.04 * reference.grey()) << "path length " << length;
+  }
+}
+
+// Mean irradiance at x over the light sets of `frames` frames, made for the scene's camera.
+struct Measured {
+  double mean = 0, error = 0;
+};
+Measured irradianceAt(const Tracer& tracer, Method method, Vec3 x, Vec3 n, uint32_t frames) {
+  Settings s = inOneSet(method);
+  s.camera = tracer.scene().cameras.front();
+  const Renderer renderer(tracer, s);
+  const Transport t(tracer, s);
+  LightSetScratch scratch;
+  RayCounts rays;
+  double sum = 0, squares = 0;
+  for (uint32_t frame = 0; frame < frames; ++frame) {
+    const auto light = renderer.light({frame, frame, 0, 0.01f}, 0);
+    Receivers receivers;
+    receivers.add({x, n, n, x + 1e-5f * n});
+    gatherLightSet(t, static_cast<const LightSet&>(*light), ReceiverSamples(1, frame, 0), 1,
+                   scratch, receivers, nullptr, rays);
+    const double e = double{receivers.irradiance(0).x};
+    sum += e / frames, squares += e * e / frames;
+  }
+  return {sum, std::sqrt((squares - sum * sum) / (frames - 1))};
+}
+
+// The families share all paths between them, also those to points that no pixel shows. The floor
+// below the lamp is in the other room.
+TEST(Bidirectional, LightsPointsThatTheCameraDoesNotSee) {
+  const Scene scene = keyhole(0.3f);
+  const Tracer tracer(scene, Isa::automatic);
+  const Vec3 x(1, -1, 0.2f), up(0, 1, 0);
+  const Measured lamps = irradianceAt(tracer, Method::instantRadiosity, x, up, 2000);
+  const Measured both = irradianceAt(tracer, Method::bidirectional, x, up, 2000);
+  const double error = std::hypot(lamps.error, both.error);
+  EXPECT_NEAR(both.mean, lamps.mean, 4 * error);
+  EXPECT_LT(error, 0.02 * lamps.mean);
+}
+
+// A lamp, a block of glass and rough metal in a grey box.
+Scene roomWithGlassAndMetal() {
+  SceneBuilder b;
+  const int grey = b.material(testing::matte(Vec3(0.6f)));
+  Material metal = testing::matte(Vec3(0.8f));
+  metal.metallic = 1, metal.roughness = 0.4f, metal.specular = 1;
+  b.box(grey, Vec3(-1), Vec3(1), true);
+  b.box(b.material(metal), Vec3(-0.8f, -1, -0.8f), Vec3(-0.2f, -0.4f, -0.2f), false);
+  b.box(b.material(testing::glass(1.5f)), Vec3(0.2f, -0.9f, -0.5f), Vec3(0.6f, -0.5f, -0.1f),
+        false);
+  b.quad(b.material(testing::matte(Vec3(0), Vec3(20))), Vec3(-0.2f, 0.99f, -0.2f), Vec3(0.4f, 0, 0),
+         Vec3(0, 0, 0.4f));
+  return b.camera(Vec3(0, 0, 0.95f), Vec3(0, -0.3f, -1), 1.4f).build();
+}
+
+// Whatever caustics are asked for and however long paths may be, both methods leave out the same.
+TEST(Bidirectional, ShowsWhatInstantRadiosityShowsWhicheverCausticsAreOn) {
+  const Scene scene = roomWithGlassAndMetal();
+  const Tracer tracer(scene, Isa::automatic);
+  const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
+      {"caustics off", [](Settings& s) { s.caustics = Caustics::off; }},
+      {"caustics direct", [](Settings& s) { s.caustics = Caustics::direct; }},
+      {"no photons", [](Settings& s) { s.photons = 0; }},
+      {"two D vertices", [](Settings& s) { s.pathLength = 2; }},
+      {"three D vertices, caustics off",
+       [](Settings& s) { s.pathLength = 3, s.caustics = Caustics::off; }},
+  };
+  for (const auto& [what, set] : cases) {
+    Settings s = inOneSet(Method::instantRadiosity);
+    s.photonRadius = 0.01f;
+    set(s);
+    const auto lamps = testing::render(tracer, s, 600);
+    s.method = Method::bidirectional;
+    const auto both = testing::render(tracer, s, 300);
+    const double error = std::hypot(lamps.error(), both.error());
+    EXPECT_NEAR(both.grey(), lamps.grey(), 4 * error) << what;
+    EXPECT_LT(error, 0.02 * lamps.grey()) << what;
   }
 }
 
