@@ -27,7 +27,7 @@ class LightMaker {
   // q where a ray ended, and a guess of it. reached: as in reverse_density.h.
   float density(const ReversePlace& y);
   float guessDensity(const ReversePlace& y, uint32_t reached);
-  // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
+  // Step 4: what the candidates are worth, the standard ones first, then the reverse places.
   Worth worths();
   // Step 5.
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
@@ -40,6 +40,7 @@ class LightMaker {
   const ReceiverSamples samples_, guesses_;
   RayCounts rays_;
   LightSetScratch scratch_;
+  const LightSet candidates_;  // standard ones
   const RawLight raw_;
   const CameraPoints camera_;
   const Partition partition_;
