@@ -90,6 +90,21 @@ class ReplayTask(ClusterTest):
         self.assertGreater(len(done), 1, texts)
         self.assertEqual(len({self.hash_of(text) for text in done}), len(done), "the gesture does not show")
 
+    def test_light_that_was_made_for_the_last_views_is_made_again(self):
+        (self.folder / "s.json").write_text(json.dumps({"seconds": 2, "events": [
+            {"from": 0, "to": 2, "camera": ["0.15,1.5,2.25:0,1.5,-0.5:60", "0.35,1.5,2.2:0.4,1.5,-0.5:60"]}]}))
+        self.new_key()
+        master = self.start(BIN / "ninefold-master", SCENES / "table_room.glb", "--size", "100x75", "--script", "s.json",
+                            "--output", "last.png", "--local-clients", 0, "--key-file", "cluster.key", "--method",
+                            "bidirectional")
+        self.record(master)
+        self.assertEqual(master.ends(), 0, master.text)
+        scene = SCENES / "table_room.glb"
+        texts = [self.again(scene, *self.task(frame, 0, 2), "--recording", "r", status=None) for frame in range(12)]
+        done = [text for text in texts if "hash" in text and "recorded" in text]
+        self.assertGreater(len(done), 3, texts)
+        self.assertEqual(len({self.hash_of(text) for text in done}), len(done), "the walk does not show")
+
     def test_what_is_not_there_ends_in_one_line(self):
         self.recorded(frames=1)
         scene, recording = SCENES / "cornell.glb", ["--recording", "r"]

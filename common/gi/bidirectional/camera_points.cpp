@@ -43,8 +43,8 @@ std::optional<End> follow(const Transport& t, const View& view, Vec2 film, float
 
 }  // namespace
 
-CameraPoints cameraPoints(const Transport& t, const View& view, const FrameKey& frame, int k,
-                          int count, RayCounts& rays) {
+CameraPoints cameraPoints(const Transport& t, std::span<const View> views, const FrameKey& frame,
+                          int k, int count, RayCounts& rays) {
   const int log2Count = log2Ceil(count);
   const LightSampler film(t.settings.seed, SampleUse::cameraPoint, frame.randomization,
                           static_cast<uint32_t>(k), log2Count, t.settings.randomization);
@@ -52,6 +52,7 @@ CameraPoints cameraPoints(const Transport& t, const View& view, const FrameKey& 
                            t.settings.randomization);
   CameraPoints found;
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
+    const View& view = views[i * views.size() / static_cast<size_t>(count)];
     const auto end = follow(t, view, film.get2D(i, 0), film.get1D(i, 2),
                             PixelSampler(chains, i, static_cast<uint32_t>(k), 0), rays);
     if (!end) continue;

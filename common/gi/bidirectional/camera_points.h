@@ -1,5 +1,5 @@
-// camera_points.h: what a view looks at: D ends x_1 ... x_M of M eye paths E S* D, stratified over
-// the picture.
+// camera_points.h: what one or more views look at: D ends x_1 ... x_M of M eye paths E S* D,
+// stratified over the picture. Of n views each has M/n paths in a row, stratified in themselves.
 //
 // A path whose first hit has several lobes follows one of them, chosen by albedo. A path that finds
 // no diffuse point leaves none. So there may be fewer than M, or none at all.
@@ -9,6 +9,7 @@
 // Source:  Segovia et al. 2006, section 3.1.   Threads: pure functions.   Errors: none.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/base/counters.h"
@@ -23,7 +24,7 @@ struct CameraPoints {
 };
 
 // Those of set k of a frame; count: M.
-CameraPoints cameraPoints(const Transport& transport, const View& view, const FrameKey& frame,
-                          int k, int count, RayCounts& rays);
+CameraPoints cameraPoints(const Transport& transport, std::span<const View> views,
+                          const FrameKey& frame, int k, int count, RayCounts& rays);
 
 }  // namespace ninefold

@@ -3,6 +3,7 @@
 // Threads: one set's working memory.   Owner: refers to its arguments.   Errors: none.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/gi/bidirectional/partition.h"
@@ -16,7 +17,7 @@ namespace ninefold {
 class LightMaker {
  public:
   LightMaker(const Transport& transport, const StandardDensity& standardDensity, int pathsLog2,
-             const FrameKey& frame, int set, const View& view);
+             const FrameKey& frame, int set, std::span<const View> views);
 
   // Adds VPLs and photons to an empty set.
   void make(LightSet& out);
@@ -24,7 +25,8 @@ class LightMaker {
  private:
   // Step 4: what the candidates are worth, the raw VPLs first, then the reverse places.
   Worth worths();
-  // Step 5.
+  std::vector<Vec3> positions() const;  // of the candidates, in the same order
+  // Step 6.
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
 
