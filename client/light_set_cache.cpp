@@ -27,13 +27,14 @@ LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set) {
 
 LightSetCache::Group& LightSetCache::group(const FrameKey& frame) {
   const auto same = [&](const Group& g) {
-    return g.randomization == frame.randomization && g.photonRadius == frame.photonRadius;
+    return g.randomization == frame.randomization && g.photonRadius == frame.photonRadius &&
+           g.lightCameras == frame.lightCameras;
   };
   const auto found = std::find_if(groups_.begin(), groups_.end(), same);
   if (found != groups_.end()) {
     groups_.splice(groups_.begin(), groups_, found);
   } else {
-    groups_.push_front({frame.randomization, frame.photonRadius, {}});
+    groups_.push_front({frame.randomization, frame.photonRadius, frame.lightCameras, {}});
     if (groups_.size() > frames_) groups_.pop_back();
   }
   return groups_.front();

@@ -3,7 +3,7 @@
 // The first thread that needs a set makes it; others that need it meanwhile wait. The sets of the
 // `frames` frame keys used last are kept, older ones dropped; a task keeps the set that it uses
 // alive. A set does not depend on the frame's number or rotation: frames that differ in nothing
-// else share.
+// else of their keys share.
 // Threads: get from any thread.
 // Errors: what `make` throws reaches everyone who waits for that set.
 #pragma once
@@ -39,6 +39,7 @@ class LightSetCache {
   struct Group {
     uint32_t randomization = 0;
     Metres photonRadius = 0;
+    std::vector<Camera> lightCameras;
     std::map<int, std::shared_future<Shared>> sets;
   };
 

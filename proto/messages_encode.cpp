@@ -95,6 +95,7 @@ pb::Progress header(const msg::Progress& m) {
 pb::Tasks header(const msg::Tasks& m) {
   NINEFOLD_CHECK(!m.items.empty());
   NINEFOLD_CHECK(m.items.size() <= kMaxTasksPerMessage);
+  NINEFOLD_CHECK(m.frame.lightCameras.size() <= kMostLightCameras);
   pb::Tasks out;
   out.set_job_version(m.jobVersion);
   toWire(m.frame, *out.mutable_frame());

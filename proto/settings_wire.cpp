@@ -146,12 +146,20 @@ void toWire(const FrameKey& frame, pb::FrameKey& out) {
   out.set_randomization(frame.randomization);
   out.set_rotation(frame.rotation);
   out.set_photon_radius(frame.photonRadius);
+  for (const Camera& camera : frame.lightCameras) toWire(camera, *out.add_light_cameras());
 }
 
 FrameKey fromWire(const pb::FrameKey& in) {
-  const FrameKey frame{in.frame(), in.randomization(), in.rotation(), in.photon_radius()};
+  FrameKey frame{in.frame(), in.randomization(), in.rotation(), in.photon_radius()};
   if (!(frame.photonRadius >= 0) || !std::isfinite(frame.photonRadius))
     fail("photon radius of frame {} is {}, must be 0 or more", frame.frame, frame.photonRadius);
+  const auto cameras = static_cast<size_t>(in.light_cameras_size());
+  if (cameras > kMostLightCameras)
+    fail("frame {} has {} light cameras, must be 0 to {}", frame.frame, cameras, kMostLightCameras);
+  for (const pb::Camera& camera : in.light_cameras()) {
+    frame.lightCameras.push_back(fromWire(camera));
+    checkRange(settingOf(&Settings::camera), frame.lightCameras.back());
+  }
   return frame;
 }
 

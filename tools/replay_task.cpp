@@ -9,11 +9,14 @@
 // Prints what it is, a hash of the decoded tile, values that were no light, and times.
 // Exit status: 0 done, 1 a failure, or another result than the recorded one, 2 wrong usage.
 
+#include <ranges>
+
 #include "client/render_job.h"
 #include "common/base/log.h"
 #include "common/base/program.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
+#include "common/scene/camera_choice.h"
 #include "common/scene/methods.h"
 #include "common/scene/needs.h"
 #include "common/scene/reader.h"
@@ -38,6 +41,7 @@ constexpr const char* kHelp =
     "                  run\n"
     "  --tile N        its tile\n"
     "  --phase N       its phase\n"
+    "  --light-cameras C/C/...  that its light is made for, if not for the picture's\n"
     "  --recording F   as a client that ran with --record F was asked for it; the scene is the "
     "one\n"
     "                  that the master had; of the flags of ninefold-master only --isa and --clip\n"
@@ -50,7 +54,7 @@ constexpr const char* kHelp =
 // Our own flags, and the rest for ninefold-master's.
 struct CommandLine {
   bool help = false, version = false;
-  std::optional<std::string> frame, tile, phase, recording;
+  std::optional<std::string> frame, tile, phase, lightCameras, recording;
   std::vector<std::string> rest;
 };
 
@@ -60,6 +64,7 @@ CommandLine parseCommandLine(int argc, char** argv) {
       {"--frame", &line.frame},
       {"--tile", &line.tile},
       {"--phase", &line.phase},
+      {"--light-cameras", &line.lightCameras},
       {"--recording", &line.recording}};
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
@@ -138,6 +143,8 @@ TaskAgain fromRecording(const CommandLine& line, const TaskPlace& place) {
   for (const std::string& word : line.rest)
     if (word.starts_with("--") && !word.starts_with("--isa") && !word.starts_with("--clip"))
       failUsage("{}: with --recording the picture is the recorded one; leave it out", word);
+  if (line.lightCameras)
+    failUsage("--light-cameras: with --recording they are the recorded ones; leave it out");
   const Options options = masterOptions(line);
   RecordedTask found = RecordedRun(readRecording(*line.recording)).find(place);
   const Isa isa = isaNamed(options.isa == "auto" ? found.client.isa : options.isa);
@@ -176,13 +183,25 @@ FrameKey frameOf(const std::string& text, uint32_t number, FramePlan& plan) {
   return key;
 }
 
+// "C/C/...", each as --camera has it.
+std::vector<Camera> camerasOf(const Scene& scene, std::string_view text) {
+  std::vector<Camera> cameras;
+  for (const auto part : std::views::split(text, '/'))
+    cameras.push_back(chooseCamera(scene, std::string_view(part.begin(), part.end())));
+  if (cameras.size() > kMostLightCameras)
+    failUsage("--light-cameras: {} are given, at most {} can be", cameras.size(),
+              kMostLightCameras);
+  return cameras;
+}
+
 TaskAgain fromFlags(const CommandLine& line, const TaskPlace& place) {
   const Options options = masterOptions(line);
   const Job job = makeJob(options);
   FramePlan plan(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging);
-  const FrameKey frame = frameOf(*line.frame, place.frame, plan);
+  FrameKey frame = frameOf(*line.frame, place.frame, plan);
   const float weight = plan.neighbourWeight(place.frame);
   const Scene scene = readScene(options.scene, options.clip);
+  if (line.lightCameras) frame.lightCameras = camerasOf(scene, *line.lightCameras);
   return {traced(packScene(scene), isaNamed(options.isa)), job.settings, job.delivery, frame,
           {place.tile, place.phase, job.shape.extraMask},  weight};
 }

@@ -27,6 +27,17 @@ struct Renderer::Impl {
     seen.camera = view.camera, seen.width = view.width, seen.height = view.height;
     return seen;
   }
+  // Those that the light of a frame is made for.
+  std::vector<View> lightViews(const FrameKey& frame) const {
+    if (frame.lightCameras.empty()) return {view};
+    std::vector<View> views;
+    Settings seen = settings();
+    for (const Camera& camera : frame.lightCameras) {
+      seen.camera = camera;
+      views.push_back(viewOf(light->transport, seen));
+    }
+    return views;
+  }
 };
 
 Renderer::Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun)
@@ -41,7 +52,7 @@ Renderer::Renderer(const Renderer& lit, const Settings& settings)
 Renderer::~Renderer() = default;
 
 std::shared_ptr<const FrameLight> Renderer::light(const FrameKey& frame, int set) const {
-  auto light = impl_->light->method->light(frame, set, impl_->view);
+  auto light = impl_->light->method->light(frame, set, impl_->lightViews(frame));
 #ifndef NDEBUG
   const Transport& t = impl_->light->transport;
   checkLight(*light, frame, set, t.tracer.scene(), impl_->settings());

@@ -29,8 +29,9 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Light of set k of a frame, for this camera and size if it needs them. Costs 0.1 to some ms;
-  // share it among the tasks that use it (lightSetOfPhase).
+  // Light of set k of a frame. If it needs a view, it is made for the frame's light cameras, or for
+  // this camera, in this size. Costs 0.1 to some ms; share it among the tasks that use it
+  // (lightSetOfPhase).
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set) const;
 
   // Renders one task into `out`; light = light(task.frame, lightSetOfPhase(task.phase, ...)).

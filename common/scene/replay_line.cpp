@@ -25,15 +25,23 @@ std::string cameraOf(const Scene& scene, const Camera& camera) {
   return std::to_string(found - scene.cameras.begin());
 }
 
+std::string lightCamerasOf(const Scene& scene, const FrameKey& frame) {
+  std::string all;
+  for (const Camera& camera : frame.lightCameras)
+    all += (all.empty() ? " --light-cameras " : "/") + cameraOf(scene, camera);
+  return all;
+}
+
 }  // namespace
 
 std::string replayLine(const Scene& scene, const Settings& s, const FrameKey& frame, int tile,
                        int phase) {
   std::string line = fmt::format(
       "ninefold-replay-task SCENE --frame {}:{}:{}:{:.9g} --tile {} --phase {} --size {}x{} "
-      "--camera {}{}",
+      "--camera {}{}{}",
       frame.frame, frame.randomization, frame.rotation, frame.photonRadius, tile, phase, s.width,
-      s.height, cameraOf(scene, s.camera), s.compensate ? "" : " --preset paper");
+      s.height, cameraOf(scene, s.camera), lightCamerasOf(scene, frame),
+      s.compensate ? "" : " --preset paper");
   forEachSetting([&](const auto& row) {
     if (row.isUsedBy(s.method)) line += flagOf(row, s.*row.member);
   });

@@ -2,8 +2,8 @@
 //
 // The scene's file is named SCENE: clients do not know it. The flags besides the task are those of
 // ninefold-master. Jitter and compensation are those of the preset that is named, if the settings
-// are of one. A camera that is not one of the scene's is told as numbers, and may differ in its
-// last bits.
+// are of one. Cameras that are not the scene's are told as numbers, and may differ in their last
+// bits.
 // Threads: pure.
 #pragma once
 

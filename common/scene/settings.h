@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "common/math/camera.h"
 #include "common/math/units.h"
@@ -43,6 +44,8 @@ struct Settings {
   bool operator==(const Settings&) const = default;
 };
 
+inline constexpr size_t kMostLightCameras = 8;
+
 // What changes from frame to frame. At rest frame i has randomization i and rotation i. While
 // anything moves both stay, so that nothing flickers.
 struct FrameKey {
@@ -50,6 +53,9 @@ struct FrameKey {
   uint32_t randomization = 0;  // randomization index
   uint32_t rotation = 0;       // of the interleave pattern, see interleave.h
   Metres photonRadius = 0;     // r of this frame [m]
+  // Those that light is made for, where a method's light needs the view (methods.h): in motion the
+  // last few, so that it changes little from frame to frame. None: the picture's own.
+  std::vector<Camera> lightCameras = {};
 };
 
 }  // namespace ninefold

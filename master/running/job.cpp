@@ -24,13 +24,20 @@ std::string hashOf(const std::vector<Blob>& blobs) {
   return hex(sha256(names));
 }
 
+std::string candidatesOf(const Settings& s) {
+  if (!factsOf(s.method).has(kReverseVpls)) return "";
+  return fmt::format(" ({} candidates for each, chosen by {} camera points)", s.resampling,
+                     s.cameraPoints);
+}
+
 void tellSettings(const Options& options, const Settings& s) {
   const std::string length =
       s.pathLength == 0 ? "no limit of path length" : fmt::format("path length {}", s.pathLength);
-  log("{}x{} pixels, camera {}, preset {}: {}x{} light sets of {} + {} VPLs and {} photons, {}, "
+  log("{}x{} pixels, camera {}, preset {}: {}x{} light sets of {} + {} VPLs{} and {} photons, {}, "
       "seed {}",
       s.width, s.height, s.camera.name.empty() ? "as given" : s.camera.name, nameOf(options.preset),
-      s.interleave.n, s.interleave.m, s.directVpls, s.indirectVpls, s.photons, length, s.seed);
+      s.interleave.n, s.interleave.m, s.directVpls, s.indirectVpls, candidatesOf(s), s.photons,
+      length, s.seed);
 }
 
 Delivery deliveryOf(const Options& options) {

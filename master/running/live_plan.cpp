@@ -6,6 +6,20 @@
 #include "common/scene/methods.h"
 
 namespace ninefold {
+namespace {
+
+// s of motion_quality.h, by rays: one of a light set takes as long as 23 of pixels, which go in
+// packets.
+double setShareOf(const Settings& s) {
+  constexpr double kSetRay = 23;
+  const auto rays = factsOf(s.method).rays;
+  const double ofSet = rays(s, 0);
+  const double ofPixels = rays(s, double{1} * s.width * s.height / s.interleave.sets()) - ofSet;
+  return kSetRay * ofSet / (kSetRay * ofSet + ofPixels);
+}
+
+}  // namespace
+
 LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
       state_(setup.state),
@@ -50,7 +64,8 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   }
   if (moving_) return std::nullopt;
   moving_ = true;
-  quality_.begin();
+  quality_.begin(setShareOf(settingsAt({})));
+  lightCameras_.clear();
   return supersede();
 }
 
@@ -101,7 +116,10 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   frame.moving = frame.order.urgent = true;
   frame.quality = quality_.current();
   frame.changed = firstUnshown_;
-  hold(frame, planOfRest().next(), plan_);  // the first frame's random bits
+  FrameKey key = planOfRest().next();  // the first frame's random bits
+  const Settings& s = frame.order.settings;
+  if (factsOf(s.method).lightNeedsView) key.lightCameras = lightCameras_.next(s.camera);
+  hold(frame, key, plan_);
   dirty_ = false;
   return frame;
 }
@@ -145,6 +163,11 @@ Settings LivePlan::settingsAt(const Quality& quality) const {
   if (facts.has(kIndirectVpls)) s.indirectVpls = scaled(s.indirectVpls, light);
   if (facts.has(kCausticPhotons)) s.photons = scaled(s.photons, light);
   if (!moving_) return s;
+  // Half of them choose nearly as well, in half the time (docs/performance.md).
+  if (facts.has(kReverseVpls)) {
+    s.resampling = scaled(s.resampling, 0.5);
+    s.cameraPoints = scaled(s.cameraPoints, 0.5);
+  }
   // Light from lit surfaces through glass comes back at rest.
   if (s.caustics == Caustics::all) s.caustics = Caustics::direct;
   // One film position a pixel makes no smooth edge anyway. At random in the pixel it makes edges

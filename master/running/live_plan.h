@@ -7,8 +7,10 @@
 //   motion   From a change until nothing has changed for kSettle. Each newest state gets one frame,
 //            at motion_quality's step; at most kInMotion are open. So that nothing flickers they
 //            have the random bits of the first one, look through the middle of each pixel, and take
-//            caustics from lights alone. An edited scene is announced as moving, and once more when
-//            it rests: sample streams are frozen in between (gi/light/transport.h).
+//            caustics from lights alone. VPLs have half as many candidates. Light that is made for
+//            a view is made for the last few (light_cameras.h). An edited scene is announced as
+//            moving, and once more when it rests: sample streams are frozen in between
+//            (gi/light/transport.h).
 //
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
@@ -25,6 +27,7 @@
 #include <optional>
 
 #include "master/running/frame_plan.h"
+#include "master/running/light_cameras.h"
 #include "master/running/motion_quality.h"
 #include "master/scheduling/frame_order.h"
 
@@ -114,6 +117,7 @@ class LivePlan {
   MotionQuality quality_;
   Delivery atRest_, inMotion_;
   FramePlan plan_;
+  LightCameras lightCameras_;
   bool moving_ = false, dirty_ = false;
   bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;

@@ -50,6 +50,12 @@ TEST(LightSetCache, FramesThatDifferOnlyInNumberAndRotationShare) {
   const auto other = cache.get(moving, 0);
   EXPECT_NE(other.set, first);
   EXPECT_TRUE(other.madeHere);
+  moving.lightCameras.resize(8);
+  const auto seen = cache.get(moving, 0).set;
+  EXPECT_EQ(cache.get(moving, 0).set, seen);
+  EXPECT_NE(seen, other.set);
+  moving.lightCameras[3].eye.x = 1;
+  EXPECT_NE(cache.get(moving, 0).set, seen) << "light for another camera";
 }
 
 TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {

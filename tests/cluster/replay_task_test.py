@@ -90,6 +90,31 @@ class ReplayTask(ClusterTest):
         self.assertGreater(len(done), 1, texts)
         self.assertEqual(len({self.hash_of(text) for text in done}), len(done), "the gesture does not show")
 
+    def test_light_that_was_made_for_the_last_views_is_made_again(self):
+        (self.folder / "s.json").write_text(json.dumps({"seconds": 2, "events": [
+            {"from": 0, "to": 2, "camera": ["0.15,1.5,2.25:0,1.5,-0.5:60", "0.35,1.5,2.2:0.4,1.5,-0.5:60"]}]}))
+        self.new_key()
+        master = self.start(BIN / "ninefold-master", SCENES / "table_room.glb", "--size", "100x75", "--script", "s.json",
+                            "--output", "last.png", "--local-clients", 0, "--key-file", "cluster.key", "--method",
+                            "bidirectional")
+        self.record(master)
+        self.assertEqual(master.ends(), 0, master.text)
+        scene = SCENES / "table_room.glb"
+        texts = [self.again(scene, *self.task(frame, 0, 2), "--recording", "r", status=None) for frame in range(12)]
+        done = [text for text in texts if "hash" in text and "recorded" in text]
+        self.assertGreater(len(done), 3, texts)
+        self.assertEqual(len({self.hash_of(text) for text in done}), len(done), "the walk does not show")
+
+    def test_light_for_other_views_by_a_flag(self):
+        def hash_for(*more):
+            return self.hash_of(self.again(SCENES / "table_room.glb", *self.task("3:0:0:0.1", 0, 2), "--size", "100x75",
+                                           "--method", "bidirectional", *more))
+        own, other = hash_for(), "0.35,1.5,2.2:0.4,1.5,-0.5:60"
+        self.assertEqual(hash_for("--light-cameras", "/".join(8 * "0")), own)
+        self.assertNotEqual(hash_for("--light-cameras", f"0/{other}"), own)
+        self.assertIn("9 are given, at most 8 can be", self.again(SCENES / "table_room.glb", *self.task(0, 0, 0), "--light-cameras",
+                                              "/".join(9 * "0"), status=2))
+
     def test_what_is_not_there_ends_in_one_line(self):
         self.recorded(frames=1)
         scene, recording = SCENES / "cornell.glb", ["--recording", "r"]

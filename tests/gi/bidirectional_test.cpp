@@ -34,12 +34,12 @@ struct Seen {
         t(tracer, testing::small(Method::bidirectional)) {
     Settings s = t.settings;
     s.camera = scene.cameras.front();
-    view = viewOf(t, s);
+    views = {viewOf(t, s)};
   }
   const Scene scene;
   const Tracer tracer;
   const Transport t;
-  View view;
+  std::vector<View> views;
   RayCounts rays;
 };
 
@@ -54,7 +54,7 @@ TEST(ReverseDensity, IntegratesToTheAreaThatRaysHit) {
   double sum = 0, squares = 0;
   constexpr int kSets = 64, kRays = 256;
   for (int k = 0; k < kSets; ++k) {
-    const CameraPoints camera = cameraPoints(s.t, s.view, kKey, k, 37, s.rays);
+    const CameraPoints camera = cameraPoints(s.t, s.views, kKey, k, 37, s.rays);
     ASSERT_GT(camera.points.size(), 0u);
     double ofSet = 0;
     for (const ReversePlace& p : reversePlaces(s.t, camera.points, kKey, k, kRays, s.rays)) {
@@ -83,7 +83,7 @@ TEST(ReverseDensity, TheGuessIsRightOnTheMean) {
   VplGatherScratch scratch;
   constexpr int kSets = 400;
   for (int k = 0; k < kSets; ++k) {
-    const CameraPoints camera = cameraPoints(s.t, s.view, kKey, k, 64, s.rays);
+    const CameraPoints camera = cameraPoints(s.t, s.views, kKey, k, 64, s.rays);
     const double q = double{reverseDensity(s.t, camera.points, y, kNone, s.rays)};
     Worth worth(s.t, camera);
     worth.add({}, lightAt(y), scratch, s.rays);
@@ -102,7 +102,7 @@ TEST(ReverseDensity, TheGuessKnowsThePointThatDrew) {
   double ratio = 0;
   int count = 0;
   for (int k = 0; k < 40; ++k) {
-    const CameraPoints camera = cameraPoints(s.t, s.view, kKey, k, 64, s.rays);
+    const CameraPoints camera = cameraPoints(s.t, {&s.view, 1}, kKey, k, 64, s.rays);
     Worth worth(s.t, camera);
     for (const ReversePlace& y : reversePlaces(s.t, camera.points, kKey, k, 50, s.rays)) {
       worth.add({}, lightAt(y.place), scratch, s.rays);
@@ -118,7 +118,7 @@ TEST(ReverseDensity, TheGuessKnowsThePointThatDrew) {
 
 TEST(ReverseDensity, TheBackOfAWallIsAnotherPlace) {
   Seen s(boxInBox());
-  const CameraPoints camera = cameraPoints(s.t, s.view, kKey, 0, 64, s.rays);
+  const CameraPoints camera = cameraPoints(s.t, s.views, kKey, 0, 64, s.rays);
   const Vec3 ceiling(0.3f, 1, 0.2f), down(0, -1, 0);
   EXPECT_GT(reverseDensity(s.t, camera.points, {ceiling, down, 1e-6f}, kNone, s.rays), 0);
   EXPECT_EQ(reverseDensity(s.t, camera.points, {ceiling, -down, 1e-6f}, kNone, s.rays), 0);
@@ -130,8 +130,24 @@ TEST(CameraPoints, AViewOfNothingHasNone) {
   b.quad(b.material(testing::matte(Vec3(0.5f), Vec3(1))), Vec3(-1, -1, 0), Vec3(2, 0, 0),
          Vec3(0, 2, 0));
   Seen s(b.camera(Vec3(0, 0, 1), Vec3(0, 0, 2), 0.5f).build());
-  EXPECT_EQ(cameraPoints(s.t, s.view, kKey, 0, 64, s.rays).points.size(), 0u);
+  EXPECT_EQ(cameraPoints(s.t, s.views, kKey, 0, 64, s.rays).points.size(), 0u);
   EXPECT_EQ(testing::render(s.tracer, testing::small(Method::bidirectional), 4).grey(), 0);
+}
+
+// The box's ceiling and its floor, seen by one view each: so many of the points belong to each.
+TEST(CameraPoints, BelongToTheViewsInEqualNumbers) {
+  SceneBuilder b;
+  b.box(b.material(testing::matte(Vec3(0.5f), Vec3(1))), Vec3(-1), Vec3(1), true);
+  Seen s(b.camera(Vec3(0), Vec3(0, 1, 0), 0.5f, Vec3(0, 0, 1)).build());
+  Settings down = s.t.settings;
+  down.camera = s.scene.cameras.front();
+  down.camera.forward = Vec3(0, -1, 0);
+  const std::vector<View> views{s.views[0], viewOf(s.t, down), s.views[0], s.views[0]};
+  const Receivers points = cameraPoints(s.t, views, kKey, 0, 64, s.rays).points;
+  ASSERT_EQ(points.size(), 64u);
+  const auto low =
+      std::count_if(points.py.begin(), points.py.begin() + 64, [](float y) { return y < -0.999f; });
+  EXPECT_EQ(low, 16);
 }
 
 // Two rooms and a hole in the wall between. The lamp is in one, the camera in the other. All light
@@ -168,6 +184,29 @@ TEST(Bidirectional, FindsLightThroughAKeyholeWhereInstantRadiosityDoesNot) {
   EXPECT_LT(both.error(), 0.1 * reference.grey());
   // Its own stated error is no help here: it is that of the paths it found.
   EXPECT_LT(lamps.grey(), 0.8 * reference.grey()) << "instant radiosity finds it as well";
+}
+
+// Light that was made for other views has the same mean: for half of what the camera sees, for
+// nothing that it sees, and for nothing at all.
+TEST(Bidirectional, LightForOtherViewsHasTheSameMean) {
+  const Scene scene = keyhole(0.3f);
+  const Tracer tracer(scene, Isa::automatic);
+  const Camera own = scene.cameras.front();
+  Camera lampRoom = own, outside = own;
+  lampRoom.eye = Vec3(0.3f, 0.3f, 0.9f), lampRoom.forward = glm::normalize(Vec3(1, -0.3f, -1));
+  outside.eye = Vec3(0, 50, 0), outside.forward = Vec3(1, 0, 0);
+  Settings s = inOneSet(Method::bidirectional);
+  const auto alone = testing::render(tracer, s, 300);
+  s.seed = 2;
+  for (const std::vector<Camera>& cameras :
+       {std::vector{own, lampRoom}, std::vector(kMostLightCameras, lampRoom),
+        std::vector{outside}}) {
+    const auto other = testing::render(tracer, s, 300, nullptr, cameras);
+    const double error = std::hypot(alone.error(), other.error());
+    EXPECT_NEAR(other.grey(), alone.grey(), 4 * error);
+    EXPECT_LT(error, 0.15 * alone.grey());
+    EXPECT_NE(other.pixels, alone.pixels);
+  }
 }
 
 // The limit counts D vertices through both families, also where VPLs are kept apart by count.

@@ -58,7 +58,7 @@ TEST(EqualPartition, EachPlaceKnowsTheDensityOfItsRay) {
   const View view = viewOf(t, s);
   RayCounts rays;
   const FrameKey key{0, 0, 0, 0.1f};
-  const CameraPoints one = cameraPoints(t, view, key, 0, 1, rays);
+  const CameraPoints one = cameraPoints(t, {&view, 1}, key, 0, 1, rays);
   ASSERT_EQ(one.points.size(), 1u);
   const auto places = reversePlaces(t, one.points, key, 0, 100, rays);
   ASSERT_EQ(places.size(), 100u);

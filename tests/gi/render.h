@@ -37,8 +37,10 @@ inline Vec3 pixelAt(const RgbPlane& plane, size_t i) {
 }
 
 // Unfiltered: layers composed as reflectance * E + U. `begun`: what a gesture began with, or null.
+// `lightCameras`: of all keys.
 inline Rendered render(const Tracer& tracer, Settings settings, int frames,
-                       const Tracer* begun = nullptr) {
+                       const Tracer* begun = nullptr,
+                       const std::vector<Camera>& lightCameras = {}) {
   settings.camera = tracer.scene().cameras.front();
   settings.environment = tracer.scene().environment;
   const auto then = begun != nullptr ? std::make_unique<Renderer>(*begun, settings) : nullptr;
@@ -49,7 +51,8 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames,
   out.pixels.assign(static_cast<size_t>(settings.width * settings.height), Vec3(0));
   TileResult tile;
   for (uint32_t frame = 0; frame < static_cast<uint32_t>(frames); ++frame) {
-    const FrameKey key{frame, frame, frame, settings.photonRadius * tracer.scene().bounds.radius()};
+    const FrameKey key{frame, frame, frame, settings.photonRadius * tracer.scene().bounds.radius(),
+                       lightCameras};
     double sum = 0;
     for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
       const auto lights =

@@ -20,15 +20,24 @@ std::vector<float> numbers(size_t count, uint64_t seed) {
   return all;
 }
 
-// Mean over the whole range of u of sum value/p.
+constexpr Metres kRadius = 2;
+
+std::vector<Kept> resampled(const std::vector<float>& worth, int count, uint64_t key) {
+  std::vector<Vec3> positions;
+  const std::vector<float> xyz = numbers(3 * worth.size(), 11);
+  for (size_t i = 0; i < worth.size(); ++i)
+    positions.emplace_back(xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]);
+  return resample(worth, positions, count, kRadius, key);
+}
+
+// Mean over many keys of sum value/p.
 double meanKept(const std::vector<float>& worth, const std::vector<float>& value, int count) {
-  constexpr int kSteps = 4096;
+  constexpr int kKeys = 4096;
   double sum = 0;
-  for (int step = 0; step < kSteps; ++step)
-    for (const Kept& kept :
-         resample(worth, count, (static_cast<float>(step) + 0.5f) / static_cast<float>(kSteps)))
+  for (uint64_t key = 0; key < kKeys; ++key)
+    for (const Kept& kept : resampled(worth, count, key))
       sum += double{value[kept.index]} * double{kept.gain};
-  return sum / kSteps;
+  return sum / kKeys;
 }
 
 TEST(Resampling, KeepsTheSumWhateverTheWorth) {
@@ -43,9 +52,9 @@ TEST(Resampling, KeepsTheSumWhateverTheWorth) {
 
 TEST(Resampling, KeepsSoManyAndNoneTwice) {
   const std::vector<float> worth = numbers(50, 3);
-  for (const float u : numbers(20, 4)) {
-    const std::vector<Kept> kept = resample(worth, 7, u);
-    EXPECT_NEAR(static_cast<double>(kept.size()), 7, 1);
+  for (uint64_t key = 0; key < 20; ++key) {
+    const std::vector<Kept> kept = resampled(worth, 7, key);
+    EXPECT_EQ(kept.size(), 7u);
     for (size_t i = 1; i < kept.size(); ++i) EXPECT_LT(kept[i - 1].index, kept[i].index);
     for (const Kept& each : kept) EXPECT_GE(each.gain, 1);
   }
@@ -54,8 +63,8 @@ TEST(Resampling, KeepsSoManyAndNoneTwice) {
 TEST(Resampling, ACandidateWorthMoreThanAPlaceIsKeptForCertain) {
   std::vector<float> worth(40, 0.01f);
   worth[17] = 10;
-  for (const float u : numbers(50, 5)) {
-    const std::vector<Kept> kept = resample(worth, 5, u);
+  for (uint64_t key = 0; key < 50; ++key) {
+    const std::vector<Kept> kept = resampled(worth, 5, key);
     const auto found = std::ranges::find(kept, 17u, &Kept::index);
     ASSERT_NE(found, kept.end());
     EXPECT_EQ(found->gain, 1);
@@ -63,11 +72,11 @@ TEST(Resampling, ACandidateWorthMoreThanAPlaceIsKeptForCertain) {
 }
 
 TEST(Resampling, FewCandidatesAreAllKeptAsTheyAre) {
-  const std::vector<Kept> kept = resample(numbers(4, 6), 4, 0.9f);
+  const std::vector<Kept> kept = resampled(numbers(4, 6), 4, 9);
   ASSERT_EQ(kept.size(), 4u);
   for (const Kept& each : kept) EXPECT_EQ(each.gain, 1);
-  EXPECT_TRUE(resample({}, 4, 0.5f).empty());
-  EXPECT_TRUE(resample(numbers(4, 6), 0, 0.5f).empty());
+  EXPECT_TRUE(resampled({}, 4, 5).empty());
+  EXPECT_TRUE(resampled(numbers(4, 6), 0, 5).empty());
 }
 
 }  // namespace

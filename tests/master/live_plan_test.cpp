@@ -373,6 +373,71 @@ TEST_F(LivePlanTest, ASelectionIsNoChangeAtRestAndIsThereInMotion) {
   EXPECT_EQ(done().order.extraMask, kPickPlanes);
 }
 
+// Light that is made for a view: in motion each frame's camera takes the place of the oldest of
+// eight.
+TEST_F(LivePlanTest, LightInMotionIsMadeForTheLastEightCameras) {
+  LivePlan::Setup needing = setup();
+  needing.state.settings.method = Method::bidirectional;
+  needing.state.settings.camera.name = "door";
+  plan = LivePlan(needing, now);
+  EXPECT_TRUE(done().order.key.lightCameras.empty());
+  const auto xs = [](const LiveFrame& frame) {
+    std::vector<float> all;
+    for (const Camera& camera : frame.order.key.lightCameras) {
+      EXPECT_EQ(camera.name, "") << "a name is no part of the light";
+      all.push_back(camera.eye.x);
+    }
+    return all;
+  };
+  using Xs = std::vector<float>;
+  const auto walked = [&](float x) { return moveTo(x), xs(done()); };
+  EXPECT_EQ(walked(1), Xs({1, 1, 1, 1, 1, 1, 1, 1}));
+  EXPECT_EQ(walked(2), Xs({1, 2, 1, 1, 1, 1, 1, 1}));
+  for (int x = 3; x < 9; ++x) walked(static_cast<float>(x));
+  EXPECT_EQ(walked(9), Xs({9, 2, 3, 4, 5, 6, 7, 8}));
+  pass(LivePlan::kSettle);
+  EXPECT_TRUE(done().order.key.lightCameras.empty());
+  EXPECT_EQ(walked(10), Xs(8, 10)) << "a new gesture may begin far away";
+}
+
+TEST_F(LivePlanTest, VplsInMotionHaveHalfAsManyCandidates) {
+  moveTo(1);
+  const Settings standard = done().order.settings;
+  EXPECT_EQ(standard.resampling, Settings{}.resampling) << "it has no use for them";
+  LivePlan::Setup choosing = setup();
+  choosing.state.settings.method = Method::bidirectional;
+  choosing.state.settings.resampling = 1;
+  plan = LivePlan(choosing, now);
+  moveTo(1);
+  const Settings s = done().order.settings;
+  EXPECT_EQ(s.resampling, 1);
+  EXPECT_EQ(s.cameraPoints, Settings{}.cameraPoints / 2);
+  EXPECT_EQ(s.indirectVpls, Settings{}.indirectVpls);
+}
+
+// A full frame takes four times as long as it may. Where light sets take much of it, smaller frames
+// do not save enough.
+TEST_F(LivePlanTest, DearLightSetsAreThinnedSooner) {
+  const auto thinned = [&](Method method) {
+    LivePlan::Setup large = setup();
+    large.state.settings.width = 640, large.state.settings.height = 480;
+    large.state.settings.method = method;
+    plan = LivePlan(large, now);
+    const LiveFrame frame = opened();
+    pass(milliseconds(400));
+    finish(frame);
+    moveTo(1);
+    return done().order.settings.indirectVpls < Settings{}.indirectVpls;
+  };
+  EXPECT_FALSE(thinned(Method::instantRadiosity));
+  EXPECT_TRUE(thinned(Method::bidirectional));
+}
+
+TEST_F(LivePlanTest, LightThatNeedsNoViewIsMadeForNone) {
+  moveTo(1);
+  EXPECT_TRUE(done().order.key.lightCameras.empty());
+}
+
 TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
   const uint32_t before = done().order.job;
   LiveState state = plan.state();

@@ -85,10 +85,13 @@ class Client {
     if (!waits_) carryOut();
   }
 
-  // Two tasks of a frame, as they would travel.
+  // Two tasks of a frame, as they would travel. The key says all about the views that light is made
+  // for.
   std::vector<Bytes> renders() {
     FrameKey key;
     key.photonRadius = 0.05f;
+    key.lightCameras.resize(kMostLightCameras);
+    key.lightCameras[3].eye = Vec3(0.2f, 0.1f, 0.3f);
     const auto job = answered_.job(questions_);
     std::vector<Bytes> results;
     for (const uint32_t phase : {0u, 4u})

@@ -29,6 +29,9 @@ class OneProcess {
     beauty_.reset(settings.width, settings.height);
   }
 
+  // Those that the light of the next frames is made for; none: the picture's own.
+  void setLightCameras(const std::vector<Camera>& cameras) { lightCameras_ = cameras; }
+
   // As clients filter it: neighbours fade from frame to frame.
   const RgbImage& nextFrame() {
     trace();
@@ -51,7 +54,8 @@ class OneProcess {
   // The next frame as it is before the filter.
   GatheredFrame& trace() {
     FrameView& view = frame_.view;
-    view.key = plan_.next(), view.neighbourWeight = plan_.neighbourWeight(view.key.frame);
+    view.key = plan_.next(), view.key.lightCameras = lightCameras_;
+    view.neighbourWeight = plan_.neighbourWeight(view.key.frame);
     const int tiles = view.shape.grid.tiles(), sets = settings_.interleave.sets();
     frame_.tasks.clear(), frame_.tasks.resize(static_cast<size_t>(tiles * sets));
     for (int phase = 0; phase < sets; ++phase) {
@@ -98,6 +102,7 @@ class OneProcess {
   Renderer renderer_;
   std::unique_ptr<Scratch> scratch_;
   FramePlan plan_;
+  std::vector<Camera> lightCameras_;
   GatheredFrame frame_;
   TileEncoder encoder_;
   TileDecoder decoder_;

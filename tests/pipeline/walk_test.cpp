@@ -6,6 +6,7 @@
 
 #include "common/image/metrics.h"
 #include "common/scene/reader.h"
+#include "master/running/light_cameras.h"
 #include "master/running/live_picture.h"
 #include "tests/pipeline/one_process.h"
 
@@ -20,6 +21,7 @@ Settings small(bool moving) {
   // As a LivePlan has it.
   settings.jitter = !moving;
   settings.caustics = moving ? Caustics::direct : Caustics::all;
+  if (moving) settings.resampling /= 2, settings.cameraPoints /= 2;
   return settings;
 }
 
@@ -66,18 +68,31 @@ RgbImage reference(const Tracer& tracer, const Camera& camera) {
   return mean;
 }
 
-class Walk : public ::testing::TestWithParam<const char*> {};
+struct Way {
+  const char* scene;
+  Method method;
+};
+
+class Walk : public ::testing::TestWithParam<Way> {};
 
 TEST_P(Walk, LightUsedAgainAndTheMiddleOfPixelsLowerTheError) {
-  const Scene scene = readScene(NINEFOLD_SCENES "/" + std::string(GetParam()) + ".glb");
+  const auto [name, method] = GetParam();
+  const Scene scene = readScene(NINEFOLD_SCENES "/" + std::string(name) + ".glb");
   const Tracer tracer(scene, Isa::automatic);
-  Settings jittered = small(true);
+  Settings middle = small(true);
+  middle.method = method;
+  Settings jittered = middle;
   jittered.jitter = true;
   const auto walk = [&](const Settings& settings, bool reuses, int first) {
     Session session(reuses);
+    LightCameras light;
     RgbImage last;
-    for (int step = first; step < kSteps; ++step) {
-      testing::OneProcess process(tracer, settings, nullptr, after(scene.cameras.front(), step));
+    for (int step = 0; step < kSteps; ++step) {
+      const Camera camera = after(scene.cameras.front(), step);
+      const std::vector<Camera>& cameras = light.next(camera);
+      if (step < first) continue;
+      testing::OneProcess process(tracer, settings, nullptr, camera);
+      process.setLightCameras(cameras);
       GatheredFrame& frame = process.trace();
       frame.view.key.frame = static_cast<uint32_t>(step);
       last = session.shown(frame);
@@ -88,18 +103,26 @@ TEST_P(Walk, LightUsedAgainAndTheMiddleOfPixelsLowerTheError) {
   const auto errorOf = [&](const RgbImage& image) {
     return compareImages(image, truth).relMseTrimmed;
   };
-  const RgbImage reused = walk(small(true), true, 0), alone = walk(small(true), false, kSteps - 1);
+  const RgbImage reused = walk(middle, true, 0), alone = walk(middle, false, kSteps - 1);
   const double torn = errorOf(walk(jittered, false, kSteps - 1));
-  std::printf("%-12s relMSE trimmed: %.4f jittered, %.4f alone, %.4f with light used again\n",
-              GetParam(), torn, errorOf(alone), errorOf(reused));
+  std::printf("%-10s %-17s relMSE trimmed: %.4f jittered, %.4f alone, %.4f with light used again\n",
+              name, factsOf(method).name, torn, errorOf(alone), errorOf(reused));
   EXPECT_LT(errorOf(alone), torn);
   EXPECT_LT(errorOf(reused), 0.95 * errorOf(alone));
   const Metrics a = compareImages(reused, truth), b = compareImages(alone, truth);
   for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.bias[c], b.bias[c], 0.02) << "channel " << c;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, Walk, ::testing::Values("table_room", "office"),
-                         [](const auto& scene) { return std::string(scene.param); });
+INSTANTIATE_TEST_SUITE_P(Of, Walk,
+                         ::testing::Values(Way{"table_room", Method::instantRadiosity},
+                                           Way{"office", Method::instantRadiosity},
+                                           Way{"table_room", Method::bidirectional}),
+                         [](const auto& way) {
+                           std::string name = way.param.scene + std::string("_by_");
+                           name += factsOf(way.param.method).name;
+                           std::ranges::replace(name, '-', '_');  // as test names must be
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace ninefold

@@ -61,7 +61,12 @@ std::vector<Message> oneOfEach() {
       msg::Configure{3, 4, oddSettings(), {9, Delivery::Form::display, SurfaceTest::none, -1.5f}},
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
-      msg::Tasks{4, {10, 11, 12, 0.25f}, {{1, 2, 3}, {4, 255, 31}}, 0.5f, true, milliseconds(1500)},
+      msg::Tasks{4,
+                 {10, 11, 12, 0.25f, std::vector(kMostLightCameras, oddSettings().camera)},
+                 {{1, 2, 3}, {4, 255, 31}},
+                 0.5f,
+                 true,
+                 milliseconds(1500)},
       msg::Cancel{4, 10},
       msg::Result{4, 10, 1, 2, 12345, 3, 6, 7, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::Ping{1},
@@ -97,6 +102,7 @@ TEST(Messages, FieldsArriveWhereTheyBelong) {
   EXPECT_EQ(result.encoded.size(), 100u);
   const auto tasks = std::get<msg::Tasks>(decode(oneOfEach()[9]));
   EXPECT_EQ(tasks.frame.rotation, 12u);
+  EXPECT_EQ(tasks.frame.lightCameras, std::vector(kMostLightCameras, oddSettings().camera));
   EXPECT_EQ(tasks.items[1], (msg::TaskItem{4, 255, 31}));
   EXPECT_TRUE(tasks.urgent);
   EXPECT_EQ(std::get<msg::Edit>(decode(oneOfEach()[15])).edit, oddEdit());
@@ -299,6 +305,31 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
   }
 }
 
+// What the light of a frame is made for, as the settings' own camera.
+TEST(Messages, LightCamerasOutOfRangeAreNamed) {
+  const auto with = [](const Camera& camera) {
+    return refusal(msg::Tasks{1, {0, 0, 0, 0, {Camera{}, camera}}, {{0, 0, 0}}});
+  };
+  EXPECT_EQ(with(Camera{}), "");
+  Camera camera;
+  camera.eye.y = INFINITY;
+  EXPECT_NE(with(camera).find("camera eye"), std::string::npos);
+  camera = {}, camera.verticalFov = NAN;
+  EXPECT_NE(with(camera).find("field of view"), std::string::npos);
+
+  Frame frame = encodeMessage(Message(oneOfEach()[9]));
+  pb::Tasks tasks;
+  ASSERT_TRUE(tasks.ParseFromString(frame.header));
+  *tasks.mutable_frame()->add_light_cameras() = tasks.frame().light_cameras(0);
+  tasks.SerializeToString(&frame.header);
+  try {
+    decodeMessage(std::move(frame), Peer::master);
+    FAIL() << "nine are accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("9 light cameras"), std::string::npos) << error.what();
+  }
+}
+
 // A Goodbye as a hostile peer may write it: field 1, length, bytes.
 Frame goodbye(const std::string& text) {
   std::string header = "\x0a";
@@ -355,7 +386,9 @@ TEST(Messages, LargestListsFitTheirLimits) {
   msg::SceneOffer offer{~0u, {}};
   offer.blobs.assign(kMaxBlobs, {someHash(0xff), kMaxBlobBytes, BlobKind::meshes});
   EXPECT_EQ(refusal(Message(offer)), "");
-  msg::Tasks tasks{~0u, {~0u, ~0u, ~0u, 1e30f}, {}};
+  Camera longNamed = oddSettings().camera;
+  longNamed.name.assign(kMaxText, 'x');
+  msg::Tasks tasks{~0u, {~0u, ~0u, ~0u, 1e30f, std::vector(kMostLightCameras, longNamed)}, {}};
   tasks.items.assign(kMaxTasksPerMessage, {~0u, 255, 31});
   EXPECT_EQ(refusal(Message(tasks)), "");
 }

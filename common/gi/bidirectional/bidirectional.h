@@ -8,7 +8,9 @@
 //                                                                         reverse_places.h
 //   3  each path belongs to one family or is shared between both          partition.h
 //   4  worth of each candidate, from guesses of its power                 worth.h
-//   5  few are kept; their power is made exact                            resampling.h, raw_light.h
+//   5  few are kept, evenly in space                                      resampling.h,
+//                                                                         tournament.h
+//   6  their power is made exact                                          raw_light.h
 //
 // The set is good for any point, but best for those that its view sees. It costs about ten times as
 // much as one of instant radiosity, so that small pictures gain less.
@@ -33,7 +35,7 @@ class Bidirectional final : public LightSetMethod {
   Bidirectional(const Transport& transport, const Bidirectional* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
-                                          const View& view) const override;
+                                          std::span<const View> views) const override;
 
  private:
   const int pathsLog2_;  // of the candidates, see indirect_vpls.h

@@ -43,9 +43,11 @@ std::optional<End> follow(const Transport& t, const View& view, Vec2 film, float
 
 }  // namespace
 
-CameraPoints cameraPoints(const Transport& t, const View& view, const FrameKey& frame, int k,
-                          int count, RayCounts& rays) {
-  const int log2Count = log2Ceil(count);
+CameraPoints cameraPoints(const Transport& t, std::span<const View> views, const FrameKey& frame,
+                          int k, int count, RayCounts& rays) {
+  const auto n = static_cast<uint32_t>(views.size());
+  const uint32_t perView = (static_cast<uint32_t>(count) + n - 1) / n;
+  const int log2Count = log2Ceil(static_cast<int>(n * perView));
   const Randomization points = t.settings.partition == PartitionRule::equal
                                    ? Randomization::random
                                    : t.settings.randomization;
@@ -54,10 +56,11 @@ CameraPoints cameraPoints(const Transport& t, const View& view, const FrameKey& 
   const PixelStream chains(t.settings.seed, SampleUse::cameraPoint, frame.randomization, 1, points);
   CameraPoints found;
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
-    const auto end = follow(t, view, film.get2D(i, 0), film.get1D(i, 2),
-                            PixelSampler(chains, i, static_cast<uint32_t>(k), 0), rays);
+    const uint32_t v = i % n, sample = v * perView + i / n;  // those of a view are in a row
+    const auto end = follow(t, views[v], film.get2D(sample, 0), film.get1D(sample, 2),
+                            PixelSampler(chains, sample, static_cast<uint32_t>(k), 0), rays);
     if (!end) continue;
-    found.points.add(receiverAt(end->x, i, end->absorber));
+    found.points.add(receiverAt(end->x, sample, end->absorber));
     found.shares.push_back(end->share);
   }
   found.points.pad();

@@ -1,5 +1,6 @@
-// camera_points.h: what a view looks at: D ends x_1 ... x_M of M eye paths E S* D, stratified over
-// the picture; with --partition equal independent, as estimated_density.h needs them.
+// camera_points.h: what one or more views look at: D ends x_1 ... x_M of M eye paths E S* D. Point i
+// is of view i mod n. Those of a view are stratified over its picture; with --partition equal all are
+// independent, as estimated_density.h needs them.
 //
 // A path whose first hit has several lobes follows one of them, chosen by albedo. A path that finds
 // no diffuse point leaves none. So there may be fewer than M, or none at all.
@@ -9,6 +10,7 @@
 // Source:  Segovia et al. 2006, section 3.1.   Threads: pure functions.   Errors: none.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "common/base/counters.h"
@@ -23,7 +25,7 @@ struct CameraPoints {
 };
 
 // Those of set k of a frame; count: M.
-CameraPoints cameraPoints(const Transport& transport, const View& view, const FrameKey& frame,
-                          int k, int count, RayCounts& rays);
+CameraPoints cameraPoints(const Transport& transport, std::span<const View> views,
+                          const FrameKey& frame, int k, int count, RayCounts& rays);
 
 }  // namespace ninefold

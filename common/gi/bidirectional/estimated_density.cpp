@@ -11,12 +11,12 @@ constexpr int kMostSets = 256;
 
 }  // namespace
 
-EstimatedDensity::EstimatedDensity(const Transport& t, const View& view, const FrameKey& frame,
-                                   int k, int shot, RayCounts& rays)
+EstimatedDensity::EstimatedDensity(const Transport& t, std::span<const View> views,
+                                   const FrameKey& frame, int k, int shot, RayCounts& rays)
     : t_(t),
-      origins_(cameraPoints(t, view, frame, kMostSets + k, shot, rays)),
-      others_(cameraPoints(t, view, frame, k, t.settings.cameraPoints - 1, rays)),
-      few_(cameraPoints(t, view, frame, k, kFew, rays)) {}
+      origins_(cameraPoints(t, views, frame, kMostSets + k, shot, rays)),
+      others_(cameraPoints(t, views, frame, k, t.settings.cameraPoints - 1, rays)),
+      few_(cameraPoints(t, views, frame, k, kFew, rays)) {}
 
 float EstimatedDensity::with(const Receivers& others, const ReversePlace& y,
                              RayCounts& rays) const {

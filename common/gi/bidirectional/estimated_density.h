@@ -29,8 +29,8 @@ namespace ninefold {
 class EstimatedDensity {
  public:
   // Of set k of a frame. `shot`: rays.
-  EstimatedDensity(const Transport& transport, const View& view, const FrameKey& frame, int k,
-                   int shot, RayCounts& rays);
+  EstimatedDensity(const Transport& transport, std::span<const View> views, const FrameKey& frame,
+                   int k, int shot, RayCounts& rays);
 
   // Where the rays start.
   const Receivers& origins() const { return origins_.points; }

@@ -48,7 +48,7 @@ int reverseRays(const Settings& s) { return s.resampling * s.indirectVpls; }
 }  // namespace
 
 LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensity, int pathsLog2,
-                       const FrameKey& frame, int set, const View& view)
+                       const FrameKey& frame, int set, std::span<const View> views)
     : t_(t),
       frame_(frame),
       k_(set),
@@ -58,13 +58,13 @@ LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensit
                kFirstUse + kMostSets + static_cast<uint32_t>(set)),
       candidates_(standardCandidates(t, frame, set, pathsLog2)),
       raw_(t, rawSet(t, frame, set, pathsLog2)),
-      camera_(cameraPoints(t, view, frame, set, t.settings.cameraPoints, rays_)),
+      camera_(cameraPoints(t, views, frame, set, t.settings.cameraPoints, rays_)),
       partition_{t, camera_.points, standardDensity,
                  pathsLog2 < 0 ? 0 : static_cast<double>(1u << pathsLog2),
                  static_cast<double>(shot_)},
       estimated_(
           partition_.isEqual() && shot_ > 0
-              ? std::optional<EstimatedDensity>(std::in_place, t, view, frame, set, shot_, rays_)
+              ? std::optional<EstimatedDensity>(std::in_place, t, views, frame, set, shot_, rays_)
               : std::nullopt),
       places_(reversePlaces(t, estimated_ ? estimated_->origins() : camera_.points, frame, set,
                             shot_, rays_)) {}
@@ -86,8 +86,7 @@ Worth LightMaker::worths() {
     worth.add(candidates_, vpl, scratch_.vplGather, rays_);
     if (vpl.diffuseCount > 0 && vpl.glossy < 0 && shot_ > 0)
       worth.scale(partition_.standardShare(
-          placeOf(vpl),
-          guessReverseDensity(camera_.points, placeOf(vpl), kNone, worth.reached())));
+          placeOf(vpl), guessReverseDensity(camera_.points, placeOf(vpl), kNone, worth.reached())));
   }
   Receivers y;
   for (const ReversePlace& place : places_) y.add(place.receiver);
@@ -103,6 +102,13 @@ Worth LightMaker::worths() {
     worth.scale(partition_.reverseArea(p.place, guessDensity(p, worth.reached())));
   }
   return worth;
+}
+
+std::vector<Vec3> LightMaker::positions() const {
+  std::vector<Vec3> all;
+  for (const Vpl& vpl : candidates_.vpls) all.push_back(vpl.position);
+  for (const ReversePlace& y : places_) all.push_back(y.place.position);
+  return all;
 }
 
 void LightMaker::keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out) {
@@ -146,10 +152,10 @@ void LightMaker::keepReverse(const std::vector<Kept>& kept, const Worth& worth, 
 void LightMaker::make(LightSet& out) {
   const LightSet& raw = raw_.set();
   const Settings& s = t_.settings;
-  const LightSampler sampler(s.seed, SampleUse::resampling, frame_.randomization,
-                             static_cast<uint32_t>(k_), 0, s.randomization);
+  const uint64_t key = hashWords(s.seed, static_cast<uint64_t>(SampleUse::resampling),
+                                 frame_.randomization, static_cast<uint64_t>(k_));
   const Worth worth = worths();
-  const std::vector<Kept> kept = resample(worth.values(), keptVpls(s), sampler.get1D(0, 0));
+  const std::vector<Kept> kept = resample(worth.values(), positions(), keptVpls(s), t_.radius, key);
   for (const Kept& each : kept)
     if (each.index < candidates_.vpls.size())
       keepStandard(candidates_.vpls[each.index], each.gain, worth.seen(each.index), out);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "common/gi/bidirectional/estimated_density.h"
@@ -18,7 +19,7 @@ namespace ninefold {
 class LightMaker {
  public:
   LightMaker(const Transport& transport, const StandardDensity& standardDensity, int pathsLog2,
-             const FrameKey& frame, int set, const View& view);
+             const FrameKey& frame, int set, std::span<const View> views);
 
   // Adds VPLs and photons to an empty set.
   void make(LightSet& out);
@@ -29,7 +30,8 @@ class LightMaker {
   float guessDensity(const ReversePlace& y, uint32_t reached);
   // Step 4: what the candidates are worth, the standard ones first, then the reverse places.
   Worth worths();
-  // Step 5.
+  std::vector<Vec3> positions() const;  // of the candidates, in the same order
+  // Step 6.
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "common/gi/bidirectional/tournament.h"
+
 namespace ninefold {
 namespace {
 
@@ -23,9 +25,9 @@ double finite(float worth) { return std::isfinite(worth) ? static_cast<double>(w
 
 }  // namespace
 
-std::vector<Kept> resample(std::span<const float> worth, int count, float u) {
-  std::vector<Kept> kept;
-  if (count <= 0) return kept;
+std::vector<Kept> resample(std::span<const float> worth, std::span<const Vec3> positions, int count,
+                           Metres radius, uint64_t key) {
+  if (count <= 0) return {};
   double sum = 0;
   for (const float v : worth) sum += finite(v);
   const double floor = sum > 0 ? sum / static_cast<double>(worth.size()) : 1.0;
@@ -33,18 +35,12 @@ std::vector<Kept> resample(std::span<const float> worth, int count, float u) {
   for (const float v : worth) c.push_back(finite(v) + floor);
   const bool all = worth.size() <= static_cast<size_t>(count);
   const double tau = all ? 0 : threshold(c, static_cast<size_t>(count));
-  double at = static_cast<double>(u);
-  for (uint32_t j = 0; j < c.size(); ++j) {
-    if (all || c[j] >= tau) {
-      kept.push_back({j, 1});
-      continue;
-    }
-    const double p = c[j] / tau;
-    at += p;
-    if (at < 1) continue;
-    at -= 1;
-    kept.push_back({j, static_cast<float>(1 / p)});
-  }
+  std::vector<Contender> contenders;
+  for (size_t j = 0; j < c.size(); ++j)
+    contenders.push_back({positions[j], all || c[j] >= tau ? 1 : c[j] / tau});
+  std::vector<Kept> kept;
+  for (const uint32_t j : tournament(contenders, radius, key))
+    kept.push_back({j, static_cast<float>(1 / contenders[j].p)});
   return kept;
 }
 

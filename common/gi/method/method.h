@@ -2,7 +2,7 @@
 // paths, layers, filter, film, wire) lies outside. The other half, its facts, is plain data, which
 // the master reads, too (scene/methods.h).
 //
-//   light      of one interleaved set: a pure function of (scene, settings, key, set, view)
+//   light      of one interleaved set: a pure function of (scene, settings, key, set, views)
 //   render     one task, lit by it
 //
 // A method is made once per scene and settings, on each client alike. Methods never include each
@@ -13,6 +13,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 
 #include "common/gi/eye/task.h"
@@ -43,10 +44,10 @@ class GiMethod {
   GiMethod(const GiMethod&) = delete;
   GiMethod& operator=(const GiMethod&) = delete;
 
-  // Light of set `set` of a frame. `view` counts only for methods whose light needs it
-  // (scene/methods.h).
+  // Light of set `set` of a frame. `views`: one or more that it is made for; they count only for
+  // methods whose light needs them (scene/methods.h).
   virtual std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
-                                                  const View& view) const = 0;
+                                                  std::span<const View> views) const = 0;
   // `light`: of the task's frame and set. `scratch`: one that makeScratch made.
   virtual void render(const View& view, const Task& task, const FrameLight& light, Scratch& scratch,
                       TileResult& out) const = 0;

@@ -37,7 +37,8 @@ void addPath(TaskContext& c, const FirstHit& first, const PixelSampler& sampler)
 
 }  // namespace
 
-std::shared_ptr<const FrameLight> Reference::light(const FrameKey&, int, const View&) const {
+std::shared_ptr<const FrameLight> Reference::light(const FrameKey&, int,
+                                                   std::span<const View>) const {
   return std::make_shared<const FrameLight>();
 }
 

@@ -18,7 +18,7 @@ class Reference final : public GiMethod {
   using GiMethod::GiMethod;
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
-                                          const View& view) const override;
+                                          std::span<const View> views) const override;
   void render(const View& view, const Task& task, const FrameLight& light, Scratch& scratch,
               TileResult& out) const override;
   std::unique_ptr<Scratch> makeScratch() const override;
