@@ -8,6 +8,7 @@
 #include "common/gi/bidirectional/reverse_density.h"
 #include "common/gi/bidirectional/reverse_places.h"
 #include "common/gi/bidirectional/worth.h"
+#include "common/gi/light_set/light_set.h"
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 
