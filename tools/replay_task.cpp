@@ -143,6 +143,8 @@ TaskAgain fromRecording(const CommandLine& line, const TaskPlace& place) {
   for (const std::string& word : line.rest)
     if (word.starts_with("--") && !word.starts_with("--isa") && !word.starts_with("--clip"))
       failUsage("{}: with --recording the picture is the recorded one; leave it out", word);
+  if (line.lightCameras)
+    failUsage("--light-cameras: with --recording they are the recorded ones; leave it out");
   const Options options = masterOptions(line);
   RecordedTask found = RecordedRun(readRecording(*line.recording)).find(place);
   const Isa isa = isaNamed(options.isa == "auto" ? found.client.isa : options.isa);
@@ -186,6 +188,9 @@ std::vector<Camera> camerasOf(const Scene& scene, std::string_view text) {
   std::vector<Camera> cameras;
   for (const auto part : std::views::split(text, '/'))
     cameras.push_back(chooseCamera(scene, std::string_view(part.begin(), part.end())));
+  if (cameras.size() > kMostLightCameras)
+    failUsage("--light-cameras: {} are given, at most {} can be", cameras.size(),
+              kMostLightCameras);
   return cameras;
 }
 

@@ -105,6 +105,16 @@ class ReplayTask(ClusterTest):
         self.assertGreater(len(done), 3, texts)
         self.assertEqual(len({self.hash_of(text) for text in done}), len(done), "the walk does not show")
 
+    def test_light_for_other_views_by_a_flag(self):
+        def hash_for(*more):
+            return self.hash_of(self.again(SCENES / "table_room.glb", *self.task("3:0:0:0.1", 0, 2), "--size", "100x75",
+                                           "--method", "bidirectional", *more))
+        own, other = hash_for(), "0.35,1.5,2.2:0.4,1.5,-0.5:60"
+        self.assertEqual(hash_for("--light-cameras", "/".join(8 * "0")), own)
+        self.assertNotEqual(hash_for("--light-cameras", f"0/{other}"), own)
+        self.assertIn("9 are given, at most 8 can be", self.again(SCENES / "table_room.glb", *self.task(0, 0, 0), "--light-cameras",
+                                              "/".join(9 * "0"), status=2))
+
     def test_what_is_not_there_ends_in_one_line(self):
         self.recorded(frames=1)
         scene, recording = SCENES / "cornell.glb", ["--recording", "r"]

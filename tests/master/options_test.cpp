@@ -246,5 +246,19 @@ TEST(Options, SettingsTakeCameraAndLightFromTheScene) {
   EXPECT_EQ(makeSettings(parse("a.glb --environment 2"), scene).environment, Radiance(2));
 }
 
+// Light that was made for other views is told with them.
+TEST(Options, AReplayLineHasTheCamerasThatLightIsMadeFor) {
+  const Scene scene = simpleScene();
+  Settings s;
+  s.camera = scene.cameras[0];
+  FrameKey frame{6, 7, 8, 0.25f};
+  EXPECT_EQ(replayLine(scene, s, frame, 3, 2).find("--light-cameras"), std::string::npos);
+  Camera other;
+  other.eye = Vec3(1, 2, 3);
+  frame.lightCameras = {s.camera, other};
+  const std::string line = replayLine(scene, s, frame, 3, 2);
+  EXPECT_NE(line.find(" --light-cameras 0/1,2,3:1,2,2:"), std::string::npos) << line;
+}
+
 }  // namespace
 }  // namespace ninefold
