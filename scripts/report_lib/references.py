@@ -22,8 +22,8 @@ from report_lib.scenes import DARK, TARGETS
 FIRST_SEED = 900001  # tested pictures have small seeds
 LEAST_BATCHES = 4
 TRACER = ("--method", "path-trace")
-# One light set a frame, hence no filter: nothing is blurred.
-BIDIRECTIONAL = ("--method", "bidirectional", "--interleave", "1x1")
+# Nothing is blurred.
+BIDIRECTIONAL = ("--method", "bidirectional", "--filter", "none")
 NOISE_RELMSE, TARGETS_NOISE_RELMSE = 0.01, 0.0008
 
 

@@ -32,7 +32,7 @@ SCENES = {
 }
 # The same by method; of the reference first.
 DARK_SCENES = {
-    "u_office": {BOTH_ENDS: (768, 0.015), REFERENCE: (128, 0.02), "instant-radiosity": (768, 0.03)},
+    "u_office": {BOTH_ENDS: (768, 0.01), REFERENCE: (192, 0.01), "instant-radiosity": (768, 0.02)},
 }
 
 

@@ -14,11 +14,7 @@
 namespace ninefold {
 namespace {
 
-using testing::Outcome;
-
-Outcome compare(const std::string& arguments) {
-  return testing::runProgram("ninefold-compare", arguments);
-}
+Outcome compare(const std::string& arguments) { return runTool("ninefold-compare", arguments); }
 
 // Two grey images of 10 x 10 pixels, 1.1 and 1, and one of 10 x 11.
 class Compare : public testing::Test {

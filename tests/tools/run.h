@@ -6,14 +6,14 @@
 #include <cstdio>
 #include <string>
 
-namespace ninefold::testing {
+namespace ninefold {
 
 struct Outcome {
   int status = 0;
   std::string output;  // stdout, then stderr unless the arguments say otherwise
 };
 
-inline Outcome runProgram(const std::string& name, const std::string& arguments) {
+inline Outcome runTool(const std::string& name, const std::string& arguments) {
   const std::string command =
       std::string(NINEFOLD_BIN) + "/" + name + " " +
       (arguments.find('>') == std::string::npos ? arguments + " 2>&1" : arguments);
@@ -25,4 +25,4 @@ inline Outcome runProgram(const std::string& name, const std::string& arguments)
   return run;
 }
 
-}  // namespace ninefold::testing
+}  // namespace ninefold
