@@ -17,7 +17,7 @@ namespace ninefold {
 // Raised whenever the meaning of any message, the tiles' or the scenes' format changes.
 inline constexpr uint32_t kProtocol = 3;
 
-inline constexpr std::string_view kMessagesDigest = "603dd36de3fc15ce";
+inline constexpr std::string_view kMessagesDigest = "5792c48490fa8acd";
 inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
 inline constexpr std::string_view kScenesDigest = "fde0a0c2619dbf8c";
 

@@ -23,10 +23,10 @@ struct Settings {
   int width = 640, height = 480;
   Camera camera;
   Interleave interleave;
-  int directVpls = 4;     // per set
-  int indirectVpls = 18;  // per set, mean
-  int photons = 1000;     // caustic photons per set
-  int resampling = 10;    // r: candidates for each VPL that is kept (resampling.h)
+  int directVpls = 4;      // per set
+  int indirectVpls = 18;   // per set, mean
+  int photons = 1000;      // caustic photons per set
+  int resampling = 10;     // r: candidates for each VPL that is kept (resampling.h)
   int cameraPoints = 256;  // M, per set (camera_points.h)
   PartitionRule partition = PartitionRule::balance;  // of paths that both families find
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
