@@ -77,9 +77,8 @@ TEST(StraightLight, DoesNotPassWhereItIsBent) {
 // Furnace: walls of albedo a that emit 1 show 1/(1-a), and clear panes change nothing: close before
 // a wall, where the geometry term is bounded and comes back by rays through the pane, and one
 // behind the other. No light is counted twice: photons still bring what the panes reflect.
-// Where a pane and a veil stand close before the same wall, methods with VPLs and photons lack 1.3 to
-// 1.6 %: 1.974 +- 0.005 by instant radiosity and 1.968 +- 0.003 by the bidirectional method, means of
-// three and eight seeds. With one pane or veil alone nothing is missing.
+// What the pane reflects comes by photons. Their radius blurs it where veil and pane stand close before
+// the wall: with 2,000 photons a set 1.970 +- 0.004 are left of 2, with 20,000 1.992 +- 0.004.
 TEST(StraightLight, PanesBeforeAWallAreInvisibleInAFurnace) {
   SceneBuilder b;
   b.box(b.material(testing::matte(Vec3(kAlbedo), Vec3(1))), Vec3(-1), Vec3(1), true);
@@ -89,10 +88,13 @@ TEST(StraightLight, PanesBeforeAWallAreInvisibleInAFurnace) {
   b.quad(veil, Vec3(-0.9f, -0.9f, -0.9f), Vec3(1.8f, 0, 0), Vec3(0, 1.8f, 0));
   b.camera(Vec3(0, 0.1f, 0.95f), Vec3(0.05f, -0.6f, -0.9f), 1.0f);
   const Scene scene = b.build();
-  for (const int n : {1, 0})
-    testing::expectRadiance(scene, testing::estimators(8, n), testing::furnaceRadiance(kAlbedo, n),
-                            {.frames = 64, .bias = 0.015, .error = 0.02},
+  for (const int n : {1, 0}) {
+    std::vector<testing::Estimator> all = testing::estimators(8, n);
+    for (testing::Estimator& e : all) e.settings.photons = 20000;
+    testing::expectRadiance(scene, all, testing::furnaceRadiance(kAlbedo, n),
+                            {.frames = 64, .bias = 5e-3, .error = 0.02},
                             "path length " + testing::number(n));
+  }
 }
 
 }  // namespace
