@@ -17,7 +17,7 @@
 //
 // Source:  Segovia, Iehl, Mitanchey and Péroche, "Bidirectional Instant Radiosity", 2006.
 // Proved:  tests/gi/bidirectional_test.cpp; furnace, form factors, agreement with the path tracer.
-// Fails:   a reverse VPL where few camera points look may be bright, and shows as a spot. Light is
+// Fails:   a VPL where few camera points look may be bright, and shows as a spot near by. Light is
 //          found as rarely as light paths come within two bounces of what the view sees. Without
 //          compensation VPLs lack what the bound cuts off, reverse ones twice.
 // Threads, owner, errors: as method.h says.
