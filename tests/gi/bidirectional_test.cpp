@@ -84,11 +84,11 @@ TEST(ReverseDensity, TheGuessIsRightOnTheMean) {
   VplGatherScratch scratch;
   constexpr int kSets = 400;
   for (int k = 0; k < kSets; ++k) {
-    const CameraPoints camera = cameraPoints(s.t, s.views, kKey, k, 64, s.rays);
+    const CameraPoints camera = cameraPoints(s.t, s.views, kKey, k, 256, s.rays);
     const double q = double{reverseDensity(s.t, camera.points, y, kNone, s.rays)};
     Worth worth(s.t, camera);
     worth.add({}, lightAt(y), scratch, s.rays);
-    const double g = double{guessReverseDensity(camera.points, y, kNone, worth.reached())};
+    const double g = double{guessReverseDensity(camera, y, kNone, worth.reached())};
     density += q / kSets, guess += g / kSets, square += (g - q) * (g - q) / kSets;
   }
   EXPECT_GT(density, 0.01);
@@ -108,7 +108,7 @@ TEST(ReverseDensity, TheGuessKnowsThePointThatDrew) {
     for (const ReversePlace& y : reversePlaces(s.t, camera.points, kKey, k, 50, s.rays)) {
       worth.add({}, lightAt(y.place), scratch, s.rays);
       const float q = reverseDensity(s.t, camera.points, y.place, y.drawnFrom, s.rays);
-      const float guess = guessReverseDensity(camera.points, y.place, y.drawnFrom, worth.reached());
+      const float guess = guessReverseDensity(camera, y.place, y.drawnFrom, worth.reached());
       ASSERT_GT(guess, 0);
       ratio += std::log(double{guess} / double{q}), ++count;
     }
@@ -136,7 +136,7 @@ TEST(CameraPoints, AViewOfNothingHasNone) {
 }
 
 // The box's ceiling by three views, its floor by one: a quarter of the points is on the floor, also
-// of the first ones, which judge.
+// of those that judge.
 TEST(CameraPoints, BelongToTheViewsInEqualNumbers) {
   SceneBuilder b;
   b.box(b.material(testing::matte(Vec3(0.5f), Vec3(1))), Vec3(-1), Vec3(1), true);
@@ -145,13 +145,15 @@ TEST(CameraPoints, BelongToTheViewsInEqualNumbers) {
   down.camera = s.scene.cameras.front();
   down.camera.forward = Vec3(0, -1, 0);
   const std::vector<View> views{s.views[0], viewOf(s.t, down), s.views[0], s.views[0]};
-  const Receivers points = cameraPoints(s.t, views, kKey, 0, 64, s.rays).points;
+  const CameraPoints camera = cameraPoints(s.t, views, kKey, 0, 64, s.rays);
+  const Receivers& points = camera.points;
   ASSERT_EQ(points.size(), 64u);
-  for (const int first : {16, 64}) {
-    const auto low = std::count_if(points.py.begin(), points.py.begin() + first,
-                                   [](float y) { return y < -0.999f; });
-    EXPECT_EQ(low, first / 4);
-  }
+  ASSERT_EQ(camera.judges(), 16u);
+  int low = 0, lowJudges = 0;
+  for (size_t i = 0; i < 64; ++i) low += points.py[i] < -0.999f;
+  for (size_t j = 0; j < 16; ++j) lowJudges += points.py[camera.judge(j)] < -0.999f;
+  EXPECT_EQ(low, 16);
+  EXPECT_EQ(lowJudges, 4);
 }
 
 // Two rooms and a hole in the wall between. The lamp is in one, the camera in the other. All light

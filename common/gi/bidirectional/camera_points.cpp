@@ -45,9 +45,7 @@ std::optional<End> follow(const Transport& t, const View& view, Vec2 film, float
 
 CameraPoints cameraPoints(const Transport& t, std::span<const View> views, const FrameKey& frame,
                           int k, int count, RayCounts& rays) {
-  const auto n = static_cast<uint32_t>(views.size());
-  const uint32_t perView = (static_cast<uint32_t>(count) + n - 1) / n;
-  const int log2Count = log2Ceil(static_cast<int>(n * perView));
+  const int log2Count = log2Ceil(count);
   const Randomization points = t.settings.partition == PartitionRule::equal
                                    ? Randomization::random
                                    : t.settings.randomization;
@@ -56,11 +54,11 @@ CameraPoints cameraPoints(const Transport& t, std::span<const View> views, const
   const PixelStream chains(t.settings.seed, SampleUse::cameraPoint, frame.randomization, 1, points);
   CameraPoints found;
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
-    const uint32_t v = i % n, sample = v * perView + i / n;  // those of a view are in a row
-    const auto end = follow(t, views[v], film.get2D(sample, 0), film.get1D(sample, 2),
-                            PixelSampler(chains, sample, static_cast<uint32_t>(k), 0), rays);
+    const View& view = views[i * views.size() / static_cast<size_t>(count)];
+    const auto end = follow(t, view, film.get2D(i, 0), film.get1D(i, 2),
+                            PixelSampler(chains, i, static_cast<uint32_t>(k), 0), rays);
     if (!end) continue;
-    found.points.add(receiverAt(end->x, sample, end->absorber));
+    found.points.add(receiverAt(end->x, i, end->absorber));
     found.shares.push_back(end->share);
   }
   found.points.pad();

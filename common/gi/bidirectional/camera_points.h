@@ -1,6 +1,6 @@
-// camera_points.h: what one or more views look at: D ends x_1 ... x_M of M eye paths E S* D. Point i
-// is of view i mod n. Those of a view are stratified over its picture; with --partition equal all are
-// independent, as estimated_density.h needs them.
+// camera_points.h: what one or more views look at: D ends x_1 ... x_M of M eye paths E S* D,
+// stratified over the picture. Of n views each has M/n paths in a row, stratified in themselves.
+// With --partition equal all are independent, as estimated_density.h needs them.
 //
 // A path whose first hit has several lobes follows one of them, chosen by albedo. A path that finds
 // no diffuse point leaves none. So there may be fewer than M, or none at all.
@@ -22,6 +22,15 @@ namespace ninefold {
 struct CameraPoints {
   Receivers points;          // padded
   std::vector<Vec3> shares;  // one a point
+
+  // Sixteen of them judge what VPLs are worth: one of each sixteenth, at another place in it each
+  // time, as the points of a Sobol' sequence at equal steps share a strip of the picture.
+  static constexpr size_t kJudges = 16;
+  size_t judges() const { return std::min(points.size(), kJudges); }
+  size_t judge(size_t j) const {
+    const size_t step = points.size() / std::max<size_t>(judges(), 1);
+    return j * step + j % step;
+  }
 };
 
 // Those of set k of a frame; count: M.

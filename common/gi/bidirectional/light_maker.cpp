@@ -76,7 +76,7 @@ float LightMaker::density(const ReversePlace& y) {
 
 float LightMaker::guessDensity(const ReversePlace& y, uint32_t reached) {
   return estimated_ ? estimated_->guess(y, rays_)
-                    : guessReverseDensity(camera_.points, y.place, y.drawnFrom, reached);
+                    : guessReverseDensity(camera_, y.place, y.drawnFrom, reached);
 }
 
 Worth LightMaker::worths() {
@@ -86,7 +86,7 @@ Worth LightMaker::worths() {
     worth.add(candidates_, vpl, scratch_.vplGather, rays_);
     if (vpl.diffuseCount > 0 && vpl.glossy < 0 && shot_ > 0)
       worth.scale(partition_.standardShare(
-          placeOf(vpl), guessReverseDensity(camera_.points, placeOf(vpl), kNone, worth.reached())));
+          placeOf(vpl), guessReverseDensity(camera_, placeOf(vpl), kNone, worth.reached())));
   }
   Receivers y;
   for (const ReversePlace& place : places_) y.add(place.receiver);

@@ -3,31 +3,24 @@
 #include <bit>
 
 namespace ninefold {
-
-static_assert(kJudges <= kPacket);
-
 namespace {
 
-// cos_x cos_y / (pi d^2) of sixteen points from `first` on; 0 where a cosine is not positive.
-void fillTerms(const Receivers& x, const Place& y, size_t first, float* term) {
-#pragma GCC ivdep
-  for (size_t lane = 0; lane < kPacket; ++lane) {
-    const size_t i = first + lane;
-    const float dx = y.position.x - x.px[i], dy = y.position.y - x.py[i],
-                dz = y.position.z - x.pz[i];
-    const float d2 = dx * dx + dy * dy + dz * dz;
-    const float cosXd = dx * x.gx[i] + dy * x.gy[i] + dz * x.gz[i];
-    const float cosYd = -(dx * y.normal.x + dy * y.normal.y + dz * y.normal.z);
-    const bool faces = (cosXd > 0) & (cosYd > 0) & (d2 > 0);
-    term[lane] = faces ? kInvPi * (cosXd / d2) * (cosYd / d2) : 0.0f;
-  }
+// cos_x cos_y / (pi d^2) of point i; 0 where a cosine is not positive.
+inline float termOf(const Receivers& x, size_t i, const Place& y) {
+  const float dx = y.position.x - x.px[i], dy = y.position.y - x.py[i], dz = y.position.z - x.pz[i];
+  const float d2 = dx * dx + dy * dy + dz * dz;
+  const float cosXd = dx * x.gx[i] + dy * x.gy[i] + dz * x.gz[i];
+  const float cosYd = -(dx * y.normal.x + dy * y.normal.y + dz * y.normal.z);
+  const bool faces = (cosXd > 0) & (cosYd > 0) & (d2 > 0);
+  return faces ? kInvPi * (cosXd / d2) * (cosYd / d2) : 0.0f;
 }
 
 // Sum of the terms of sixteen points that see y.
 float seenTerms(const Transport& t, const Receivers& x, const Place& y, Vec3 target, size_t first,
                 int drawnFrom, RayCounts& rays) {
   float term[kPacket];
-  fillTerms(x, y, first, term);
+#pragma GCC ivdep
+  for (size_t lane = 0; lane < kPacket; ++lane) term[lane] = termOf(x, first + lane, y);
   RayPacket packet;
   uint32_t asked = 0, seen = 0;
   for (size_t lane = 0; lane < kPacket; ++lane) {
@@ -59,17 +52,22 @@ float reverseDensity(const Transport& t, const Receivers& x, const Place& y, int
   return x.size() == 0 ? 0 : sum / static_cast<float>(x.size());
 }
 
-float guessReverseDensity(const Receivers& x, const Place& y, int drawnFrom, uint32_t reached) {
+float guessReverseDensity(const CameraPoints& camera, const Place& y, int drawnFrom,
+                          uint32_t reached) {
+  const Receivers& x = camera.points;
   if (x.size() == 0) return 0;
-  const size_t judges = std::min(x.size(), kJudges);
-  const size_t from = drawnFrom < 0 ? x.size() : static_cast<size_t>(drawnFrom);
-  float term[kPacket], mean = 0;
-  fillTerms(x, y, 0, term);
-  for (size_t i = 0; i < judges; ++i)
-    if (i == from || (reached >> i & 1u) != 0) mean += term[i] / static_cast<float>(judges);
-  if (from < judges || from == x.size()) return mean;
-  fillTerms(x, y, from / kPacket * kPacket, term);
-  return mean + (term[from % kPacket] - mean) / static_cast<float>(x.size());
+  float mean = 0;
+  bool drawnByJudge = drawnFrom == kNone;
+  for (size_t j = 0; j < camera.judges(); ++j) {
+    const size_t i = camera.judge(j);
+    const bool drew = static_cast<int>(i) == drawnFrom;
+    drawnByJudge |= drew;
+    if (drew || (reached >> j & 1u) != 0)
+      mean += termOf(x, i, y) / static_cast<float>(camera.judges());
+  }
+  if (drawnByJudge) return mean;
+  const float own = termOf(x, static_cast<size_t>(drawnFrom), y);
+  return mean + (own - mean) / static_cast<float>(x.size());
 }
 
 }  // namespace ninefold

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "common/base/counters.h"
+#include "common/gi/bidirectional/camera_points.h"
 #include "common/gi/bidirectional/place.h"
 #include "common/gi/eye/receivers.h"
 #include "common/gi/light/transport.h"
@@ -26,10 +27,9 @@ inline constexpr int kNone = -1;
 float reverseDensity(const Transport& transport, const Receivers& cameraPoints, const Place& y,
                      int drawnFrom, RayCounts& rays);
 
-// A guess without rays: from the judges, which are the first camera points, and the point that drew
-// y. `reached`: the judges that y's light reaches, as bits.
-inline constexpr size_t kJudges = 16;
-float guessReverseDensity(const Receivers& cameraPoints, const Place& y, int drawnFrom,
+// A guess without rays: from the judges among the camera points, and the point that drew y.
+// `reached`: the judges that y's light reaches, as bits.
+float guessReverseDensity(const CameraPoints& camera, const Place& y, int drawnFrom,
                           uint32_t reached);
 
 }  // namespace ninefold

@@ -9,6 +9,14 @@ constexpr double kDarkest = 0.1;  // of mean C: what is added to each C_i
 
 }  // namespace
 
+Worth::Worth(const Transport& transport, const CameraPoints& camera) : t_(transport) {
+  for (size_t j = 0; j < camera.judges(); ++j) {
+    judges_.add(camera.points.at(camera.judge(j)));
+    shares_.push_back(camera.shares[camera.judge(j)]);
+  }
+  judges_.pad();
+}
+
 void Worth::add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays) {
   seen_.push_back(0);
   reached_ = 0;

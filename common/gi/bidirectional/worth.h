@@ -1,4 +1,4 @@
-// worth.h: what each candidate is worth to the picture, as the first sixteen camera points judge.
+// worth.h: what each candidate is worth to the picture, as sixteen of the camera points judge.
 //
 //   v_j = sum_i c_ij / (C_i + mean(C)/10),   C_i = sum_j c_ij
 //
@@ -15,17 +15,13 @@
 #include <vector>
 
 #include "common/gi/bidirectional/camera_points.h"
-#include "common/gi/bidirectional/reverse_density.h"
 #include "common/gi/vpl/vpl_gather.h"
 
 namespace ninefold {
 
 class Worth {
  public:
-  Worth(const Transport& transport, const CameraPoints& camera)
-      : t_(transport),
-        shares_(camera.shares),
-        judges_(camera.points.first(std::min(camera.points.size(), kJudges))) {}
+  Worth(const Transport& transport, const CameraPoints& camera);
 
   // The next candidate: a VPL of the set `lights`, with this power.
   void add(const VplSet& lights, const Vpl& vpl, VplGatherScratch& scratch, RayCounts& rays);
@@ -42,8 +38,8 @@ class Worth {
 
  private:
   const Transport& t_;
-  const std::vector<Vec3>& shares_;
   Receivers judges_;
+  std::vector<Vec3> shares_;  // one a judge
   uint32_t reached_ = 0;
   std::vector<float> added_;  // c_ij, candidate by candidate
   std::vector<float> seen_;   // by candidate

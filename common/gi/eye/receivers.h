@@ -58,13 +58,9 @@ class Receivers {
     for (auto* plane : {&er, &eg, &eb}) std::fill_n(plane->begin(), size_, 0.0f);
   }
 
-  // The first n of them, padded, without irradiance.
-  Receivers first(size_t n) const {
-    Receivers some;
-    for (size_t i = 0; i < n; ++i)
-      some.add({position(i), ng(i), ns(i), origin(i), pixel[i], gain[i], absorber[i]});
-    some.pad();
-    return some;
+  // Receiver i without irradiance.
+  Receiver at(size_t i) const {
+    return {position(i), ng(i), ns(i), origin(i), pixel[i], gain[i], absorber[i]};
   }
 
   // Copies the last receiver up to the next multiple of sixteen; size() stays.
