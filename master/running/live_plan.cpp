@@ -6,20 +6,6 @@
 #include "common/scene/methods.h"
 
 namespace ninefold {
-namespace {
-
-// s of motion_quality.h, by rays: one of a light set takes as long as 23 of pixels, which go in
-// packets.
-double setShareOf(const Settings& s) {
-  constexpr double kSetRay = 23;
-  const auto rays = factsOf(s.method).rays;
-  const double ofSet = rays(s, 0);
-  const double ofPixels = rays(s, double{1} * s.width * s.height / s.interleave.sets()) - ofSet;
-  return kSetRay * ofSet / (kSetRay * ofSet + ofPixels);
-}
-
-}  // namespace
-
 LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
       state_(setup.state),
@@ -64,7 +50,7 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   }
   if (moving_) return std::nullopt;
   moving_ = true;
-  quality_.begin(setShareOf(settingsAt({})));
+  quality_.begin();
   lightCameras_.clear();
   return supersede();
 }

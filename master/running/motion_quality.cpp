@@ -20,10 +20,10 @@ constexpr int kPatience = 3;  // frames that must agree before the size grows
 
 }  // namespace
 
-double MotionQuality::cost(Quality q, double setShare) {
+double MotionQuality::cost(Quality q) {
   const double size = kSizes[static_cast<size_t>(q.size)];
   const double light = kLights[static_cast<size_t>(q.light)];
-  return setShare * light + size * size * (1 - setShare) * (kEyeShare + (1 - kEyeShare) * light);
+  return kSetShare * light + size * size * (kEyeShare + (1 - kEyeShare - kSetShare) * light);
 }
 
 std::string MotionQuality::describe(Quality q) {
@@ -36,22 +36,21 @@ std::string MotionQuality::describe(Quality q) {
 }
 
 bool MotionQuality::fits(Quality q) const {
-  return !full_ || *full_ * cost(q, setShare_) <= kMargin * seconds(target_);
+  return !full_ || *full_ * cost(q) <= kMargin * seconds(target_);
 }
 
-void MotionQuality::begin(double setShare) {
-  setShare_ = setShare;
+void MotionQuality::begin() {
   const auto found = std::ranges::find_if(kLadder, [this](Quality q) { return fits(q); });
   current_ = found == kLadder.end() ? kLadder.back() : *found;
   couldBeBetter_ = 0;
 }
 
 void MotionQuality::took(Quality quality, Duration time) {
-  const double full = seconds(time) / cost(quality, setShare_);
+  const double full = seconds(time) / cost(quality);
   full_ = full_ ? (1 - kLearn) * *full_ + kLearn * full : full;
   if (!(quality == current_)) return;  // of another gesture, or at rest
   const Quality better{std::max(0, current_.size - 1), current_.light};
-  const double mean = *full_ * cost(current_, setShare_);
+  const double mean = *full_ * cost(current_);
   if (seconds(time) > kTooLate * seconds(target_) ||
       std::min(seconds(time), mean) > kTooLong * seconds(target_)) {
     couldBeBetter_ = 0;

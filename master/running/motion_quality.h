@@ -1,13 +1,13 @@
 // motion_quality.h: how good a frame may be while something moves, so that it is done within a
 // target time. Pure: durations in, steps out.
 //
-//   c(size, light) = s light + size^2 (1 - s) (e + (1 - e) light)    cost; of a full frame 1
+//   c(size, light) = s light + size^2 (e + (1 - e - s) light)    cost of a frame; of a full one 1
 //
 //   size    one of kSizes; width and height are multiplied by it
 //   light   one of kLights; the numbers of VPLs and photons are multiplied by it
-//   s       making the light sets, whatever the size; 0.1 for instant radiosity at 640x480
-//   e = kEyeShare   of the rest: eye paths, the filter, and the shadow rays that thinning does not
-//                   save because roulette has left them out already (gi/vpl/vpl_roulette.h)
+//   s = kSetShare   making the light sets, whatever the size
+//   e = kEyeShare   eye paths, the filter, and the shadow rays that thinning does not save because
+//                   roulette has left them out already (gi/vpl/vpl_roulette.h)
 //
 // The time of a full frame is learned from every frame that is timed. When a gesture begins, the
 // first step is taken that is predicted to keep the target: size falls to 5/16 before the light is
@@ -37,11 +37,11 @@ class MotionQuality {
   static constexpr std::array kSizes{1.0,   0.75,   0.625, 0.5,    0.4375,
                                      0.375, 0.3125, 0.25,  0.1875, 0.125};
   static constexpr std::array kLights{1.0, 0.5, 0.25};
-  static constexpr double kSetShare = 0.1, kEyeShare = 7.0 / 9;
+  static constexpr double kSetShare = 0.1, kEyeShare = 0.7;
 
   explicit MotionQuality(Duration target) : target_(target) {}
 
-  void begin(double setShare = kSetShare);  // of a gesture; s
+  void begin();  // of a gesture
   Quality current() const { return current_; }
   // A frame that somebody waited for was done in this quality; the first at rest counts, too.
   void took(Quality quality, Duration time);
@@ -49,7 +49,7 @@ class MotionQuality {
   Duration target() const { return target_; }
   void setTarget(Duration target) { target_ = target; }
 
-  static double cost(Quality quality, double setShare = kSetShare);
+  static double cost(Quality quality);
   // "1/2 size, 1/4 light": what people are told; empty for full quality.
   static std::string describe(Quality quality);
 
@@ -57,7 +57,6 @@ class MotionQuality {
   bool fits(Quality quality) const;
 
   Duration target_;
-  double setShare_ = kSetShare;
   std::optional<double> full_;  // learned time of a full frame [s]
   Quality current_;
   int couldBeBetter_ = 0;  // frames in a row

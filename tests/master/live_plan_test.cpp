@@ -415,24 +415,6 @@ TEST_F(LivePlanTest, VplsInMotionHaveHalfAsManyCandidates) {
   EXPECT_EQ(s.indirectVpls, Settings{}.indirectVpls);
 }
 
-// A full frame takes four times as long as it may. Where light sets take much of it, smaller frames
-// do not save enough.
-TEST_F(LivePlanTest, DearLightSetsAreThinnedSooner) {
-  const auto thinned = [&](Method method) {
-    LivePlan::Setup large = setup();
-    large.state.settings.width = 640, large.state.settings.height = 480;
-    large.state.settings.method = method;
-    plan = LivePlan(large, now);
-    const LiveFrame frame = opened();
-    pass(milliseconds(400));
-    finish(frame);
-    moveTo(1);
-    return done().order.settings.indirectVpls < Settings{}.indirectVpls;
-  };
-  EXPECT_FALSE(thinned(Method::instantRadiosity));
-  EXPECT_TRUE(thinned(Method::bidirectional));
-}
-
 TEST_F(LivePlanTest, LightThatNeedsNoViewIsMadeForNone) {
   moveTo(1);
   EXPECT_TRUE(done().order.key.lightCameras.empty());

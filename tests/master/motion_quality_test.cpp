@@ -29,20 +29,6 @@ TEST(MotionQuality, AGestureThatFollowsARestKeepsTheTargetFromItsFirstFrame) {
   }
 }
 
-// Light sets that take half of the time: smaller frames alone would not do.
-TEST(MotionQuality, DearLightSetsAreThinnedInTime) {
-  for (const double full : {0.02, 0.09, 0.15, 0.25}) {
-    MotionQuality quality(kTarget);
-    quality.took({}, fromSeconds(full));
-    quality.begin(0.5);
-    for (int i = 0; i < 40; ++i) {
-      const Duration time = fromSeconds(0.004 + full * MotionQuality::cost(quality.current(), 0.5));
-      EXPECT_LE(time, kTarget) << full << " s, frame " << i;
-      quality.took(quality.current(), time);
-    }
-  }
-}
-
 TEST(MotionQuality, AFastClusterLosesNothing) {
   MotionQuality quality(kTarget);
   quality.took({}, milliseconds(60));
