@@ -79,7 +79,8 @@ class ReplayTask(ClusterTest):
             {"from": 0, "to": 2, "object": "glass sphere", "by": [0.3, 0, 0.1]}]}))
         self.new_key()
         master = self.start(BIN / "ninefold-master", SCENES / "table_room.glb", "--size", self.SIZE, "--script",
-                            "s.json", "--output", "last.png", "--local-clients", 0, "--key-file", "cluster.key", "--frame-time", 1000)
+                            "s.json", "--output", "last.png", "--local-clients", 0, "--key-file", "cluster.key",
+                            "--frame-time", 1000)
         self.record(master)
         self.assertEqual(master.ends(), 0, master.text)
         # Tile 1 has the sphere itself: it shows each step, however small. A busy machine makes few frames; so much time

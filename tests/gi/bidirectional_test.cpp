@@ -284,19 +284,23 @@ Scene roomWithGlassAndMetal() {
 }
 
 // Whatever caustics are asked for and however long paths may be, both methods leave out the same. With
-// two D vertices few frames have most of the error: 7 % of the mean, elsewhere less than 3 %.
+// two D vertices few frames have most of the error.
 TEST(Bidirectional, ShowsWhatInstantRadiosityShowsWhicheverCausticsAreOn) {
   const Scene scene = roomWithGlassAndMetal();
   const Tracer tracer(scene, Isa::automatic);
-  const std::pair<const char*, std::function<void(Settings&)>> cases[] = {
+  const struct {
+    const char* what;
+    std::function<void(Settings&)> set;
+    double error = 0.03;
+  } cases[] = {
       {"caustics off", [](Settings& s) { s.caustics = Caustics::off; }},
       {"caustics direct", [](Settings& s) { s.caustics = Caustics::direct; }},
       {"no photons", [](Settings& s) { s.photons = 0; }},
-      {"two D vertices", [](Settings& s) { s.pathLength = 2; }},
+      {"two D vertices", [](Settings& s) { s.pathLength = 2; }, 0.1},
       {"three D vertices, caustics off",
        [](Settings& s) { s.pathLength = 3, s.caustics = Caustics::off; }},
   };
-  for (const auto& [what, set] : cases) {
+  for (const auto& [what, set, limit] : cases) {
     Settings s = inOneSet(Method::instantRadiosity);
     s.photonRadius = 0.01f;
     set(s);
@@ -305,7 +309,7 @@ TEST(Bidirectional, ShowsWhatInstantRadiosityShowsWhicheverCausticsAreOn) {
     const auto both = testing::render(tracer, s, 300);
     const double error = std::hypot(lamps.error(), both.error());
     EXPECT_NEAR(both.grey(), lamps.grey(), 4 * error) << what;
-    EXPECT_LT(error, 0.1 * lamps.grey()) << what;
+    EXPECT_LT(error, limit * lamps.grey()) << what;
   }
 }
 

@@ -92,7 +92,7 @@ TEST(StraightLight, PanesBeforeAWallAreInvisibleInAFurnace) {
     std::vector<testing::Estimator> all = testing::estimators(8, n);
     for (testing::Estimator& e : all) e.settings.photons = 20000;
     testing::expectRadiance(scene, all, testing::furnaceRadiance(kAlbedo, n),
-                            {.frames = 64, .bias = 5e-3, .error = 0.02},
+                            {.frames = 64, .bias = 2e-3, .error = 0.02},
                             "path length " + testing::number(n));
   }
 }

@@ -110,7 +110,9 @@ TEST_P(Walk, LightUsedAgainAndTheMiddleOfPixelsLowerTheError) {
   EXPECT_LT(errorOf(alone), torn);
   EXPECT_LT(errorOf(reused), 0.95 * errorOf(alone));
   const Metrics a = compareImages(reused, truth), b = compareImages(alone, truth);
-  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.bias[c], b.bias[c], 0.03) << "channel " << c;
+  // The mean of one frame errs by 2.4 % where light is made for the view.
+  const double apart = factsOf(method).lightNeedsView ? 0.03 : 0.02;
+  for (int c = 0; c < 3; ++c) EXPECT_NEAR(a.bias[c], b.bias[c], apart) << "channel " << c;
 }
 
 INSTANTIATE_TEST_SUITE_P(Of, Walk,

@@ -23,8 +23,8 @@ struct CameraPoints {
   Receivers points;          // padded
   std::vector<Vec3> shares;  // one a point
 
-  // Sixteen of them judge what VPLs are worth: one of each sixteenth, at another place in it each
-  // time, as the points of a Sobol' sequence at equal steps share a strip of the picture.
+  // Sixteen of them judge what VPLs are worth: one of each sixteenth of the points, each time one
+  // place further in it. Points of a Sobol' sequence at equal steps lie in one strip of the picture.
   static constexpr size_t kJudges = 16;
   size_t judges() const { return std::min(points.size(), kJudges); }
   size_t judge(size_t j) const {
@@ -33,7 +33,10 @@ struct CameraPoints {
   }
 };
 
-// Those of set k of a frame; count: M.
+// Light sets of a frame are fewer (--interleave 16x16 at most).
+inline constexpr int kMostSets = 256;
+
+// Those of set k of a frame; count: M. k may be beyond kMostSets, for points of other uses.
 CameraPoints cameraPoints(const Transport& transport, std::span<const View> views,
                           const FrameKey& frame, int k, int count, RayCounts& rays);
 

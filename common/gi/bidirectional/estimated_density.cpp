@@ -5,15 +5,14 @@
 namespace ninefold {
 namespace {
 
-constexpr int kFew = 4;
-// Camera points are addressed by set. Those where rays start come after all sets'.
-constexpr int kMostSets = 256;
+constexpr int kFew = 4;  // of M - 1, for a guess
 
 }  // namespace
 
 EstimatedDensity::EstimatedDensity(const Transport& t, std::span<const View> views,
                                    const FrameKey& frame, int k, int shot, RayCounts& rays)
     : t_(t),
+      // Where rays start are points of their own, addressed after those of all sets.
       origins_(cameraPoints(t, views, frame, kMostSets + k, shot, rays)),
       others_(cameraPoints(t, views, frame, k, t.settings.cameraPoints - 1, rays)),
       few_(cameraPoints(t, views, frame, k, kFew, rays)) {}

@@ -7,14 +7,14 @@
 //   x_i  M - 1 others, the same for all y of a set; four where a guess will do     [1/m^2]
 //
 // It is for --partition equal (partition.h): 1/2 and 1/2 where q > 0, all to the standard family
-// where q = 0. There q has M points for standard VPLs, too, but no x. All points are independent, so
-// that x could be any one of the M: given the M points, y has density q, and
+// where q = 0. For standard VPLs q has M points, too, but no x. All points are independent, so that
+// x could be any one of the M. Given the M points, y has density q, and
 //
 //   E 1/2 g(y)/q(y) = 1/2 integral of g P,   P(y): probability that one of M points sees y
 //
 // Standard VPLs bring the integral of g (1 - P/2). So nothing is lost, however small M is. With
 // stratified points 0.7 % of the test's light are lost for M = 50, 1.1 % for M = 5. The published
-// form leaves x out; then 1/q is biased, and infinite where q = 0.
+// form leaves x out: 1/q is then biased, and infinite where q = 0.
 //
 // Source:  Segovia et al. 2006, sections 3.1 and 4.2 (M = 50, 5 for the guess).
 // Proved:  tests/gi/partition_test.cpp.

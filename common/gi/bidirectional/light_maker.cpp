@@ -5,7 +5,7 @@ namespace {
 
 // Random numbers of receivers are addressed by layer. Those of set k at reverse places come after
 // the layers of pictures: first for E(y), then for its guesses.
-constexpr uint32_t kFirstUse = kLayers, kMostSets = 256;
+constexpr uint32_t kFirstUse = kLayers;
 // So many of the raw VPLs, on average, are asked for a guess of E(y).
 constexpr float kGuessingVpls = 20;
 
@@ -31,9 +31,9 @@ LightSet standardCandidates(const Transport& t, const FrameKey& frame, int k, in
   return candidates;
 }
 
-// What lights reverse places, and the photons that E(y) needs whatever the picture shows. Four
-// times as many light paths cost a fifth of the set's rays, and halve the error where light is
-// rarely found: all reverse places of a set have them in common.
+// What lights reverse places, and the photons that E(y) needs whatever the picture shows. Its light
+// paths are four times as many as the candidates' paths: all reverse places of a set share them. They
+// cost a fifth of the set's rays, and halve the squared error where light is rarely found.
 LightSet rawSet(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
   LightSet raw;
   const Settings& s = t.settings;

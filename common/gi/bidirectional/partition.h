@@ -15,11 +15,11 @@
 // w_r/(N_r q) rho/pi E(y) estimates the integral of w_r g wherever q > 0; where q = 0, w_r = 0. The
 // sum of both is the integral of g. It holds for every x, seen by the camera or not, and for every
 // s: a poor guess costs noise only. E(y) may be any unbiased estimate that does not depend on which
-// y were drawn (raw_light.h). Guesses of E(y) decide what is kept. They have random numbers of their
-// own, so that the exact E(y) of what is kept has the right mean.
+// y were drawn (raw_light.h). Guesses of E(y) decide what is kept. They have random numbers of
+// their own, so that the exact E(y) of what is kept has the right mean.
 //
-// --partition equal is the published form: w_s = w_r = 1/2 where q > 0. There q is
-// estimated, with a proof of its own: estimated_density.h.
+// --partition equal is the published form: w_s = w_r = 1/2 where q > 0. Its q is an estimate, with a
+// proof of its own: estimated_density.h.
 //
 // VPLs on lamps keep w_s = 1: reverse VPLs carry no emission. So do glossy lobes.
 //

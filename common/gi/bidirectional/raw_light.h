@@ -1,6 +1,7 @@
-// raw_light.h: irradiance at places that shall become VPLs, from the raw standard set: all its VPLs
-// and photons, each with its full power. What is kept of the set later, and with which weight, does
-// not matter here: else every path whose earlier vertex belongs to the other family would be lost.
+// raw_light.h: irradiance at places that shall become VPLs, from a raw standard set: all its VPLs and
+// photons, each with its full power. It is another set than that of the candidates. Those are shared
+// out between the families and chosen among: by them alone, every path whose earlier vertex belongs
+// to the other family would be lost.
 //
 //   E(y)   = E_1(y) + E_2(y) + ...      E_c: light whose path has c D vertices, y included
 //   E_c(y) = VPLs and photons of c - 1 D vertices before y
