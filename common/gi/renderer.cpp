@@ -51,13 +51,23 @@ Renderer::Renderer(const Renderer& lit, const Settings& settings)
 
 Renderer::~Renderer() = default;
 
-std::shared_ptr<const FrameLight> Renderer::light(const FrameKey& frame, int set) const {
-  auto light = impl_->light->method->light(frame, set, impl_->lightViews(frame));
+std::shared_ptr<const FrameLight> Renderer::light(const FrameKey& frame, int set,
+                                                  const MethodState* state) const {
+  auto light = impl_->light->method->light(frame, set, impl_->lightViews(frame), state);
 #ifndef NDEBUG
   const Transport& t = impl_->light->transport;
   checkLight(*light, frame, set, t.tracer.scene(), impl_->settings());
 #endif
   return light;
+}
+
+StepResult Renderer::step(const StatePages& pages, const StepKey& step, uint32_t unit) const {
+  return impl_->light->method->step(pages, step, unit);
+}
+
+std::shared_ptr<const MethodState> Renderer::digest(const StatePages& pages,
+                                                    const MethodState* before) const {
+  return impl_->light->method->digest(pages, before);
 }
 
 void Renderer::render(const Task& task, const FrameLight& light, Scratch& scratch,

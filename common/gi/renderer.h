@@ -32,7 +32,14 @@ class Renderer {
   // Light of set k of a frame. If it needs a view, it is made for the frame's light cameras, or for
   // this camera, in this size. Costs 0.1 to some ms; share it among the tasks that use it
   // (lightSetOfPhase).
-  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set) const;
+  // `state`: what digest made of the pages of version frame.state; null for methods without state.
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
+                                          const MethodState* state = nullptr) const;
+
+  // Of the method's state, as in method.h. They depend on no camera.
+  StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit) const;
+  std::shared_ptr<const MethodState> digest(const StatePages& pages,
+                                            const MethodState* before = nullptr) const;
 
   // Renders one task into `out`; light = light(task.frame, lightSetOfPhase(task.phase, ...)).
   void render(const Task& task, const FrameLight& light, Scratch& scratch, TileResult& out) const;

@@ -26,6 +26,17 @@ enum LightPart : uint8_t {
 };
 inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 
+// A method whose light has a state that outlives a frame (common/state): what is to be known of its
+// steps.
+struct StateFacts {
+  // Units of a step: of one that makes all of the state anew, and of one while the picture moves.
+  uint32_t (*unitsOfAll)(const Settings& settings);
+  uint32_t (*unitsInMotion)(const Settings& settings);
+  double (*rays)(const Settings& settings);  // of a unit, about
+  // Whether the state of one stays right under the other: where not, it begins anew.
+  bool (*isKept)(const Settings& before, const Settings& after);
+};
+
 struct MethodFacts {
   Method method;
   const char* name;   // of flags and files
@@ -39,6 +50,7 @@ struct MethodFacts {
   bool freeSets;                // a light set costs nothing, so that any client may take any task
   bool missesPunctualCaustics;  // cannot meet point, spot or directional lights by smooth surfaces
   double (*rays)(const Settings& settings, double pixels);  // of a task; see methods.cpp
+  const StateFacts* state = nullptr;                        // null: no state
 
   bool has(uint8_t part) const { return (parts & part) == part; }
 };

@@ -56,6 +56,17 @@ struct FrameKey {
   // Those that light is made for, where a method's light needs the view (methods.h): in motion the
   // last few, so that it changes little from frame to frame. None: the picture's own.
   std::vector<Camera> lightCameras = {};
+  uint32_t state = 0;  // version of the method's state that the frame is lit by; 0: there is none
+};
+
+// What changes from step to step of a method's state. A step makes version `to` of version `from`
+// by units of work, each of which any client may do.
+struct StepKey {
+  uint32_t number = 0;         // names a step on the wire; one count for frames and steps
+  uint32_t from = 0, to = 1;   // from 0: the empty state
+  uint32_t firstUnit = 0;      // units are counted through all steps of a state
+  uint32_t randomization = 0;  // index, as in FrameKey
+  bool operator==(const StepKey&) const = default;
 };
 
 }  // namespace ninefold

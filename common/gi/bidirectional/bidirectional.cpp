@@ -15,7 +15,8 @@ Bidirectional::Bidirectional(const Transport& t, const Bidirectional* begun)
                            : std::make_shared<const StandardDensity>(t)) {}
 
 std::shared_ptr<const FrameLight> Bidirectional::light(const FrameKey& frame, int set,
-                                                       std::span<const View> views) const {
+                                                       std::span<const View> views,
+                                                       const MethodState*) const {
   auto light = std::make_shared<LightSet>();
   if (!t_.emitters.empty())
     LightMaker(t_, *standardDensity_, pathsLog2_, frame, set, views).make(*light);

@@ -35,7 +35,8 @@ class Bidirectional final : public LightSetMethod {
   Bidirectional(const Transport& transport, const Bidirectional* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
-                                          std::span<const View> views) const override;
+                                          std::span<const View> views,
+                                          const MethodState* state) const override;
 
  private:
   const int pathsLog2_;  // of the candidates, see indirect_vpls.h

@@ -20,7 +20,8 @@ Radiosity::Radiosity(const Transport& t, const Radiosity* begun)
                      : lightPathsLog2(t, t.settings.indirectVpls)) {}
 
 std::shared_ptr<const FrameLight> Radiosity::light(const FrameKey& frame, int set,
-                                                   std::span<const View>) const {
+                                                   std::span<const View>,
+                                                   const MethodState*) const {
   return std::make_shared<const LightSet>(makeLightSet(t_, frame, set, pathsLog2_));
 }
 

@@ -18,7 +18,8 @@ class Radiosity final : public LightSetMethod {
   Radiosity(const Transport& transport, const Radiosity* begun);
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
-                                          std::span<const View> views) const override;
+                                          std::span<const View> views,
+                                          const MethodState* state) const override;
 
  private:
   const int pathsLog2_;  // m of indirect_vpls.h

@@ -37,8 +37,8 @@ void addPath(TaskContext& c, const FirstHit& first, const PixelSampler& sampler)
 
 }  // namespace
 
-std::shared_ptr<const FrameLight> Reference::light(const FrameKey&, int,
-                                                   std::span<const View>) const {
+std::shared_ptr<const FrameLight> Reference::light(const FrameKey&, int, std::span<const View>,
+                                                   const MethodState*) const {
   return std::make_shared<const FrameLight>();
 }
 

@@ -18,7 +18,8 @@ class Reference final : public GiMethod {
   using GiMethod::GiMethod;
 
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
-                                          std::span<const View> views) const override;
+                                          std::span<const View> views,
+                                          const MethodState* state) const override;
   void render(const View& view, const Task& task, const FrameLight& light, Scratch& scratch,
               TileResult& out) const override;
   std::unique_ptr<Scratch> makeScratch() const override;

@@ -1,0 +1,103 @@
+#include "common/state/state_pages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <span>
+
+#include "common/base/error.h"
+#include "common/sampling/hash.h"
+
+namespace ninefold {
+namespace {
+
+uint64_t hashOf(std::span<const std::byte> bytes) {
+  uint64_t hash = bytes.size();
+  for (size_t at = 0; at < bytes.size(); at += sizeof(uint64_t)) {
+    uint64_t word = 0;
+    std::memcpy(&word, bytes.data() + at, std::min(sizeof word, bytes.size() - at));
+    hash = hashWords(hash, word);
+  }
+  return hash;
+}
+
+// 0 for a page that says no more than one that is not there.
+uint64_t hashOf(PageId id, const Page& page) {
+  const bool isSums = std::holds_alternative<Sums>(page);
+  if (isSums && std::ranges::count(std::get<Sums>(page), 0) == std::ssize(std::get<Sums>(page)))
+    return 0;
+  if (!isSums && std::get<Records>(page).empty()) return 0;
+  const uint64_t content = isSums ? hashOf(std::as_bytes(std::span(std::get<Sums>(page))))
+                                  : hashOf(std::get<Records>(page));
+  return hashWords(id.kind, id.index, content, isSums);
+}
+
+std::string nameOf(PageId id) { return fmt::format("page {}.{}", id.kind, id.index); }
+
+Page replaced(const PageDelta& delta, const Page* before) {
+  const Records& records = std::get<Records>(delta.change);
+  if (before != nullptr && !std::holds_alternative<Records>(*before))
+    fail("{} of a method's state holds sums: it cannot be replaced", nameOf(delta.page));
+  if (records.size() > kPageBytes)
+    fail("{} of a method's state would have {} bytes; it may have {}", nameOf(delta.page),
+         records.size(), kPageBytes);
+  return records;
+}
+
+Page added(const PageDelta& delta, const Page* before) {
+  if (before != nullptr && !std::holds_alternative<Sums>(*before))
+    fail("{} of a method's state holds records: nothing can be added to it", nameOf(delta.page));
+  Sums sums = before != nullptr ? std::get<Sums>(*before) : Sums(kPageSums, 0);
+  for (const auto& [place, amount] : std::get<std::vector<SumChange>>(delta.change)) {
+    if (place >= kPageSums) fail("{} of a method's state has no sum {}", nameOf(delta.page), place);
+    if (__builtin_add_overflow(sums[place], amount, &sums[place]))
+      fail("sum {} of {} of a method's state overflows", place, nameOf(delta.page));
+  }
+  return sums;
+}
+
+}  // namespace
+
+void StatePages::apply(const PageDeltas& deltas) {
+  StatePages next = *this;
+  for (const PageDelta& delta : deltas) {
+    Shared& page = next.pages_[delta.page];
+    if (page) next.hash_ -= hashOf(delta.page, *page);
+    page = std::make_shared<const Page>(std::holds_alternative<Records>(delta.change)
+                                            ? replaced(delta, page.get())
+                                            : added(delta, page.get()));
+    next.hash_ += hashOf(delta.page, *page);
+  }
+  *this = std::move(next);
+}
+
+const Page* StatePages::find(PageId page) const {
+  const auto found = pages_.find(page);
+  return found == pages_.end() ? nullptr : found->second.get();
+}
+
+size_t StatePages::bytes() const {
+  size_t sum = 0;
+  for (const auto& [id, page] : pages_)
+    sum += std::holds_alternative<Sums>(*page) ? kPageBytes : std::get<Records>(*page).size();
+  return sum;
+}
+
+PageDeltas deltasTo(const StatePages& pages) {
+  PageDeltas deltas;
+  for (const auto& [id, page] : pages.all()) {
+    if (const auto* records = std::get_if<Records>(page.get())) {
+      deltas.push_back({id, *records});
+      continue;
+    }
+    std::vector<SumChange> changes;
+    const Sums& sums = std::get<Sums>(*page);
+    for (size_t place = 0; place < sums.size(); ++place)
+      if (sums[place] != 0) changes.push_back({static_cast<uint16_t>(place), sums[place]});
+    deltas.push_back({id, std::move(changes)});
+  }
+  return deltas;
+}
+
+}  // namespace ninefold

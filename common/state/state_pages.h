@@ -1,0 +1,42 @@
+// state_pages.h: the pages of one version of a method's state.
+//
+// A copy shares its pages with the original, and a change copies what it changes alone. So many
+// versions can be kept, for as much memory as they differ.
+//
+// Cost:    O(log pages) to find one, a copy of each changed page to apply.
+// Proved:  tests/state/state_pages_test.cpp.
+// Threads: a value; copies may be used by different threads.
+// Errors:  apply throws Error, and changes nothing, if a sum overflows or leaves its page, if a
+//          page grows beyond kPageBytes, or if it changes its form.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "common/state/page.h"
+
+namespace ninefold {
+
+class StatePages {
+ public:
+  using Shared = std::shared_ptr<const Page>;
+
+  void apply(const PageDeltas& deltas);
+
+  // Null: nobody has written it.
+  const Page* find(PageId page) const;
+  const std::map<PageId, Shared>& all() const { return pages_; }
+  size_t bytes() const;
+
+  // Of all pages; equal for equal states, whatever led to them.
+  uint64_t hash() const { return hash_; }
+
+ private:
+  std::map<PageId, Shared> pages_;
+  uint64_t hash_ = 0;  // sum of the pages' own, so that the order of changes does not count
+};
+
+// `deltas` that make the empty state these pages.
+PageDeltas deltasTo(const StatePages& pages);
+
+}  // namespace ninefold
