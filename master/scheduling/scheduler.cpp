@@ -80,24 +80,39 @@ int Scheduler::waiting() const {
 
 bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit() || wouldShare(); }
 
+int Scheduler::openFrames() const {
+  return static_cast<int>(
+      std::ranges::count_if(frames_, [](const auto& f) { return !f.second.isStep(); }));
+}
+
+const SchedulerFrame* Scheduler::newestPicture() const {
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame)
+    if (!frame->second.isStep()) return &frame->second;
+  return nullptr;
+}
+
 // Frames leave in their order: those that are complete behind one that is not are ahead, too.
 bool Scheduler::runsAhead() const {
-  const int sets = frames_.rbegin()->second.sets();
-  const int needed = (clients() + sets - 1) / sets;
-  return static_cast<int>(nextFrame_ - frames_.begin()->first) >= needed + kAhead;
+  const SchedulerFrame* newest = newestPicture();
+  if (newest == nullptr) return false;
+  const auto oldest =
+      std::ranges::find_if(frames_, [](const auto& f) { return !f.second.isStep(); });
+  const int needed = (clients() + newest->sets() - 1) / newest->sets();
+  return pictures_ - oldest->second.ordinal() >= needed + kAhead;
 }
 
 // Clients have credit left after the sets that they go on with, and want more new sets than there
 // are.
 bool Scheduler::wouldShare() const {
-  if (frames_.empty() || frames_.rbegin()->second.sharesSets() || runsAhead()) return false;
+  const SchedulerFrame* newest = newestPicture();
+  if (newest == nullptr || newest->sharesSets() || runsAhead()) return false;
   int untouched = 0;
   for (const auto& [number, frame] : frames_) untouched += frame.untouchedSets();
   for (const auto& [time, client] : pool_.ready()) {
     int credit = pool_.find(client)->credit();
     for (const auto& [number, frame] : frames_)
       if (const auto set = frame.setToGoOnWith(client)) credit -= frame.waitingOf(*set);
-    for (; credit > 0; credit -= frames_.rbegin()->second.tasksOfSet())
+    for (; credit > 0; credit -= newest->tasksOfSet())
       if (--untouched < 0) return true;
   }
   return false;
@@ -105,20 +120,34 @@ bool Scheduler::wouldShare() const {
 
 void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind) {
   NINEFOLD_CHECK(key.frame >= nextFrame_);
-  frames_.emplace(key.frame, SchedulerFrame(key, grid, kind));
+  frames_.emplace(key.frame, SchedulerFrame(key, grid, kind, pictures_++));
   pool_.setResultsWait(kind.urgent ? Duration(0) : kResultsTogether);
   nextFrame_ = key.frame + 1;
 }
 
-void Scheduler::viewChanged(uint32_t firstWanted, Time now) {
-  while (!frames_.empty() && frames_.begin()->first < firstWanted) {
-    counts_.cancelledTasks += static_cast<uint64_t>(frames_.begin()->second.left());
-    ++counts_.cancelledFrames;
-    closeFrame(frames_.begin()->first, false);
+void Scheduler::openStep(uint32_t number, int units, double rays) {
+  NINEFOLD_CHECK(number >= nextFrame_);
+  NINEFOLD_CHECK(units > 0);
+  frames_.emplace(number, SchedulerFrame(number, units, rays));
+  nextFrame_ = number + 1;
+}
+
+void Scheduler::viewChanged(uint32_t firstWanted, Time now) { supersede(firstWanted, false, now); }
+
+void Scheduler::stateChanged(uint32_t firstWanted, Time now) { supersede(firstWanted, true, now); }
+
+void Scheduler::supersede(uint32_t firstWanted, bool steps, Time now) {
+  std::vector<uint32_t> ended;
+  for (const auto& [number, frame] : frames_)
+    if (number < firstWanted && frame.isStep() == steps) ended.push_back(number);
+  for (const uint32_t number : ended) {
+    counts_.cancelledTasks += static_cast<uint64_t>(tasksLeft(number));
+    counts_.cancelledFrames += steps ? 0 : 1;
+    closeFrame(number, false);
   }
   pool_.change([&](SchedulerClient& client) {
-    const bool held = client.withdraw(firstWanted, now);
-    if (held) cancellations_.push_back({.client = client.id(), .firstWanted = firstWanted});
+    const bool held = client.withdraw(firstWanted, steps, now);
+    if (held) cancellations_.push_back({client.id(), firstWanted, steps});
     return held;
   });
 }
@@ -134,7 +163,9 @@ bool Scheduler::allAreStuck() const {
 }
 
 void Scheduler::closeFrame(uint32_t frame, bool completed) {
-  counts_.completedFrames += completed;
+  const bool isStep = frames_.at(frame).isStep();
+  counts_.completedFrames += completed && !isStep;
+  counts_.completedSteps += completed && isStep;
   frames_.erase(frame);
   closed_.emplace_back(frame, completed);
   if (closed_.size() > kRememberedFrames) closed_.pop_front();
@@ -175,6 +206,7 @@ Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, TaskCost cost,
 
   ++counts_.accepted;
   SchedulerFrame& frame = *findFrame(task.frame);
+  counts_.completedUnits += frame.isStep();
   frame.finish(frame.indexOf(task));
   if (verdict == Verdict::completedFrame) closeFrame(task.frame, true);
   return verdict;
@@ -297,10 +329,12 @@ void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task,
                          .late = now + kLateFactor * std::max(estimate, kShortestEstimate)});
   const int set = frame.setOf(task);
   const auto use = frame.useSet(client.id(), set);
-  client.counts().frames += use.firstInFrame;
-  client.counts().lightSets += use.newSet;
-  client.rememberSet(frame.key().randomization, set);
-  client.take({.task = frame.idOf(task), .set = set, .rays = rays}, now);
+  if (!frame.isStep()) {
+    client.counts().frames += use.firstInFrame;
+    client.counts().lightSets += use.newSet;
+    client.rememberSet(frame.key().randomization, set);
+  }
+  client.take({.task = frame.idOf(task), .set = set, .rays = rays, .isStep = frame.isStep()}, now);
   pool_.update(client);
   ++counts_.assigned;
   actions.assign.push_back({client.id(), frame.idOf(task), client.allowance(rays)});

@@ -19,6 +19,8 @@
 //   lost        Its tasks go back to the front of their queues at once.
 //   suspect     It holds tasks and gives no result for too long. As lost, but its results stay
 //               welcome, and it gets one task on trial when it is heard of again.
+//   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A change
+//               of the view leaves them.
 //   stuck       It is at work on a task past its deadline. As a suspect, but heartbeats do not
 //               help: it gets nothing until it gives a result. Actions::notes tell.
 //
@@ -65,8 +67,13 @@ class Scheduler {
   // Frames have ascending ids. A task's light set is lightSetOfPhase(phase, key.rotation, sets).
   // Tasks without pixels do not exist; whole tiles have phase 0 alone.
   void openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind = {});
-  // All open frames before `firstWanted` are superseded.
+  // A step of a method's state; one count of ids for frames and steps. Its tasks are
+  // (number, 0..units-1, 0), each of so many rays.
+  void openStep(uint32_t number, int units, double rays);
+  // All open frames before `firstWanted` are superseded; steps are not.
   void viewChanged(uint32_t firstWanted, Time now);
+  // All open steps before `firstWanted` are void; frames are not.
+  void stateChanged(uint32_t firstWanted, Time now);
   // The caller itself did not run for so long, until now: no client is to blame for that.
   void paused(Duration pause);
 
@@ -80,10 +87,10 @@ class Scheduler {
   // or only by sharing light sets without need.
   bool wantsFrame() const;
   bool isOpen(uint32_t frame) const { return frames_.contains(frame); }
-  int openFrames() const { return static_cast<int>(frames_.size()); }
+  int openFrames() const;  // without steps
   int clients() const { return pool_.size(); }
   bool allAreStuck() const;  // and there is a client
-  // Tasks of an open frame that are not done; 0 for any other frame.
+  // Tasks of an open frame or step that are not done; 0 for any other.
   int tasksLeft(uint32_t frame) const;
 
   const SchedulerCounts& counts() const { return counts_; }
@@ -101,9 +108,11 @@ class Scheduler {
   SchedulerFrame* findFrame(uint32_t frame);
   const SchedulerFrame* findFrame(uint32_t frame) const;
   Verdict verdictOnClosed(uint32_t frame) const;
-  int waiting() const;     // tasks to hand out, over all open frames
-  bool runsAhead() const;  // needs an open frame
+  int waiting() const;                          // tasks to hand out, over all open frames
+  const SchedulerFrame* newestPicture() const;  // of the open frames; null: none
+  bool runsAhead() const;
   bool wouldShare() const;
+  void supersede(uint32_t firstWanted, bool steps, Time now);
   struct Place {
     SchedulerFrame* frame;
     int set;
@@ -126,7 +135,8 @@ class Scheduler {
   std::map<ClientId, ClientReport> past_;         // clients that were lost
   std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
   std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?
-  uint32_t nextFrame_ = 0;                        // every frame id so far is smaller
+  uint32_t nextFrame_ = 0;                        // every id so far is smaller
+  int pictures_ = 0;                              // frames so far, without steps
   std::vector<Cancellation> cancellations_;       // for the next poll, as the notes
   std::vector<StuckNote> notes_;
   SchedulerCounts counts_;

@@ -135,9 +135,10 @@ void SchedulerClient::learn(TaskCost cost, const HeldTask* task) {
   if (cost.madeLight) lightSecondsPerRay_ = std::max(perRay, (1 - kForget) * lightSecondsPerRay_);
 }
 
-bool SchedulerClient::withdraw(uint32_t firstWanted, Time now) {
-  const auto count =
-      std::erase_if(held_, [&](const HeldTask& held) { return held.task.frame < firstWanted; });
+bool SchedulerClient::withdraw(uint32_t firstWanted, bool steps, Time now) {
+  const auto count = std::erase_if(held_, [&](const HeldTask& held) {
+    return held.isStep == steps && held.task.frame < firstWanted;
+  });
   owesAnswer_ = owesAnswer_ || count > 0;
   beginTasks(now);
   updateRefilling();

@@ -84,8 +84,8 @@ class SchedulerClient {
   void take(const HeldTask& task, Time now);
   // Its result came, wanted or not; learns the client's speed.
   void answered(const TaskId& task, TaskCost cost, bool accepted, Time now);
-  // Forgets what it holds of frames before firstWanted. False if that was nothing.
-  bool withdraw(uint32_t firstWanted, Time now);
+  // Forgets what it holds of frames, or of steps, before firstWanted. False if that was nothing.
+  bool withdraw(uint32_t firstWanted, bool steps, Time now);
   void heard(Time now) { lastHeard_ = now; }
   void becomeStuck(Time now);
   void becomeUnstuck() { stuckSince_.reset(); }

@@ -7,8 +7,11 @@
 
 namespace ninefold {
 
-SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind)
+SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind,
+                               int ordinal)
     : key_(key),
+      ordinal_(ordinal),
+      isStep_(false),
       sharesSets_(kind.urgent || kind.freeSets),
       wholeTiles_(kind.wholeTiles),
       rays_(std::max(1.0, kind.rays)),
@@ -22,6 +25,24 @@ SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameK
     queueOf(task).order.push_back(task);
     ++queueOf(task).waiting;
     ++waiting_, ++left_;
+  }
+}
+
+SchedulerFrame::SchedulerFrame(uint32_t number, int units, double rays)
+    : isStep_(true),
+      sharesSets_(true),
+      wholeTiles_(false),
+      rays_(std::max(1.0, rays)),
+      sets_(1),
+      left_(units),
+      waiting_(units),
+      tasks_(static_cast<size_t>(units)),
+      queues_(1) {
+  key_.frame = number;
+  queues_.front().waiting = units;
+  for (int unit = 0; unit < units; ++unit) {
+    at(unit).state = TaskState::waiting;
+    queues_.front().order.push_back(unit);
   }
 }
 

@@ -1,6 +1,7 @@
 // scheduler_frame.h: the books of one open frame: which task waits, which is in flight where, which
 // is done. There is a queue of waiting tasks for each light set, and the tasks with a single holder
-// are sorted by the time when they are late.
+// are sorted by the time when they are late. A step of a method's state is a frame without pixels:
+// its units are tasks of one light set that costs nothing.
 //
 // A task is  absent   (no pixels: the tile's corner of a small picture),
 //            waiting  (no active holder), active (>= 1 active holder) or done.
@@ -37,9 +38,14 @@ class SchedulerFrame {
   using Stragglers =
       std::set<std::pair<Time, int>>;  // (late, task) of tasks with one active holder
 
-  SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind);
+  // `ordinal`: of pictures, without steps.
+  SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind, int ordinal);
+  // A step of `units` units, each of so many rays.
+  SchedulerFrame(uint32_t number, int units, double rays);
 
   const FrameKey& key() const { return key_; }
+  bool isStep() const { return isStep_; }
+  int ordinal() const { return ordinal_; }
   bool sharesSets() const { return sharesSets_; }       // all clients work on it at once
   int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of
   double raysOfTask() const { return rays_; }
@@ -106,7 +112,8 @@ class SchedulerFrame {
   bool settle(int task);
 
   FrameKey key_;
-  bool sharesSets_, wholeTiles_;
+  int ordinal_ = 0;
+  bool isStep_, sharesSets_, wholeTiles_;
   double rays_;
   int sets_;  // = phases
   int left_ = 0, waiting_ = 0;

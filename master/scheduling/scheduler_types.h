@@ -15,11 +15,12 @@ namespace ninefold {
 // Given by the caller, one for each accepted connection, never used again in a run.
 using ClientId = uint32_t;
 
-// Names one task on master, client and wire: the pixels of one phase in one tile of one frame.
+// Names one task on master, client and wire: the pixels of one phase in one tile of one frame, or a
+// unit of a step of a method's state.
 struct TaskId {
-  uint32_t frame = 0;  // FrameKey::frame
-  int tile = 0;        // 0..TileGrid::tiles()-1
-  int phase = 0;       // 0..Interleave::sets()-1
+  uint32_t frame = 0;  // FrameKey::frame or StepKey::number
+  int tile = 0;        // 0..TileGrid::tiles()-1; of a step: units after its first
+  int phase = 0;       // 0..Interleave::sets()-1; of a step: 0
   bool operator==(const TaskId&) const = default;
 };
 
@@ -36,8 +37,9 @@ struct FrameKind {
 // A task that was sent to a client and has not been answered.
 struct HeldTask {
   TaskId task;
-  int set = 0;      // light set
-  double rays = 1;  // FrameKind::rays
+  int set = 0;          // light set
+  double rays = 1;      // that it is expected to take (FrameKind::rays)
+  bool isStep = false;  // a unit of a step
   // When the client began it: since then fewer tasks than it has threads were ahead.
   std::optional<Time> begun = std::nullopt;
 };
@@ -50,16 +52,19 @@ struct Assignment {
   bool operator==(const Assignment&) const = default;
 };
 
-// Tell this client to forget its tasks of all frames before firstWanted. Its credit is given back
-// at once, so it need not answer; what it sends all the same is dropped as stale.
+// Tell this client to forget its tasks of all frames, or units of all steps, before firstWanted. Its
+// credit is given back at once, so it need not answer; what it sends all the same is dropped as
+// stale.
 struct Cancellation {
   ClientId client = 0;
   uint32_t firstWanted = 0;
+  bool steps = false;
   bool operator==(const Cancellation&) const = default;
 };
 
-// "frame 3, tile 5, set 2"
+// "frame 3, tile 5, set 2", "step 4, unit 7 of it"
 inline std::string nameOf(const HeldTask& held) {
+  if (held.isStep) return fmt::format("step {}, unit {} of it", held.task.frame, held.task.tile);
   return fmt::format("frame {}, tile {}, set {}", held.task.frame, held.task.tile, held.set);
 }
 
@@ -87,7 +92,7 @@ struct TaskCost {
 // What became of a result. Only `accepted` may be placed in a frame.
 enum class Verdict : uint8_t {
   accepted,
-  completedFrame,  // accepted, and it was the frame's last
+  completedFrame,  // accepted, and it was the frame's or the step's last
   duplicate,       // another client was faster
   stale,           // its frame was superseded, or its client has left
   unknown,         // never asked of this client, or no such task
@@ -104,6 +109,7 @@ struct SchedulerCounts {
   uint64_t cancelledTasks = 0;  // neither done nor wanted any more, by viewChanged
   uint64_t cancelledFrames = 0;
   uint64_t completedFrames = 0;
+  uint64_t completedSteps = 0, completedUnits = 0;
   uint64_t droppedDuplicate = 0;
   uint64_t droppedStale = 0;
   uint64_t droppedUnknown = 0;
