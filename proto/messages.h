@@ -25,6 +25,7 @@
 #include "common/image/tone_map.h"
 #include "common/scene/edit.h"
 #include "common/scene/settings.h"
+#include "common/state/page.h"
 #include "proto/bytes.h"
 #include "proto/framing.h"
 #include "proto/sha256.h"
@@ -42,6 +43,9 @@ inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats s
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
 inline constexpr uint8_t kAllExtraPlanes = (1 << kExtraPlanes) - 1;  // every bit of ExtraPlane
 inline constexpr size_t kMaxTileBytes = 2 << 20;                     // an encoded tile
+inline constexpr size_t kMaxDeltaBytes = 2 << 20;                    // encoded page deltas
+inline constexpr size_t kMaxStatePages = 65536;                      // in one version of a state
+inline constexpr uint32_t kMaxDeltaParts = 65536;                    // from version to version
 // How long a client lets a result that is not urgent wait for others; the scheduler counts on it.
 inline constexpr Duration kResultsTogether = milliseconds(4);
 inline constexpr Duration kLongestAllowed = std::chrono::hours(1000);  // for a task
@@ -65,18 +69,30 @@ enum class MessageType : uint16_t {
   pong = 14,     // both    the ping's clock and one's own
   goodbye = 15,  // both    the sender leaves on purpose; the connection closes
   edit = 16,     // M -> C  the scene changed; jobs that are configured from here on see it
+  steps = 17,    // M -> C  work of one step of the state, done in this order   -> Stepped for each
+  stepped = 18,  // C -> M  one finished unit, its page deltas as payload
+  cancelSteps = 19,  // M -> C  forget queued units of older steps (no answer)
+  stateDelta = 20,   // M -> C  from one version of the state to a later one, deltas as payload
+  stateOffer = 21,   // M -> C  a version's pages; what is not there is asked for -> BlobRequest*
 };
 
 // Who sent it. Messages that run the wrong way are malformed.
 enum class Peer : uint8_t { master, client };
 
-enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2 };
+// page: of a method's state (state_wire.h); the others are parts of a scene (scene_blobs.h).
+enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2, page = 3 };
 
 struct BlobInfo {
   Sha256 hash{};          // of the raw bytes
   uint64_t rawBytes = 0;  // declared size after decompression, 1..kMaxBlobBytes (scene_blobs.h)
   BlobKind kind = BlobKind::rest;
   bool operator==(const BlobInfo&) const = default;
+};
+
+struct StatePage {
+  PageId page;
+  BlobInfo blob;  // of kind page
+  bool operator==(const StatePage&) const = default;
 };
 
 enum class Phase : uint8_t { fetching = 0, building = 1 };
@@ -186,6 +202,36 @@ struct Edit {
   SceneEdit edit;        // what has changed since the version that the client has
   bool moving = false;   // a gesture: streams stay those of the last edit that was none
 };
+struct Steps {
+  uint32_t jobVersion = 0;
+  StepKey step;                              // to > from
+  std::vector<uint32_t> units;               // 1..kMaxTasksPerMessage, from step.firstUnit on
+  Duration allowed = std::chrono::hours(1);  // for each, as in Tasks
+};
+struct Stepped {
+  uint32_t jobVersion = 0;
+  uint32_t number = 0;  // of the step
+  uint32_t unit = 0;
+  uint64_t busyNs = 0;     // one thread's time
+  uint64_t stateHash = 0;  // of the version that the step began from (state_pages.h)
+  RayCounts rays;
+  Bytes deltas;  // as state_wire.h made them
+};
+struct CancelSteps {
+  uint32_t number = 0;  // units of steps before this one are void; tasks are not touched
+};
+struct StateDelta {
+  uint32_t from = 0, to = 0;     // to > from
+  uint32_t part = 0, parts = 1;  // part < parts <= kMaxDeltaParts; all of them make version `to`
+  uint64_t hash = 0;             // of version `to` (state_pages.h)
+  uint32_t oldest = 0;           // versions before this one are not named any more
+  Bytes deltas;                  // as state_wire.h made them
+};
+struct StateOffer {
+  uint32_t version = 0;
+  uint64_t hash = 0;             // of the version (state_pages.h)
+  std::vector<StatePage> pages;  // ids ascend; up to kMaxStatePages
+};
 
 }  // namespace msg
 
@@ -193,7 +239,8 @@ struct Edit {
 using Message =
     std::variant<msg::Hello, msg::Welcome, msg::Refuse, msg::SceneOffer, msg::BlobRequest,
                  msg::BlobChunk, msg::Configure, msg::Ready, msg::Progress, msg::Tasks, msg::Cancel,
-                 msg::Result, msg::Ping, msg::Pong, msg::Goodbye, msg::Edit>;
+                 msg::Result, msg::Ping, msg::Pong, msg::Goodbye, msg::Edit, msg::Steps,
+                 msg::Stepped, msg::CancelSteps, msg::StateDelta, msg::StateOffer>;
 
 inline MessageType typeOf(const Message& message) {
   return static_cast<MessageType>(message.index() + 1);

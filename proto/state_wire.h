@@ -1,0 +1,41 @@
+// state_wire.h: page deltas as bytes, and pages of a method's state as blobs; back, bit for bit.
+//
+// Deltas are the payload of Stepped and StateDelta. A blob of kind page is one delta that makes
+// the page of nothing, so its id is inside, and pages that are equal have one name.
+//
+// Layout:  PROTOCOL.md, State.
+// Limits:  kMaxRawDeltaBytes before compression. All sizes and counts are checked before memory is
+//          taken; decompression stops at the declared size.
+// Proved:  tests/proto/state_wire_test.cpp.
+// Errors:  all throw Error with one line. Those that encode do so if page ids do not ascend, or
+//          pages or the whole are too large: what they give can always be sent and decoded.
+// Threads: pure functions.
+#pragma once
+
+#include <vector>
+
+#include "common/state/page.h"
+#include "proto/messages.h"
+#include "proto/scene_blobs.h"
+
+namespace ninefold {
+
+inline constexpr size_t kMaxRawDeltaBytes = 16 << 20;
+
+// Page ids ascend: no page is there twice. A page has at most kPageSums changes, in any order.
+Bytes encodeDeltas(const PageDeltas& deltas);
+PageDeltas decodeDeltas(ByteView encoded);
+
+// The same for any amount of deltas: at least one part, each small enough for a message.
+std::vector<Bytes> encodeParts(const PageDeltas& deltas);
+
+Blob packPage(PageId id, const Page& page);
+
+// What makes the page of nothing. Checks size, hash and id against what was offered. For bytes from
+// the wire and from a cache alike.
+PageDelta unpackPage(const StatePage& offered, ByteView compressed);
+
+// The same for bytes that unpackBlob has given back.
+PageDelta readPage(PageId offered, ByteView raw);
+
+}  // namespace ninefold
