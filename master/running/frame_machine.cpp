@@ -31,6 +31,7 @@ int FrameMachine::workers() {
 ServerDuty FrameMachine::serverDuty() {
   ServerDuty duty;
   duty.nextWork = [this] { return assembly_.hasRoom() ? duty_.nextWork() : std::nullopt; };
+  duty.stepDone = duty_.stepDone;
   duty.take = [this](ReceivedTile& tile) {
     if (duty_.tileCame) duty_.tileCame(tile);
     return assembly_.take(tile);

@@ -3,7 +3,7 @@
 //
 //   duty.nextWork -> cluster -> tiles -> assembly -> duty.finishTile -> next
 //
-// Threads: nextWork, tileCame and giveUp are called on the network thread, finishTile on a
+// Threads: nextWork, tileCame, giveUp and stepDone are called on the network thread, finishTile on a
 // worker's; everything else from any thread.
 // Owner: the run; ends all its threads when destroyed.
 // Errors: the constructor throws Error (cannot listen, bad key); cluster().failure() tells what
@@ -18,13 +18,16 @@ namespace ninefold {
 
 // What a run does at each station.
 struct FrameDuty {
-  // The next frame, after open() of it; nothing if there is none now. Asked only if there is room.
-  std::function<std::optional<FrameOrder>()> nextWork;
+  // The next frame, after open() of it, or step; nothing if there is none now. Asked only if there
+  // is room.
+  std::function<std::optional<WorkOrder>()> nextWork;
   Assembly::Finish finishTile;
   // A tile is about to be taken. May be null.
   std::function<void(const ReceivedTile&)> tileCame = nullptr;
   // As ServerDuty::giveUp. May be null.
   std::function<uint32_t()> giveUp = nullptr;
+  // As ServerDuty::stepDone. May be null.
+  std::function<void(const StepKey&)> stepDone = nullptr;
 };
 
 class FrameMachine {

@@ -17,6 +17,7 @@
 #include "master/running/frame_plan.h"
 #include "master/running/invitation.h"
 #include "master/running/job.h"
+#include "master/running/state_plan.h"
 
 namespace ninefold {
 namespace {
@@ -30,7 +31,7 @@ class HeadlessRun {
   int run();
 
  private:
-  std::optional<FrameOrder> nextWork();
+  std::optional<WorkOrder> nextWork();
   void gatherFrames();
   bool isDone();
   void tellProgress();
@@ -44,7 +45,9 @@ class HeadlessRun {
   const Options& options_;
   const Job& job_;
   const StopRule rule_;
-  FramePlan plan_;            // the network thread's
+  FramePlan plan_;  // the network thread's, as the two below
+  StatePlan states_;
+  uint32_t next_ = 0;         // number of the next frame or step
   FrameOrder order_;          // of all frames, but for the key
   std::atomic<bool> enough_;  // no more frames are opened
   PictureMaker picture_;
@@ -84,6 +87,7 @@ HeadlessRun::HeadlessRun(const Options& options, const Job& job, const Listener:
       job_(job),
       rule_(options.stop),
       plan_(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging),
+      states_(job.settings),
       order_(orderOf(job)),
       enough_(false),
       picture_(pictureSetup(options, job, FrameMachine::workers())),
@@ -92,15 +96,25 @@ HeadlessRun::HeadlessRun(const Options& options, const Job& job, const Listener:
                {[this] { return nextWork(); },
                 [this](int worker, const GatheredFrame& frame, int tile) {
                   picture_.finishTile(worker, frame, tile);
-                }}) {}
+                },
+                nullptr, nullptr, [this](const StepKey& step) { states_.done(step); }}) {}
 
 // On the network thread.
-std::optional<FrameOrder> HeadlessRun::nextWork() {
-  const bool allOpened = rule_.frames && plan_.opened() >= *rule_.frames;
-  if (enough_ || allOpened) return std::nullopt;
+std::optional<WorkOrder> HeadlessRun::nextWork() {
+  std::optional<int64_t> framesLeft;
+  if (rule_.frames) framesLeft = *rule_.frames - plan_.opened();
+  if (enough_ || framesLeft == 0) return std::nullopt;
+  if (const auto step = states_.nextStep(next_, false, framesLeft)) {
+    ++next_;
+    return StepOrder{order_, step->key, step->units};
+  }
+  const std::optional<uint32_t> state = states_.versionOfFrame(false);
+  if (!state) return std::nullopt;
   FrameOrder order = order_;
   order.key = plan_.next();
-  if (options_.filterAtClients) order.neighbourWeight = plan_.neighbourWeight(order.key.frame);
+  order.key.frame = next_++, order.key.state = *state;
+  if (options_.filterAtClients)
+    order.neighbourWeight = plan_.neighbourWeight(order.key.randomization);
   machine_.open(order, job_.shape);
   return order;
 }

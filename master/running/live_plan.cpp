@@ -13,6 +13,7 @@ LivePlan::LivePlan(const Setup& setup, Time now)
       atRest_(setup.delivery),
       inMotion_(setup.delivery),
       plan_(planOfRest()),
+      states_(setup.state.settings),
       changed_(now),
       firstUnshown_(now) {
   latest_.settings = state_.settings;
@@ -39,12 +40,14 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   asSeenFromHere.camera = state_.settings.camera;
   asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
   if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
+  if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
   state_ = state;
   changed_ = now;
   if (!dirty_) firstUnshown_ = now;
   dirty_ = true;
   if (!setup_.motion) {
     plan_ = planOfRest();
+    states_.restart();
     open_.clear();
     return nextFrame_;
   }
@@ -67,21 +70,34 @@ uint32_t LivePlan::giveUp() {
   open_.clear();
   dirty_ = moving_;
   plan_ = planOfRest();
+  states_.giveUp();
   return nextFrame_;
 }
 
 std::optional<LiveFrame> LivePlan::next(Time now) {
   if (moving_) return nextInMotion(now);
   if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;
+  const std::optional<uint32_t> version = states_.versionOfFrame(false);
+  if (!version) return std::nullopt;
   LiveFrame frame = open(now);
   frame.rested = plan_.opened();
   // Else the last picture of the motion, or of another look, stays for long.
   frame.order.urgent = std::exchange(urgent_, false) || frame.rested == 0;
   const FramePlan before = plan_;
-  const FrameKey key = plan_.next();
-  frame.neighbourWeight = plan_.neighbourWeight(key.frame);
+  FrameKey key = plan_.next();
+  key.state = *version;
+  frame.neighbourWeight = plan_.neighbourWeight(key.randomization);
   hold(frame, key, before);
   return frame;
+}
+
+std::optional<StepOrder> LivePlan::nextStep(Time now) {
+  std::optional<int64_t> framesLeft;
+  if (setup_.frames && !moving_) framesLeft = *setup_.frames - plan_.opened();
+  const auto step = states_.nextStep(nextFrame_, moving_, framesLeft);
+  if (!step) return std::nullopt;
+  ++nextFrame_;
+  return StepOrder{open(now).order, step->key, step->units};
 }
 
 void LivePlan::hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before) {
@@ -95,14 +111,18 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
     if (now - changed_ < kSettle || !open_.empty()) return std::nullopt;
     moving_ = false;
     plan_ = planOfRest();
+    states_.restart();
     return next(now);
   }
   if (open_.size() >= kInMotion) return std::nullopt;
+  const std::optional<uint32_t> version = states_.versionOfFrame(true);
+  if (!version) return std::nullopt;
   LiveFrame frame = open(now);
   frame.moving = frame.order.urgent = true;
   frame.quality = quality_.current();
   frame.changed = firstUnshown_;
   FrameKey key = planOfRest().next();  // the first frame's random bits
+  key.state = *version;
   const Settings& s = frame.order.settings;
   if (factsOf(s.method).lightNeedsView) key.lightCameras = lightCameras_.next(s.camera);
   hold(frame, key, plan_);

@@ -25,10 +25,12 @@
 
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "master/running/frame_plan.h"
 #include "master/running/light_cameras.h"
 #include "master/running/motion_quality.h"
+#include "master/running/state_plan.h"
 #include "master/scheduling/frame_order.h"
 
 namespace ninefold {
@@ -91,8 +93,13 @@ class LivePlan {
     atRest_ = atRest, inMotion_ = inMotion;
   }
 
-  // The next frame to open; nothing while none is wanted.
+  // The next frame to open; nothing while none is wanted, or the state is not there that lights it.
   std::optional<LiveFrame> next(Time now);
+  // The next step of the method's state to open: asked before next, and again if that gives none.
+  std::optional<StepOrder> nextStep(Time now);
+  void stepDone(const StepKey& step) { states_.done(step); }
+  // The first step that is wanted, if older ones are void since this was last asked.
+  std::optional<uint32_t> takeVoidSteps() { return std::exchange(voidSteps_, std::nullopt); }
   // A frame is complete. Nothing if it was superseded.
   std::optional<LiveFrame> completed(uint32_t frame, Time now);
 
@@ -117,6 +124,8 @@ class LivePlan {
   MotionQuality quality_;
   Delivery atRest_, inMotion_;
   FramePlan plan_;
+  StatePlan states_;
+  std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   bool moving_ = false, dirty_ = false;
   bool urgent_ = false;  // somebody waits for the next frame at rest

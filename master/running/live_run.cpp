@@ -35,13 +35,13 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       needs_(job.needs),
       view_(options.view),
       pace_(pace),
-      machine_(
-          options, keys, *job.offer,
-          {[this] { return nextWork(); },
-           [this](int worker, const GatheredFrame& frame, int tile) {
-             finishTile(worker, frame, tile);
-           },
-           [this](const ReceivedTile& tile) { noteOwner(tile); }, [this] { return giveUp(); }}) {
+      machine_(options, keys, *job.offer,
+               {[this] { return nextWork(); },
+                [this](int worker, const GatheredFrame& frame, int tile) {
+                  finishTile(worker, frame, tile);
+                },
+                [this](const ReceivedTile& tile) { noteOwner(tile); }, [this] { return giveUp(); },
+                [this](const StepKey& step) { stepDone(step); }}) {
   setDelivery();
 }
 
@@ -68,7 +68,7 @@ void LiveRun::stop(const std::string& reason) {
 }
 
 void LiveRun::change(const std::function<void()>& apply) {
-  std::optional<uint32_t> firstWanted;
+  std::optional<uint32_t> firstWanted, voidSteps;
   {
     const std::lock_guard lock(mutex_);
     apply();
@@ -76,9 +76,11 @@ void LiveRun::change(const std::function<void()>& apply) {
     const LiveState next = newest();
     if (next == plan_.state()) return;
     firstWanted = plan_.change(next, Clock::now());
+    voidSteps = plan_.takeVoidSteps();
     if (firstWanted || plan_.isMoving()) touching_.request_stop();
     if (firstWanted) std::erase_if(open_, [&](const auto& f) { return f.first < *firstWanted; });
   }
+  if (voidSteps) machine_.cluster().cancelSteps(*voidSteps);
   if (!firstWanted) return machine_.cluster().wake();
   machine_.supersede(*firstWanted);
 }
@@ -202,10 +204,17 @@ FrameShape LiveRun::shapeOf(const FrameOrder& order) const {
 }
 
 // On the network thread.
-std::optional<FrameOrder> LiveRun::nextWork() {
+std::optional<WorkOrder> LiveRun::nextWork() {
   const std::lock_guard lock(mutex_);
   if (ending_) return std::nullopt;
-  std::optional<LiveFrame> frame = plan_.next(Clock::now());
+  std::optional<StepOrder> step = plan_.nextStep(Clock::now());
+  std::optional<LiveFrame> frame;
+  if (!step) frame = plan_.next(Clock::now());
+  if (!step && !frame) step = plan_.nextStep(Clock::now());  // it may rest only now
+  if (step) {
+    step->edit = std::exchange(unsent_, {});
+    return step;
+  }
   if (!frame) return std::nullopt;
   FrameOrder& order = frame->order;
   order.edit = std::exchange(unsent_, {});
@@ -224,6 +233,12 @@ void LiveRun::noteOwner(const ReceivedTile& tile) {
   if (open == open_.end()) return;
   const auto sets = static_cast<size_t>(open->second->frame.order.settings.interleave.sets());
   open->second->owners.at(tile.result.tile * sets + tile.result.phase) = tile.client;
+}
+
+// On the network thread.
+void LiveRun::stepDone(const StepKey& step) {
+  const std::lock_guard lock(mutex_);
+  plan_.stepDone(step);
 }
 
 // On the network thread.

@@ -85,8 +85,9 @@ class LiveRun {
     std::vector<uint32_t> owners;  // by task
   };
   void end();
-  std::optional<FrameOrder> nextWork();
+  std::optional<WorkOrder> nextWork();
   void noteOwner(const ReceivedTile& tile);
+  void stepDone(const StepKey& step);
   uint32_t giveUp();
   void finishTile(int worker, const GatheredFrame& frame, int tile);
   void gatherFrames();

@@ -15,10 +15,11 @@ std::string clipped(const std::string& text) { return text.substr(0, kMaxText); 
 }  // namespace
 
 ClientSession::ClientSession(ClientId id, std::string peer, const JobOffer& offer,
-                             Admission& admission, Time now)
+                             StateKeeper& state, Admission& admission, Time now)
     : id_(id),
       peer_(std::move(peer)),
       offer_(offer),
+      state_(state),
       admission_(admission),
       heard_(now),
       lastTick_(now),
@@ -38,7 +39,7 @@ void ClientSession::received(Message&& message, Time now) {
 }
 
 void ClientSession::on(msg::Hello&& m, Time) {
-  if (inside()) fail("a second Hello");
+  if (isInside()) fail("a second Hello");
   hello_ = std::move(m);
   const Admission::Verdict verdict = admission_.judge(hello_, peer_);
   if (verdict.refusal) {
@@ -51,15 +52,21 @@ void ClientSession::on(msg::Hello&& m, Time) {
   send(offer_.sceneOffer());
   for (msg::Edit& edit : offer_.allEdits()) send(std::move(edit));
   send(offer_.configure());
+  offered_ = state_.snapshot();
+  if (offered_) send(offered_->offer);
+  stateChanged(state_.since());
 }
 
 void ClientSession::on(msg::BlobRequest&& m, Time) {
-  if (!inside()) fail("a request before Hello");
+  if (!isInside()) fail("a request before Hello");
+  if (offered_)
+    if (const auto page = offered_->blobs.find(m.hash); page != offered_->blobs.end())
+      return send(pieceOf(page->second, m));
   send(offer_.piece(m));
 }
 
 void ClientSession::on(msg::Progress&& m, Time now) {
-  if (!inside() || ready()) return;
+  if (!isInside() || ready()) return;
   const bool building = m.phase == Phase::building;
   if (building && !buildsSince_) buildsSince_ = now;
   status_.state = building ? ClientState::building : ClientState::syncing;
@@ -68,16 +75,22 @@ void ClientSession::on(msg::Progress&& m, Time now) {
 }
 
 void ClientSession::on(msg::Ready&& m, Time now) {
-  if (!inside() || m.sceneVersion != JobOffer::kScene || m.jobVersion > offer_.job())
+  if (!isInside() || m.sceneVersion != JobOffer::kScene || m.jobVersion > offer_.job())
     fail("ready for something that was not offered");
   if (ready()) return;  // later jobs need no answer
   status_ = {ClientState::ready, 1.0};
+  offered_.reset();
   push(todo::Join{m.jobVersion, now - buildsSince_.value_or(now)});
 }
 
 void ClientSession::on(msg::Result&& m, Time) {
   if (!ready() || m.jobVersion > offer_.job()) fail("a result before it was ready");
   push(todo::TakeResult{std::move(m)});
+}
+
+void ClientSession::on(msg::Stepped&& m, Time) {
+  if (!ready() || m.jobVersion > offer_.job()) fail("a result before it was ready");
+  push(todo::TakeUnit{std::move(m)});
 }
 
 void ClientSession::on(msg::Ping&& m, Time now) { send(msg::Pong{m.clockNs, nanoseconds(now)}); }
@@ -101,7 +114,7 @@ void ClientSession::tick(Time now) {
   const Duration pause = now - std::exchange(lastTick_, now);
   if (pause > kPingEvery) heard_ += pause;
 
-  if (!inside()) {
+  if (!isInside()) {
     if (now - heard_ > kHelloWithin) finish("it did not introduce itself in time");
     return;
   }
@@ -112,9 +125,14 @@ void ClientSession::tick(Time now) {
 }
 
 void ClientSession::jobChanged(const msg::Edit* edit) {
-  if (!inside()) return;
+  if (!isInside()) return;
   if (edit != nullptr) send(*edit);
   send(offer_.configure());
+}
+
+void ClientSession::stateChanged(const std::vector<msg::StateDelta>& messages) {
+  if (!isInside()) return;
+  for (const msg::StateDelta& message : messages) send(message);
 }
 
 void ClientSession::expel(const std::string& reason) {

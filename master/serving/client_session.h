@@ -19,6 +19,7 @@
 #include "master/scheduling/scheduler_types.h"
 #include "master/serving/admission.h"
 #include "master/serving/job_offer.h"
+#include "master/serving/state_keeper.h"
 
 namespace ninefold {
 
@@ -41,11 +42,14 @@ struct RoundTrip {
 struct TakeResult {
   msg::Result result;
 };
+struct TakeUnit {
+  msg::Stepped result;
+};
 struct Finish {  // send what is queued, close; it counts as lost at once
   std::string reason;
 };
 
-using Action = std::variant<Send, Warn, Join, Heard, RoundTrip, TakeResult, Finish>;
+using Action = std::variant<Send, Warn, Join, Heard, RoundTrip, TakeResult, TakeUnit, Finish>;
 
 }  // namespace todo
 
@@ -64,13 +68,15 @@ class ClientSession {
   static constexpr Duration kDeadAfter = std::chrono::seconds(3);
   static constexpr Duration kDeadAfterInSync = std::chrono::seconds(10);
 
-  ClientSession(ClientId id, std::string peer, const JobOffer& offer, Admission& admission,
-                Time now);
+  ClientSession(ClientId id, std::string peer, const JobOffer& offer, StateKeeper& state,
+                Admission& admission, Time now);
 
   void received(Message&& message, Time now);
   void tick(Time now);
   // The offer has a new job, and, if `edit` is not null, another scene.
   void jobChanged(const msg::Edit* edit);
+  // The method's state has a new version.
+  void stateChanged(const std::vector<msg::StateDelta>& messages);
   // What it sent was malformed: it is told so and must not come back.
   void expel(const std::string& reason);
   void disconnected();
@@ -83,6 +89,8 @@ class ClientSession {
   const ClientStatus& status() const { return status_; }
   bool over() const { return status_.state == ClientState::lost; }
   bool ready() const { return status_.state == ClientState::ready; }
+  // It has introduced itself.
+  bool isInside() const { return !over() && status_.state != ClientState::connecting; }
 
  private:
   void on(msg::Hello&& m, Time now);
@@ -90,13 +98,13 @@ class ClientSession {
   void on(msg::Ready&& m, Time now);
   void on(msg::Progress&& m, Time now);
   void on(msg::Result&& m, Time now);
+  void on(msg::Stepped&& m, Time now);
   void on(msg::Ping&& m, Time now);
   void on(msg::Pong&& m, Time now);
   void on(msg::Goodbye&& m, Time now);
   template <typename Other>
   void on(Other&&, Time);  // the master's own messages: decodeMessage lets none of them through
 
-  bool inside() const { return !over() && status_.state != ClientState::connecting; }
   void push(todo::Action action) { actions_.push_back(std::move(action)); }
   void send(Message message) { push(todo::Send{std::move(message)}); }
   void finish(const std::string& reason);
@@ -104,6 +112,8 @@ class ClientSession {
   const ClientId id_;
   const std::string peer_;
   const JobOffer& offer_;
+  StateKeeper& state_;
+  std::shared_ptr<const StateKeeper::Snapshot> offered_;  // until it is ready
   Admission& admission_;
   msg::Hello hello_;
   ClientStatus status_;

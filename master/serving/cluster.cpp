@@ -175,6 +175,10 @@ void Cluster::supersede(uint32_t firstWanted) {
   loop_.post([this, firstWanted] { server_.supersede(firstWanted, Clock::now()); });
 }
 
+void Cluster::cancelSteps(uint32_t firstWanted) {
+  loop_.post([this, firstWanted] { server_.cancelSteps(firstWanted, Clock::now()); });
+}
+
 void Cluster::wake() {
   loop_.post([this] { server_.tick(Clock::now()); });
 }

@@ -42,6 +42,8 @@ class Cluster {
 
   // No frame before `firstWanted` is wanted any more.
   void supersede(uint32_t firstWanted);
+  // No step before `firstWanted` is.
+  void cancelSteps(uint32_t firstWanted);
   // There may be a frame to open that was not there before.
   void wake();
 

@@ -40,9 +40,13 @@ msg::SceneOffer JobOffer::sceneOffer() const {
 
 msg::BlobChunk JobOffer::piece(const msg::BlobRequest& request) const {
   const auto found = byHash_.find(request.hash);
-  if (found == byHash_.end() || request.offset >= found->second->compressed.size())
-    fail("asked for a piece of the scene that does not exist");
-  const ByteView all = found->second->compressed;
+  if (found == byHash_.end()) fail("asked for a part of the scene that does not exist");
+  return pieceOf(*found->second, request);
+}
+
+msg::BlobChunk pieceOf(const Blob& blob, const msg::BlobRequest& request) {
+  const ByteView all = blob.compressed;
+  if (request.offset >= all.size()) fail("asked for a piece of a blob that does not exist");
   const auto offset = static_cast<size_t>(request.offset);
   const ByteView piece = all.subspan(offset, std::min(kBlobChunkBytes, all.size() - offset));
   return {request.hash, request.offset, all.size(), Bytes(piece.begin(), piece.end())};

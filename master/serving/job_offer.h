@@ -11,6 +11,9 @@
 
 namespace ninefold {
 
+// The piece of a blob that was asked for. Error: it has no such place.
+msg::BlobChunk pieceOf(const Blob& blob, const msg::BlobRequest& request);
+
 class JobOffer {
  public:
   JobOffer(std::vector<Blob> blobs, const Settings& settings, const Delivery& delivery);

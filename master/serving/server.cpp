@@ -13,6 +13,11 @@ TaskId taskOf(const msg::Result& result) {
   return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
 }
 
+// `first`: unit of the step.
+TaskId unitOf(const msg::Stepped& result, uint32_t first) {
+  return {result.number, static_cast<int>(result.unit - first), 0};
+}
+
 TaskCost costOf(const msg::Result& result) {
   return {std::chrono::nanoseconds(result.busyNs), result.setsMade > 0};
 }
@@ -33,8 +38,8 @@ void Server::accept(std::shared_ptr<Connection> connection) {
   const ClientId id = nextId_++;
   Peer& peer = peers_[id];
   peer.connection = std::move(connection);
-  peer.session = std::make_unique<ClientSession>(id, peer.connection->peer(), offer_, admission_,
-                                                 Clock::now());
+  peer.session = std::make_unique<ClientSession>(id, peer.connection->peer(), offer_, state_,
+                                                 admission_, Clock::now());
   Connection::Events events;
   events.onMessage = [this, id](Message&& message) {
     withPeer(id, [&](ClientSession& s, Time now) { s.received(std::move(message), now); });
@@ -87,7 +92,9 @@ void Server::on(Handle& peer, todo::Join&& a, Time now) {
 // A client that has missed the job of an open frame must get no task of it.
 void Server::letJoin(Time now) {
   const auto canDoAll = [&](uint32_t job) {
-    return std::ranges::all_of(open_, [&](const auto& frame) { return frame.second.job >= job; });
+    return std::ranges::all_of(open_, [&](const auto& f) { return f.second.job >= job; }) &&
+           std::ranges::all_of(openSteps_,
+                               [&](const auto& s) { return s.second.order.job >= job; });
   };
   std::erase_if(joining_, [&](const auto& client) {
     const auto& [id, join] = client;
@@ -105,6 +112,7 @@ void Server::giveUpOpenFrames(Time now) {
   const uint32_t firstWanted = duty_.giveUp();
   scheduler_.viewChanged(firstWanted, now);
   std::erase_if(open_, [&](const auto& frame) { return frame.first < firstWanted; });
+  dropSteps(firstWanted, now);
   letJoin(now);
 }
 
@@ -125,6 +133,42 @@ void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
   }
   ReceivedTile tile{peer.first, std::move(a.result), now};
   if (!duty_.take(tile)) peer.second.session->expel("more results than were asked for");
+}
+
+void Server::on(Handle& peer, todo::TakeUnit&& a, Time now) {
+  lastMove_ = now;
+  const uint32_t number = a.result.number;
+  const auto step = openSteps_.find(number);
+  const uint32_t first = step == openSteps_.end() ? 0 : step->second.order.key.firstUnit;
+  const TaskId task = unitOf(a.result, first);
+  const TaskCost cost(std::chrono::nanoseconds(a.result.busyNs));
+  if (isAccepted(scheduler_.verdictOn(peer.first, task))) {
+    tally_.rays += a.result.rays;
+    tally_.stepBytesReceived += a.result.deltas.size();
+    try {
+      state_.take(std::move(a.result));
+    } catch (const Error& error) {
+      ++tally_.malformed;
+      return peer.second.session->expel(error.what());
+    }
+  }
+  const Verdict verdict = scheduler_.resultArrived(peer.first, task, cost, now);
+  if (verdict == Verdict::completedFrame) finishStep(number, now);
+}
+
+// A version that cannot be made ends the run: the loop's owner takes the Error.
+void Server::finishStep(uint32_t number, Time now) {
+  const OpenStep step = openSteps_.at(number);
+  openSteps_.erase(number);
+  tally_.inSteps += now - step.since;
+  const std::vector<msg::StateDelta>& messages = state_.complete(number);
+  for (Handle& peer : peers_) {
+    if (!peer.second.session->isInside()) continue;
+    peer.second.session->stateChanged(messages);
+    for (const msg::StateDelta& message : messages) tally_.stepBytesSent += message.deltas.size();
+    carryOut(peer, now);
+  }
+  if (duty_.stepDone) duty_.stepDone(step.order.key);
 }
 
 void Server::on(Handle& peer, todo::Finish&& a, Time now) {
@@ -177,6 +221,17 @@ void Server::supersede(uint32_t firstWanted, Time now) {
   scheduler_.viewChanged(firstWanted, now);
   std::erase_if(open_, [&](const auto& frame) { return frame.first < firstWanted; });
   dispatch(now);
+}
+
+void Server::cancelSteps(uint32_t firstWanted, Time now) {
+  dropSteps(firstWanted, now);
+  dispatch(now);
+}
+
+void Server::dropSteps(uint32_t firstWanted, Time now) {
+  scheduler_.stateChanged(firstWanted, now);
+  state_.drop(firstWanted);
+  std::erase_if(openSteps_, [&](const auto& step) { return step.first < firstWanted; });
 }
 
 void Server::tick(Time now) {

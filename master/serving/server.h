@@ -36,13 +36,15 @@ struct ServerSetup {
 
 // What the server is there for; called in the loop's thread, must not wait.
 struct ServerDuty {
-  // What is to be done next, a frame; nothing when there is none or no room for it now.
-  std::function<std::optional<FrameOrder>()> nextWork;
+  // What is to be done next, a frame or a step; nothing when there is none or no room for it now.
+  std::function<std::optional<WorkOrder>()> nextWork;
   // Takes a tile that is wanted, answered by decoded(); false when there is no room.
   std::function<bool(ReceivedTile&)> take;
   // Only newcomers are left, who have missed the open frames' job. Gives the first frame that is
   // wanted instead. Null: all frames are of one job.
   std::function<uint32_t()> giveUp = nullptr;
+  // A step is done: frames may be lit by version key.to of the state. May be null.
+  std::function<void(const StepKey&)> stepDone = nullptr;
 };
 
 // What the server counts; a value.
@@ -54,6 +56,8 @@ struct ServerTally {
   uint64_t bytesReceived = 0;
   std::optional<Time> firstDispatch, lastCompletion;
   Duration cpuAtDispatch{0};  // what the process had used at the first dispatch
+  Duration inSteps{0};        // from a step's first dispatch to its end, summed
+  uint64_t stepBytesReceived = 0, stepBytesSent = 0;  // page deltas
   bool reproducible = true;
 };
 
@@ -79,6 +83,8 @@ class Server {
   void decoded(const ReceivedTile& tile, const std::optional<std::string>& malformed, Time now);
   // No frame before `firstWanted` is wanted any more.
   void supersede(uint32_t firstWanted, Time now);
+  // No step before `firstWanted` is.
+  void cancelSteps(uint32_t firstWanted, Time now);
   // Says goodbye to all clients and accepts no more.
   void close(const std::string& reason);
 
@@ -119,6 +125,7 @@ class Server {
   void on(Handle& peer, todo::Heard&& a, Time now);
   void on(Handle& peer, todo::RoundTrip&& a, Time now);
   void on(Handle& peer, todo::TakeResult&& a, Time now);
+  void on(Handle& peer, todo::TakeUnit&& a, Time now);
   void on(Handle& peer, todo::Finish&& a, Time now);
   void lost(Handle& peer, const std::string& reason, Time now);
 
@@ -129,9 +136,16 @@ class Server {
   void tell(const StuckNote& note) const;
   std::string explainClient(ClientId id, const ClientSession& session, Time now) const;
   void count(const ReceivedTile& tile);
-  void announce(const FrameOrder& order);
+  void finishStep(uint32_t number, Time now);
+  void dropSteps(uint32_t firstWanted, Time now);
+  void announce(const JobOrder& order);
   void openFrames(Time now);
+  void open(const FrameOrder& order);
+  void open(const StepOrder& order, Time now);
+  void forgetStates();
   void sendTasks(const std::vector<Assignment>& assignments);
+  void sendUnits(const std::vector<Assignment>& assignments);
+  void noteDispatch();
 
   EventLoop& loop_;
   const ServerSetup setup_;
@@ -139,8 +153,14 @@ class Server {
   const ServerDuty duty_;
   Admission admission_;
   Scheduler scheduler_;
-  std::map<ClientId, Peer> peers_;          // all of the run
-  std::map<uint32_t, FrameOrder> open_;     // frames
+  std::map<ClientId, Peer> peers_;       // all of the run
+  std::map<uint32_t, FrameOrder> open_;  // frames
+  struct OpenStep {
+    StepOrder order;
+    Time since;
+  };
+  std::map<uint32_t, OpenStep> openSteps_;
+  StateKeeper state_;
   std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   bool started_ = false;  // waitClients were ready once

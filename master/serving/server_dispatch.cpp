@@ -39,8 +39,13 @@ void Server::dispatch(Time now) {
   openFrames(now);  // first: while there is a frame to open, nothing needs a second copy
   const Actions actions = scheduler_.poll(now);
   for (const Cancellation& cancel : actions.cancel)
-    if (const auto& connection = peers_.at(cancel.client).connection)
-      connection->send(msg::Cancel{offer_.job(), cancel.firstWanted});
+    if (const auto& connection = peers_.at(cancel.client).connection) {
+      if (cancel.steps)
+        connection->send(msg::CancelSteps{cancel.firstWanted});
+      else
+        connection->send(msg::Cancel{offer_.job(), cancel.firstWanted});
+    }
+  sendUnits(actions.assign);
   sendTasks(actions.assign);
   for (const StuckNote& note : actions.notes) tell(note);
 }
@@ -55,21 +60,47 @@ void Server::tell(const StuckNote& note) const {
          nameOf(note.task), seconds(note.time));
 }
 
-void Server::openFrames(Time) {
+void Server::openFrames(Time now) {
   while (scheduler_.wantsFrame() && scheduler_.openFrames() < kMaxOpenFrames) {
-    const std::optional<FrameOrder> order = duty_.nextWork();
-    if (!order) return;
-    if (order->job != offer_.job()) announce(*order);
-    open_[order->key.frame] = *order;
-    scheduler_.openFrame(order->key, order->grid(),
-                         {.wholeTiles = order->delivery.wholeTiles(),
-                          .urgent = order->urgent,
-                          .freeSets = factsOf(order->settings.method).freeSets,
-                          .rays = raysOfTask(*order)});
+    const std::optional<WorkOrder> work = duty_.nextWork();
+    if (!work) return;
+    if (const auto* frame = std::get_if<FrameOrder>(&*work))
+      open(*frame);
+    else
+      open(std::get<StepOrder>(*work), now);
   }
 }
 
-void Server::announce(const FrameOrder& order) {
+void Server::open(const FrameOrder& order) {
+  if (order.job != offer_.job()) announce(order);
+  open_[order.key.frame] = order;
+  scheduler_.openFrame(order.key, order.grid(),
+                       {.wholeTiles = order.delivery.wholeTiles(),
+                        .urgent = order.urgent,
+                        .freeSets = factsOf(order.settings.method).freeSets,
+                        .rays = raysOfTask(order)});
+  forgetStates();
+}
+
+void Server::open(const StepOrder& order, Time now) {
+  if (order.job != offer_.job()) announce(order);
+  openSteps_[order.key.number] = {order, now};
+  state_.open(order.key, order.units);
+  scheduler_.openStep(order.key.number, order.units,
+                      factsOf(order.settings.method).state->rays(order.settings));
+  forgetStates();
+}
+
+// Versions that nothing open names, and that nothing new will: the latest may be.
+void Server::forgetStates() {
+  uint32_t oldest = state_.version();
+  for (const auto& [number, frame] : open_) oldest = std::min(oldest, frame.key.state);
+  for (const auto& [number, step] : openSteps_)
+    if (step.order.key.from > 0) oldest = std::min(oldest, step.order.key.from);
+  state_.forget(oldest);
+}
+
+void Server::announce(const JobOrder& order) {
   std::optional<msg::Edit> edit;
   if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit, order.moving);
   offer_.setJob(order.job, order.settings, order.delivery);
@@ -86,21 +117,42 @@ void Server::sendTasks(const std::vector<Assignment>& assignments) {
   };
   std::map<std::pair<ClientId, uint32_t>, Bundle> bundles;
   for (const Assignment& a : assignments) {
+    if (openSteps_.contains(a.task.frame)) continue;
     Bundle& bundle = bundles[{a.client, a.task.frame}];
     bundle.items.push_back({static_cast<uint32_t>(a.task.tile), static_cast<uint32_t>(a.task.phase),
                             open_.at(a.task.frame).extraMask});
     bundle.allowed = a.allowed;
   }
-  if (!bundles.empty() && !tally_.firstDispatch) {
-    tally_.firstDispatch = Clock::now();
-    tally_.cpuAtDispatch = processCpuTime();
-  }
+  if (!bundles.empty()) noteDispatch();
   for (auto& [to, bundle] : bundles) {
     const FrameOrder& frame = open_.at(to.second);
     if (const auto& connection = peers_.at(to.first).connection)
       connection->send(msg::Tasks{frame.job, frame.key, std::move(bundle.items),
                                   frame.neighbourWeight, frame.urgent, bundle.allowed});
   }
+}
+
+void Server::sendUnits(const std::vector<Assignment>& assignments) {
+  std::map<std::pair<ClientId, uint32_t>, msg::Steps> bundles;
+  for (const Assignment& a : assignments) {
+    const auto step = openSteps_.find(a.task.frame);
+    if (step == openSteps_.end()) continue;
+    msg::Steps& bundle = bundles[{a.client, a.task.frame}];
+    bundle.jobVersion = step->second.order.job;
+    bundle.step = step->second.order.key;
+    bundle.units.push_back(bundle.step.firstUnit + static_cast<uint32_t>(a.task.tile));
+    bundle.allowed = a.allowed;
+  }
+  if (!bundles.empty()) noteDispatch();
+  for (auto& [to, bundle] : bundles)
+    if (const auto& connection = peers_.at(to.first).connection)
+      connection->send(std::move(bundle));
+}
+
+void Server::noteDispatch() {
+  if (tally_.firstDispatch) return;
+  tally_.firstDispatch = Clock::now();
+  tally_.cpuAtDispatch = processCpuTime();
 }
 
 }  // namespace ninefold

@@ -1,0 +1,72 @@
+#include "master/running/state_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ninefold {
+
+StatePlan::StatePlan(const Settings& settings)
+    : facts_(factsOf(settings.method).state), settings_(settings) {}
+
+bool StatePlan::change(const Settings& settings, bool sceneChanged) {
+  const Settings before = std::exchange(settings_, settings);
+  facts_ = factsOf(settings.method).state;
+  const bool isKept =
+      before.method == settings.method && (facts_ == nullptr || facts_->isKept(before, settings));
+  if (facts_ != nullptr && sceneChanged) stale_ = facts_->unitsOfAll(settings), ++scene_;
+  if (isKept) return false;
+  latest_ = 0, stale_ = 0;
+  restart();
+  return std::exchange(open_, std::nullopt).has_value();
+}
+
+std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
+                                                   std::optional<int64_t> framesLeft) {
+  if (facts_ == nullptr || open_) return std::nullopt;
+  const auto ready = static_cast<int64_t>(ready_.size());
+  const bool isWanted = latest_ == 0 ? framesLeft != 0
+                        : moving     ? stale_ > 0 && mayStep_
+                                     : ready <= 1 && ready < framesLeft.value_or(ready + 1);
+  if (!isWanted) return std::nullopt;
+  open_ = stepOf(number, moving);
+  ++versions_;
+  mayStep_ = false;
+  nextUnit_ += static_cast<uint32_t>(open_->step.units);
+  turns_ += open_->makesAll;
+  return open_->step;
+}
+
+StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving) const {
+  const bool makesAll = !moving || latest_ == 0;
+  const uint32_t units =
+      makesAll ? facts_->unitsOfAll(settings_) : facts_->unitsInMotion(settings_);
+  StepKey key;
+  key.number = number;
+  key.from = latest_, key.to = versions_ + 1;
+  key.firstUnit = nextUnit_;
+  key.randomization = moving ? 0 : turns_;
+  return {{key, static_cast<int>(units)}, makesAll, series_, scene_};
+}
+
+void StatePlan::done(const StepKey& step) {
+  if (!open_ || !(open_->step.key == step)) return;
+  const Open done = *std::exchange(open_, std::nullopt);
+  latest_ = step.to;
+  if (done.scene == scene_) stale_ -= std::min(stale_, static_cast<uint32_t>(done.step.units));
+  if (done.makesAll && done.series == series_ && done.scene == scene_) ready_.push_back(step.to);
+}
+
+std::optional<uint32_t> StatePlan::versionOfFrame(bool moving) {
+  if (facts_ == nullptr) return 0;
+  if (moving) {
+    if (latest_ == 0) return std::nullopt;
+    mayStep_ = true;
+    return latest_;
+  }
+  if (ready_.empty()) return std::nullopt;
+  const uint32_t version = ready_.front();
+  ready_.pop_front();
+  return version;
+}
+
+}  // namespace ninefold

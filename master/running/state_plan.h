@@ -1,0 +1,70 @@
+// state_plan.h: which steps the state of a method takes, and which version of it lights a frame.
+// Pure. Methods without a state have no steps, and version 0 lights their frames.
+//
+//   rest    Each frame has a state of its own: a step makes all of it anew, with a randomization of
+//           its own, so that frames are independent. Step i + 1 begins when step i is done: beside
+//           the frame that i lights.
+//   motion  The latest version lights a frame. After a change of the scene a small step runs beside
+//           each frame, until all of the state has been made anew: the picture lags by as many
+//           frames.
+//
+// The first step, and one after settings under which the state is not right any more, makes all of
+// it of nothing.
+//
+// Proved:  tests/master/state_plan_test.cpp.
+// Threads: plain value, one owner.   Errors: none.
+#pragma once
+
+#include <deque>
+#include <optional>
+
+#include "common/scene/methods.h"
+#include "common/scene/settings.h"
+
+namespace ninefold {
+
+class StatePlan {
+ public:
+  explicit StatePlan(const Settings& settings);
+
+  // Other settings, or another scene. True if the open step is void.
+  bool change(const Settings& settings, bool sceneChanged);
+  // Frames at rest begin anew: what was made for those before lights none of them.
+  void restart() { ready_.clear(), ++series_; }
+  // The open step cannot be done any more.
+  void giveUp() { open_.reset(); }
+
+  struct Step {
+    StepKey key;
+    int units = 1;
+  };
+  // The next step to open, as `number`; nothing while none is wanted. `framesLeft`: at rest, that
+  // are still to be lit; none: without end.
+  std::optional<Step> nextStep(uint32_t number, bool moving, std::optional<int64_t> framesLeft);
+  void done(const StepKey& step);
+  // The version that lights the next frame, which is opened now; nothing while it is not there.
+  std::optional<uint32_t> versionOfFrame(bool moving);
+
+ private:
+  struct Open {
+    Step step;
+    bool makesAll = false;
+    uint32_t series = 0, scene = 0;  // as they were when it opened
+  };
+  Open stepOf(uint32_t number, bool moving) const;
+
+  const StateFacts* facts_;
+  Settings settings_;
+  std::optional<Open> open_;
+  uint32_t latest_ = 0;    // version; 0: none that is right
+  uint32_t versions_ = 0;  // that steps were opened for
+  uint32_t nextUnit_ = 0;
+  uint32_t turns_ = 0;          // steps that made all of it
+  uint32_t series_ = 0;         // of frames at rest
+  uint32_t scene_ = 0;          // counts changes
+  uint32_t stale_ = 0;          // units that show an older scene
+  bool mayStep_ = true;         // a frame in motion was opened since the last step
+  std::deque<uint32_t> ready_;  // versions for frames at rest
+};
+
+}  // namespace ninefold
