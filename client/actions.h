@@ -4,10 +4,12 @@
 // by. Answers carry both back, so that answers to a question of the past can be dropped.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "common/state/state_pages.h"
 #include "proto/messages.h"
 
 namespace ninefold::act {
@@ -55,12 +57,23 @@ struct PrepareJob {
   Settings settings;
   Delivery delivery;
 };
-// Render; each task is answered by taskFinished().
+// Render; each task is answered by taskFinished(). `state`: pages of version tasks.frame.state.
 struct StartTasks {
   uint32_t line = 0;
   msg::Tasks tasks;
+  std::shared_ptr<const StatePages> state = nullptr;
 };
-// Forget waiting tasks of frames before `frame`; all of them if `everything`.
+// Each unit is answered by unitFinished(). `state`: pages of version steps.step.from.
+struct StartSteps {
+  uint32_t line = 0;
+  msg::Steps steps;
+  std::shared_ptr<const StatePages> state;
+};
+// Forget waiting units of steps before `number`.
+struct CancelUnits {
+  uint32_t number = 0;
+};
+// Forget waiting tasks of frames before `frame`; all of them, units too, if `everything`.
 struct CancelTasks {
   uint32_t frame = 0;
   bool everything = false;
@@ -76,6 +89,7 @@ struct Exit {
 };
 
 using Action = std::variant<Connect, Send, Disconnect, FindBlobs, KeepBlob, BuildScene, EditScene,
-                            RestoreScene, PrepareJob, StartTasks, CancelTasks, Tell, Exit>;
+                            RestoreScene, PrepareJob, StartTasks, StartSteps, CancelTasks,
+                            CancelUnits, Tell, Exit>;
 
 }  // namespace ninefold::act

@@ -4,7 +4,19 @@
 
 namespace ninefold {
 
-LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set) {
+namespace {
+
+// The light, and the state that it may refer to, for as long as the light is used.
+LightSetCache::Shared together(LightSetCache::Shared light, LightSetCache::State state) {
+  if (!state) return light;
+  using Both = std::pair<LightSetCache::Shared, LightSetCache::State>;
+  const auto both = std::make_shared<const Both>(std::move(light), std::move(state));
+  return {both, both->first.get()};
+}
+
+}  // namespace
+
+LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set, const State& state) {
   std::promise<Shared> promise;
   std::shared_future<Shared> future;
   bool ours = false;
@@ -17,7 +29,7 @@ LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set) {
   }
   if (ours) {
     try {
-      promise.set_value(make_(frame, set));
+      promise.set_value(together(make_(frame, set, state.get()), state));
     } catch (...) {
       promise.set_exception(std::current_exception());
     }
@@ -28,13 +40,14 @@ LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set) {
 LightSetCache::Group& LightSetCache::group(const FrameKey& frame) {
   const auto same = [&](const Group& g) {
     return g.randomization == frame.randomization && g.photonRadius == frame.photonRadius &&
-           g.lightCameras == frame.lightCameras;
+           g.lightCameras == frame.lightCameras && g.state == frame.state;
   };
   const auto found = std::find_if(groups_.begin(), groups_.end(), same);
   if (found != groups_.end()) {
     groups_.splice(groups_.begin(), groups_, found);
   } else {
-    groups_.push_front({frame.randomization, frame.photonRadius, frame.lightCameras, {}});
+    groups_.push_front(
+        {frame.randomization, frame.photonRadius, frame.lightCameras, frame.state, {}});
     if (groups_.size() > frames_) groups_.pop_back();
   }
   return groups_.front();

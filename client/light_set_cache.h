@@ -20,11 +20,13 @@
 namespace ninefold {
 
 struct FrameLight;
+struct MethodState;
 
 class LightSetCache {
  public:
   using Shared = std::shared_ptr<const FrameLight>;
-  using Make = std::function<Shared(const FrameKey&, int set)>;
+  using State = std::shared_ptr<const MethodState>;
+  using Make = std::function<Shared(const FrameKey&, int set, const MethodState*)>;
 
   LightSetCache(Make make, size_t frames) : make_(std::move(make)), frames_(frames) {}
 
@@ -32,7 +34,8 @@ class LightSetCache {
     Shared set;
     bool madeHere = false;  // by this call; else it was there, or another thread made it
   };
-  Found get(const FrameKey& frame, int set);
+  // `state`: of version frame.state; a set keeps the one that it was made of.
+  Found get(const FrameKey& frame, int set, const State& state = nullptr);
 
  private:
   // All sets of one frame key.
@@ -40,6 +43,7 @@ class LightSetCache {
     uint32_t randomization = 0;
     Metres photonRadius = 0;
     std::vector<Camera> lightCameras;
+    uint32_t state = 0;
     std::map<int, std::shared_future<Shared>> sets;
   };
 

@@ -27,6 +27,12 @@ SessionOptions sessionOptions(const Options& options, msg::Hello hello) {
   return session;
 }
 
+uint32_t jobOf(const std::variant<act::StartTasks, act::StartSteps>& start) {
+  const auto* tasks = std::get_if<act::StartTasks>(&start);
+  return tasks != nullptr ? tasks->tasks.jobVersion
+                          : std::get<act::StartSteps>(start).steps.jobVersion;
+}
+
 bool isFinal(ConnectProblem problem) {
   return problem == ConnectProblem::wrongKey || problem == ConnectProblem::notNinefold;
 }
@@ -162,8 +168,8 @@ void Program::on(act::Disconnect&& action) {
     connection->finish(action.reason);
 }
 
-void Program::on(act::StartTasks&& action) {
-  early_.push_back(std::move(action));
+void Program::startInTurn(Start&& start) {
+  early_.push_back(std::move(start));
   if (early_.size() > kEarly) return session_.tasksRefused(now());
   startEarly();
 }
@@ -171,19 +177,52 @@ void Program::on(act::StartTasks&& action) {
 // In their order, as far as their jobs are there.
 void Program::startEarly() {
   while (!early_.empty()) {
-    const auto job = jobs_.find(early_.front().tasks.jobVersion);
+    const auto job = jobs_.find(jobOf(early_.front()));
     if (job == jobs_.end()) return;
-    start(early_.front(), job->second);
+    const bool hadRoom =
+        std::visit([&](const auto& first) { return start(first, job->second); }, early_.front());
     early_.pop_front();
+    if (!hadRoom) return session_.tasksRefused(now());
   }
 }
 
-void Program::start(const act::StartTasks& action, const std::shared_ptr<RenderJob>& job) {
+bool Program::start(const act::StartTasks& action, const std::shared_ptr<RenderJob>& job) {
   const msg::Tasks& tasks = action.tasks;
-  const Order order{action.line, tasks.frame, tasks.neighbourWeight, tasks.urgent, tasks.allowed};
+  const Order order{action.line,           tasks.frame,  action.state,
+                    tasks.neighbourWeight, tasks.urgent, tasks.allowed};
   for (const msg::TaskItem& item : tasks.items) {
     const auto work = [this, job, order, item](int thread) { runTask(*job, order, item, thread); };
-    if (!workers_.start(order.frame.frame, work)) return session_.tasksRefused(now());
+    if (!workers_.start(order.frame.frame, work)) return false;
+  }
+  return true;
+}
+
+bool Program::start(const act::StartSteps& action, const std::shared_ptr<RenderJob>& job) {
+  const auto steps = std::make_shared<const act::StartSteps>(action);
+  for (const uint32_t unit : steps->steps.units) {
+    const auto work = [this, job, steps, unit](int thread) { runUnit(*job, *steps, unit, thread); };
+    if (!workers_.start(steps->steps.step.number, work, true)) return false;
+  }
+  return true;
+}
+
+// On a worker's thread.
+void Program::runUnit(const RenderJob& job, const act::StartSteps& action, uint32_t unit,
+                      int thread) {
+  const msg::Steps& steps = action.steps;
+  const auto describe = [&] { return fmt::format("step {}, unit {}", steps.step.number, unit); };
+  watchdog_.begin(thread, steps.allowed, describe);
+  try {
+    msg::Stepped done = job.step(steps.step, unit, *action.state, now);
+    watchdog_.end(thread);
+    later([this, line = action.line, done = std::move(done)]() mutable {
+      session_.unitFinished(line, std::move(done));
+    });
+  } catch (const std::exception& error) {
+    watchdog_.end(thread);
+    later([this, line = fmt::format("{}: {}", describe(), error.what())] {
+      session_.taskFailed(line);
+    });
   }
 }
 
@@ -192,7 +231,8 @@ void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& i
   watchdog_.begin(thread, order.allowed, [&] { return job.describe(order.frame, item); });
   try {
     if (rig_.beforeTask) rig_.beforeTask(order.frame, item);
-    RenderJob::Done done = job.run(order.frame, item, order.neighbourWeight, level_, thread, now);
+    RenderJob::Done done =
+        job.run(order.frame, item, order.neighbourWeight, level_, thread, now, *order.state);
     watchdog_.end(thread);
     if (recorder_) recorder_->add(done.result);
     const auto next = [this] { return workers_.nextFrame(); };
@@ -214,11 +254,25 @@ void Program::handOver() {
 }
 
 void Program::on(act::CancelTasks&& action) {
-  const auto isVoid = [&](uint32_t frame) { return action.everything || frame < action.frame; };
+  const auto isVoid = [&](uint32_t frame, bool isStep) {
+    return action.everything || (!isStep && frame < action.frame);
+  };
+  drop(isVoid);
+  if (action.everything) jobs_.clear();  // another connection counts anew
+}
+
+void Program::on(act::CancelUnits&& action) {
+  drop([&](uint32_t number, bool isStep) { return isStep && number < action.number; });
+}
+
+void Program::drop(const std::function<bool(uint32_t number, bool isStep)>& isVoid) {
   workers_.cancel(isVoid);
   handOver();  // what waits for the end of a task that is gone
-  std::erase_if(early_, [&](const auto& tasks) { return isVoid(tasks.tasks.frame.frame); });
-  if (action.everything) jobs_.clear();  // another connection counts anew
+  std::erase_if(early_, [&](const Start& start) {
+    const auto* tasks = std::get_if<act::StartTasks>(&start);
+    return tasks != nullptr ? isVoid(tasks->tasks.frame.frame, false)
+                            : isVoid(std::get<act::StartSteps>(start).steps.step.number, true);
+  });
 }
 
 void Program::on(act::Tell&& action) {

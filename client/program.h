@@ -50,24 +50,33 @@ class Program {
   void on(act::EditScene&& a) { builder_.ask(std::move(a)); }
   void on(act::RestoreScene a) { builder_.ask(a); }
   void on(act::PrepareJob&& a) { builder_.ask(std::move(a)); }
-  void on(act::StartTasks&&);
+  void on(act::StartTasks&& a) { startInTurn(std::move(a)); }
+  void on(act::StartSteps&& a) { startInTurn(std::move(a)); }
   void on(act::CancelTasks&&);
+  void on(act::CancelUnits&&);
   void on(act::Tell&&);
   void on(act::Exit&&);
 
-  void start(const act::StartTasks& tasks, const std::shared_ptr<RenderJob>& job);
+  using Start = std::variant<act::StartTasks, act::StartSteps>;
+  void startInTurn(Start&& start);
   void startEarly();
+  // False when more wait than should.
+  bool start(const act::StartTasks& tasks, const std::shared_ptr<RenderJob>& job);
+  bool start(const act::StartSteps& steps, const std::shared_ptr<RenderJob>& job);
   void startConnection(std::shared_ptr<Connection> connection);
   // What all tasks of a message have in common.
   struct Order {
     uint32_t line;
     FrameKey frame;
+    std::shared_ptr<const StatePages> state;
     float neighbourWeight;
     bool urgent;
     Duration allowed;
   };
   void runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread);
+  void runUnit(const RenderJob& job, const act::StartSteps& steps, uint32_t unit, int thread);
   void handOver();
+  void drop(const std::function<bool(uint32_t number, bool isStep)>& isVoid);
   void keepRecording();
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.
@@ -83,7 +92,7 @@ class Program {
   Session session_;
   std::shared_ptr<Connection> connection_;
   std::map<uint32_t, std::shared_ptr<RenderJob>> jobs_;  // the latest kJobsKept that are prepared
-  std::deque<act::StartTasks> early_;                    // tasks whose job is being prepared
+  std::deque<Start> early_;                              // whose job is being prepared
   std::unique_ptr<EventLoop::Timer> timer_;
   const int threads_;
   const Rig rig_;

@@ -3,6 +3,7 @@
 #include "common/sampling/whole_tile.h"
 #include "common/scene/methods.h"
 #include "common/scene/replay_line.h"
+#include "proto/state_wire.h"
 #include "proto/tile_names.h"
 
 namespace ninefold {
@@ -53,7 +54,11 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
                        differInViewAlone(before->settings, settings)
                    ? Renderer(before->renderer, settings)
                    : Renderer(scene->tracer, settings, begun.get())),
-      sets([this](const FrameKey& frame, int set) { return renderer.light(frame, set); },
+      states([this](const StatePages& pages, const MethodState* before) {
+        return renderer.digest(pages, before);
+      }),
+      sets([this](const FrameKey& frame, int set,
+                  const MethodState* state) { return renderer.light(frame, set, state); },
            kFramesKept) {
   for (int i = 0; i < threads; ++i) desks.push_back(std::make_unique<Desk>(renderer, filter));
 }
@@ -65,12 +70,13 @@ bool RenderJob::hasLightOf(const std::shared_ptr<const TracedScene>& scene,
 }
 
 RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
-                               float neighbourWeight, int level, int thread, Time (*now)()) {
+                               float neighbourWeight, int level, int thread, Time (*now)(),
+                               const StatePages& state) {
   Desk& desk = *light_->desks[static_cast<size_t>(thread)];
   const Task task{
       frame, static_cast<int>(item.tile), static_cast<int>(item.phase), item.extraMask, {}};
   const Time start = now();
-  Work work;
+  Work work{state};
   if (delivery_.wholeTiles())
     traceAndFilter(task, neighbourWeight, desk, work, now);
   else
@@ -98,6 +104,21 @@ RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
   return {std::move(result), encoded.rawBytes};
 }
 
+msg::Stepped RenderJob::step(const StepKey& step, uint32_t unit, const StatePages& state,
+                             Time (*now)()) const {
+  const Time start = now();
+  const StepResult made = light_->renderer.step(state, step, unit);
+  msg::Stepped result;
+  result.jobVersion = jobVersion_;
+  result.number = step.number;
+  result.unit = unit;
+  result.stateHash = state.hash();
+  result.rays = made.rays;
+  result.deltas = encodeDeltas(made.deltas);
+  result.busyNs = static_cast<uint64_t>(std::chrono::nanoseconds(now() - start).count());
+  return result;
+}
+
 std::string RenderJob::describe(const FrameKey& frame, const msg::TaskItem& item) const {
   const int set =
       lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, settings_.interleave.sets());
@@ -112,7 +133,8 @@ std::string RenderJob::describe(const FrameKey& frame, const msg::TaskItem& item
 void RenderJob::trace(const Task& task, Desk& desk, Work& work, Time (*now)()) {
   const Time start = now();
   const int set = lightSetOfPhase(task.phase, task.frame.rotation, settings_.interleave.sets());
-  const LightSetCache::Found lights = light_->sets.get(task.frame, set);
+  const MethodStates::Shared state = light_->states.get(task.frame.state, work.state);
+  const LightSetCache::Found lights = light_->sets.get(task.frame, set, state);
   if (lights.madeHere)
     ++work.setsMade, work.rays += lights.set->rays;
   else

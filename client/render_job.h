@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "client/light_set_cache.h"
+#include "client/method_states.h"
 #include "common/base/clock.h"
 #include "common/gi/renderer.h"
 #include "common/image/patch_filter.h"
@@ -74,9 +75,12 @@ class RenderJob {
     size_t rawBytes = 0;  // of the result, had it not been compressed
   };
   // `neighbourWeight`: of the filter, in [0, 1]. `level`: of zstd, where the job is adaptive.
-  // `thread`: 0..threads-1.
+  // `thread`: 0..threads-1. `state`: pages of version frame.state.
   Done run(const FrameKey& frame, const msg::TaskItem& item, float neighbourWeight, int level,
-           int thread, Time (*now)());
+           int thread, Time (*now)(), const StatePages& state = {});
+  // One unit of a step. `state`: pages of version step.from.
+  msg::Stepped step(const StepKey& step, uint32_t unit, const StatePages& state,
+                    Time (*now)()) const;
   // Names a task for people, with the command that does it again.
   std::string describe(const FrameKey& frame, const msg::TaskItem& item) const;
 
@@ -88,7 +92,8 @@ class RenderJob {
     TileResult tile;
     TileEncoder encoder;
   };
-  struct Work {          // of one task so far
+  struct Work {  // of one task so far
+    const StatePages& state;
     Duration waited{0};  // for light sets that another thread makes
     uint32_t setsMade = 0;
     RayCounts rays;
@@ -108,6 +113,7 @@ class RenderJob {
     const uint8_t layerMask;
     const std::shared_ptr<const Renderer> begun;  // of scene->begun
     const Renderer renderer;
+    MethodStates states;
     LightSetCache sets;
     std::vector<std::unique_ptr<Desk>> desks;
   };

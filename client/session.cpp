@@ -65,6 +65,7 @@ void Session::on(msg::SceneOffer&& m, Time) {
   checkManifest(m.blobs);
   state_ = State::syncing;
   jobs_.clear();
+  states_.clear();
   sceneVersion_ = m.sceneVersion;
   const bool kept = scene_ == Scene::building || scene_ == Scene::built;
   edits_ = {};
@@ -87,6 +88,10 @@ void Session::blobsFound(uint32_t load, std::vector<BlobInfo> missing, Time now)
 }
 
 void Session::on(msg::BlobChunk&& m, Time now) {
+  if (fetchesState()) {
+    states_.chunk(std::move(m));
+    return continueStateFetch(now);
+  }
   if (scene_ != Scene::fetching) fail("a piece of a scene that nobody asked for");
   if (auto whole = fetch_.chunk(std::move(m)))
     push(act::KeepBlob{load_, whole->blob, std::move(whole->compressed)});
@@ -103,13 +108,31 @@ void Session::continueFetch(Time now) {
   push(act::BuildScene{load_});
 }
 
-void Session::sceneBuilt(uint32_t load, Time) {
+void Session::continueStateFetch(Time now) {
+  if (scene_ != Scene::built) return;
+  deadline_ = now + kPieceWithin;
+  for (const msg::BlobRequest& request : states_.requests()) send(request);
+  if (states_.isWhole() && !jobs_.empty()) prepare(jobs_.back());
+}
+
+void Session::on(msg::StateOffer&& m, Time now) {
+  if (!inside() || state_ == State::ready) fail("a state that was not asked for");
+  states_.offer(std::move(m));
+  continueStateFetch(now);
+}
+
+void Session::on(msg::StateDelta&& m, Time) {
+  if (!inside()) fail("a state before Welcome");
+  states_.add(std::move(m));
+}
+
+void Session::sceneBuilt(uint32_t load, Time now) {
   if (load != load_ || scene_ != Scene::building) return;
   scene_ = Scene::built;
   EditsSoFar edits = std::exchange(edits_, {});
   if (!edits.settled.empty()) editScene(std::move(edits.settled), false);
   if (!edits.moving.empty()) editScene(std::move(edits.moving), true);
-  if (!jobs_.empty()) prepare(jobs_.back());
+  continueStateFetch(now);
 }
 
 void Session::on(msg::Edit&& m, Time) {
@@ -129,7 +152,7 @@ void Session::on(msg::Configure&& m, Time) {
   if (!jobs_.empty() && m.jobVersion <= jobs_.back().jobVersion) fail("a job older than the last");
   jobs_.push_back(std::move(m));
   if (jobs_.size() > kJobsKept) jobs_.pop_front();
-  if (scene_ == Scene::built) prepare(jobs_.back());
+  if (scene_ == Scene::built && states_.isWhole()) prepare(jobs_.back());
 }
 
 void Session::prepare(const msg::Configure& job) {
@@ -159,7 +182,25 @@ void Session::sceneFailed(uint32_t load, const std::string& line, Time) {
 void Session::on(msg::Tasks&& m, Time) {
   if (state_ != State::ready) fail("tasks before this client was ready");
   checkTasks(m);
-  push(act::StartTasks{line_, std::move(m)});
+  auto state = pagesOf(m.frame.state);
+  push(act::StartTasks{line_, std::move(m), std::move(state)});
+}
+
+void Session::on(msg::Steps&& m, Time) {
+  if (state_ != State::ready) fail("units before this client was ready");
+  if (findJob(m.jobVersion) == nullptr) fail("units of a job that is not there");
+  auto state = pagesOf(m.step.from);
+  push(act::StartSteps{line_, std::move(m), std::move(state)});
+}
+
+std::shared_ptr<const StatePages> Session::pagesOf(uint32_t version) const {
+  auto pages = states_.find(version);
+  if (!pages) fail("work on version {} of the state, which is not there", version);
+  return pages;
+}
+
+void Session::on(msg::CancelSteps&& m, Time) {
+  if (state_ == State::ready) push(act::CancelUnits{m.number});
 }
 
 void Session::checkTasks(const msg::Tasks& tasks) const {
@@ -179,6 +220,10 @@ void Session::on(msg::Cancel&& m, Time) {
 }
 
 void Session::taskFinished(uint32_t line, msg::Result&& result, Time) {
+  if (line == line_ && state_ == State::ready) send(std::move(result));
+}
+
+void Session::unitFinished(uint32_t line, msg::Stepped&& result) {
   if (line == line_ && state_ == State::ready) send(std::move(result));
 }
 
@@ -220,7 +265,7 @@ void Session::tick(Time now) {
   if (!online()) return;
   lastOnline_ = now;
   if (now - heard_ > kMasterSilent) return leave("the master is silent", now);
-  const bool waits = state_ == State::greeting || scene_ == Scene::fetching;
+  const bool waits = state_ == State::greeting || scene_ == Scene::fetching || fetchesState();
   if (waits && now > deadline_) return leave("the master does not answer", now);
   if (now >= nextProgress_) sendProgress(now);
 }
@@ -244,6 +289,7 @@ void Session::lost(const std::string& why, Time now) {
     return end(1, fmt::format("the connection to the master ended: {}", why));
   state_ = State::offline;
   jobs_.clear();
+  states_.clear();
   if (scene_ == Scene::checking || scene_ == Scene::fetching) scene_ = Scene::none, ++load_;
   push(act::CancelTasks{0, true});
   retryAt_ = now + backoff_.next();

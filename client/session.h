@@ -22,6 +22,7 @@
 #include "client/actions.h"
 #include "client/backoff.h"
 #include "client/blob_fetch.h"
+#include "client/state_store.h"
 #include "common/base/clock.h"
 
 namespace ninefold {
@@ -57,6 +58,7 @@ class Session {
   bool jobPrepared(uint32_t load, uint32_t line, uint32_t jobVersion, Time now);
   void sceneFailed(uint32_t load, const std::string& line, Time now);
   void taskFinished(uint32_t line, msg::Result&& result, Time now);
+  void unitFinished(uint32_t line, msg::Stepped&& result);
   void taskFailed(const std::string& line);
   void tasksRefused(Time now);  // more of them than our queue holds
 
@@ -81,6 +83,10 @@ class Session {
   void on(msg::Configure&& m, Time now);
   void on(msg::Tasks&& m, Time now);
   void on(msg::Cancel&& m, Time now);
+  void on(msg::Steps&& m, Time now);
+  void on(msg::CancelSteps&& m, Time now);
+  void on(msg::StateOffer&& m, Time now);
+  void on(msg::StateDelta&& m, Time now);
   void on(msg::Ping&& m, Time now);
   void on(msg::Pong&&, Time) {}
   void on(msg::Goodbye&& m, Time now);
@@ -88,7 +94,10 @@ class Session {
   void on(Other&&, Time);  // the client's own messages: decodeMessage lets none of them through
 
   void checkTasks(const msg::Tasks& tasks) const;
+  std::shared_ptr<const StatePages> pagesOf(uint32_t version) const;
   void continueFetch(Time now);
+  void continueStateFetch(Time now);
+  bool fetchesState() const { return scene_ == Scene::built && !states_.isWhole(); }
   void editScene(SceneEdit&& edit, bool moving);
   void prepare(const msg::Configure& job);
   const msg::Configure* findJob(uint32_t version) const;
@@ -121,6 +130,7 @@ class Session {
   BlobFetch fetch_;
   Time nextProgress_;
 
+  StateStore states_;                // of this connection
   std::deque<msg::Configure> jobs_;  // of this connection, the latest kJobsKept, oldest first
 };
 

@@ -8,18 +8,19 @@ Workers::Workers(int threads, size_t capacity) : queue_(capacity) {
 }
 
 Workers::~Workers() {
-  cancel([](uint32_t) { return true; });
+  cancel([](uint32_t, bool) { return true; });
   queue_.close();
   for (std::thread& thread : threads_) thread.join();
 }
 
-bool Workers::start(uint32_t frame, Job job) {
-  Entry entry{frame, std::move(job)};
+bool Workers::start(uint32_t frame, Job job, bool isStep) {
+  Entry entry{frame, isStep, std::move(job)};
   return queue_.tryPush(entry);
 }
 
-size_t Workers::cancel(const std::function<bool(uint32_t frame)>& drop) {
-  return queue_.removeIf([&](const Entry& entry) { return drop(entry.frame); }).size();
+size_t Workers::cancel(const std::function<bool(uint32_t frame, bool isStep)>& drop) {
+  return queue_.removeIf([&](const Entry& entry) { return drop(entry.frame, entry.isStep); })
+      .size();
 }
 
 void Workers::run(int thread) {

@@ -51,10 +51,10 @@ void ClientSession::on(msg::Hello&& m, Time) {
   send(msg::Welcome{id_, releaseName()});
   send(offer_.sceneOffer());
   for (msg::Edit& edit : offer_.allEdits()) send(std::move(edit));
-  send(offer_.configure());
   offered_ = state_.snapshot();
   if (offered_) send(offered_->offer);
   stateChanged(state_.since());
+  send(offer_.configure());
 }
 
 void ClientSession::on(msg::BlobRequest&& m, Time) {

@@ -25,7 +25,7 @@ FrameKey frameOf(uint32_t randomization) {
 TEST(LightSetCache, ManyThreadsShareOneSetMadeOnce) {
   std::atomic<int> made = 0;
   LightSetCache cache(
-      [&](const FrameKey&, int) {
+      [&](const FrameKey&, int, const MethodState*) {
         ++made;
         std::this_thread::yield();
         return someSet();
@@ -40,7 +40,7 @@ TEST(LightSetCache, ManyThreadsShareOneSetMadeOnce) {
 }
 
 TEST(LightSetCache, FramesThatDifferOnlyInNumberAndRotationShare) {
-  LightSetCache cache([](const FrameKey&, int) { return someSet(); }, 2);
+  LightSetCache cache([](const FrameKey&, int, const MethodState*) { return someSet(); }, 2);
   FrameKey moving = frameOf(1);
   const auto first = cache.get(moving, 0).set;
   moving.frame = 17, moving.rotation = 4;
@@ -61,7 +61,7 @@ TEST(LightSetCache, FramesThatDifferOnlyInNumberAndRotationShare) {
 TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {
   int made = 0;
   LightSetCache cache(
-      [&](const FrameKey&, int) {
+      [&](const FrameKey&, int, const MethodState*) {
         ++made;
         return someSet();
       },
@@ -78,7 +78,9 @@ TEST(LightSetCache, KeepsTheFramesUsedLastAndForgetsOlderOnes) {
 
 TEST(LightSetCache, AFailureReachesTheCallerThroughTheFuture) {
   LightSetCache cache(
-      [](const FrameKey&, int) -> LightSetCache::Shared { throw std::runtime_error("no memory"); },
+      [](const FrameKey&, int, const MethodState*) -> LightSetCache::Shared {
+        throw std::runtime_error("no memory");
+      },
       2);
   EXPECT_THROW(cache.get(frameOf(1), 0), std::runtime_error);
   EXPECT_THROW(cache.get(frameOf(1), 0), std::runtime_error);

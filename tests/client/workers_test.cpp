@@ -53,7 +53,7 @@ TEST(Workers, DropWaitingTasksOfCancelledFramesOnly) {
   workers.start(1, [&](int) { ++ranCancelled; });
   workers.start(1, [&](int) { ++ranCancelled; });
   workers.start(2, [&](int) { kept.count_down(); });
-  EXPECT_EQ(workers.cancel([](uint32_t frame) { return frame < 2; }), 2u);
+  EXPECT_EQ(workers.cancel([](uint32_t frame, bool) { return frame < 2; }), 2u);
   release.count_down();
   kept.wait();
   EXPECT_EQ(ranCancelled, 0);

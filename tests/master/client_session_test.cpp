@@ -28,7 +28,7 @@ constexpr uint32_t kJob = 1;
 
 class ClientSessionTest : public testing::Test {
  protected:
-  ClientSession session() { return {++ids, "10.0.0.2:5555", offer, admission, now}; }
+  ClientSession session() { return {++ids, "10.0.0.2:5555", offer, state, admission, now}; }
 
   template <typename A>
   static std::vector<A> take(const std::vector<todo::Action>& actions) {
@@ -54,6 +54,7 @@ class ClientSessionTest : public testing::Test {
 
   std::vector<Blob> blobs = someBlobs();
   JobOffer offer{blobs, Settings(), {}};
+  StateKeeper state;
   Admission admission;
   Time now = Time(std::chrono::hours(1));
   ClientId ids = 0;
