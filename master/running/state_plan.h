@@ -1,8 +1,8 @@
 // state_plan.h: which steps the state of a method takes, and which version of it lights a frame.
 // Pure. Methods without a state have no steps, and version 0 lights their frames.
 //
-//   rest    Each frame has a state of its own: a step makes all of it anew, with a randomization of
-//           its own, so that frames are independent. Step i + 1 begins when step i is done: beside
+//   rest    Each frame has a state of its own: a step makes all of it of nothing, with a
+//           randomization of its own, so that frames are independent. Step i + 1 begins when step i is done: beside
 //           the frame that i lights.
 //   motion  The latest version lights a frame. After a change of the scene a small step runs beside
 //           each frame, until all of the state has been made anew: the picture lags by as many

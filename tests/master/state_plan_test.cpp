@@ -1,0 +1,168 @@
+// Which steps are wanted, and which version lights a frame. The method of these tests has a state
+// of twenty units, of which a step in motion makes one.
+#include "master/running/state_plan.h"
+
+#include <gtest/gtest.h>
+
+namespace ninefold {
+namespace {
+
+std::optional<Method> methodWithState() {
+  for (const MethodFacts& facts : allMethods())
+    if (facts.state != nullptr) return facts.method;
+  return std::nullopt;
+}
+
+class StatePlanTest : public testing::Test {
+ protected:
+  StatePlanTest() { settings.method = methodWithState().value_or(Method::instantRadiosity); }
+  void SetUp() override {
+    if (!methodWithState()) GTEST_SKIP() << "no method has a state";
+  }
+  StatePlan plan() const { return StatePlan(settings); }
+  int all() const { return static_cast<int>(factsOf(settings.method).state->unitsOfAll(settings)); }
+  // Opens the next step, if one is wanted.
+  std::optional<StatePlan::Step> step(StatePlan& plan, bool moving = false,
+                                      std::optional<int64_t> left = {}) {
+    const auto step = plan.nextStep(number, moving, left);
+    if (step) ++number;
+    return step;
+  }
+
+  Settings settings;
+  uint32_t number = 0;
+};
+
+TEST(StatePlan, MethodsWithoutAStateHaveNoStep) {
+  StatePlan plan{Settings{}};
+  EXPECT_FALSE(plan.nextStep(0, false, {}));
+  EXPECT_EQ(plan.versionOfFrame(false), 0u);
+  EXPECT_EQ(plan.versionOfFrame(true), 0u);
+}
+
+TEST_F(StatePlanTest, AFrameAtRestWaitsForAStateOfItsOwn) {
+  StatePlan p = plan();
+  EXPECT_FALSE(p.versionOfFrame(false));
+  const auto first = step(p);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->units, all());
+  EXPECT_EQ(first->key.from, 0u);
+  EXPECT_FALSE(p.versionOfFrame(false));
+  p.done(first->key);
+  EXPECT_EQ(p.versionOfFrame(false), first->key.to);
+  EXPECT_FALSE(p.versionOfFrame(false)) << "each lights one frame";
+}
+
+TEST_F(StatePlanTest, TheNextStepBeginsBeforeTheFrameThatTheLastOneLights) {
+  StatePlan p = plan();
+  const auto first = step(p);
+  EXPECT_FALSE(step(p)) << "one at a time";
+  p.done(first->key);
+  const auto second = step(p);
+  ASSERT_TRUE(second);
+  EXPECT_NE(second->key.randomization, first->key.randomization);
+  EXPECT_EQ(second->key.firstUnit, first->key.firstUnit + static_cast<uint32_t>(all()));
+  EXPECT_EQ(p.versionOfFrame(false), first->key.to);
+  p.done(second->key);
+  const auto third = step(p);
+  ASSERT_TRUE(third);
+  p.done(third->key);
+  EXPECT_FALSE(step(p)) << "two versions wait for frames";
+}
+
+TEST_F(StatePlanTest, NoStepIsMadeForFramesThatAreNotWanted) {
+  StatePlan p = plan();
+  const auto first = step(p, false, 1);
+  ASSERT_TRUE(first);
+  p.done(first->key);
+  EXPECT_FALSE(step(p, false, 1));
+  EXPECT_TRUE(p.versionOfFrame(false));
+  EXPECT_FALSE(step(p, false, 0));
+}
+
+TEST_F(StatePlanTest, InMotionTheLatestVersionLightsFramesUntilTheSceneIsShown) {
+  StatePlan p = plan();
+  const auto first = step(p);
+  p.done(first->key);
+  EXPECT_EQ(p.versionOfFrame(true), first->key.to);
+  EXPECT_FALSE(step(p, true)) << "a camera alone moves no light";
+  p.change(settings, true);
+  uint32_t last = first->key.to;
+  for (int unit = 0; unit < all(); ++unit) {
+    const auto small = step(p, true);
+    ASSERT_TRUE(small) << unit;
+    EXPECT_EQ(small->units, 1);
+    EXPECT_EQ(small->key.from, last);
+    EXPECT_EQ(p.versionOfFrame(true), last) << "the frame does not wait for it";
+    p.done(small->key);
+    last = small->key.to;
+  }
+  EXPECT_EQ(p.versionOfFrame(true), last);
+  EXPECT_FALSE(step(p, true)) << "all of it shows the scene as it is";
+}
+
+TEST_F(StatePlanTest, AStepRunsBesideAFrameNotFasterThanFrames) {
+  StatePlan p = plan();
+  p.done(step(p)->key);
+  p.change(settings, true);
+  EXPECT_TRUE(p.versionOfFrame(true));
+  const auto small = step(p, true);
+  ASSERT_TRUE(small);
+  p.done(small->key);
+  EXPECT_FALSE(step(p, true)) << "no frame since";
+  EXPECT_TRUE(p.versionOfFrame(true));
+  EXPECT_TRUE(step(p, true));
+}
+
+TEST_F(StatePlanTest, WhatWasMadeOfAnOlderSceneLightsNoFrameAtRest) {
+  StatePlan p = plan();
+  const auto old = step(p);
+  p.change(settings, true);
+  p.done(old->key);
+  EXPECT_FALSE(p.versionOfFrame(false));
+  const auto fresh = step(p);
+  ASSERT_TRUE(fresh);
+  p.done(fresh->key);
+  p.restart();
+  EXPECT_FALSE(p.versionOfFrame(false)) << "of a series before";
+}
+
+TEST_F(StatePlanTest, OtherSettingsVoidTheStepAndTheState) {
+  StatePlan p = plan();
+  p.done(step(p)->key);
+  const auto under = step(p);
+  ASSERT_TRUE(under);
+  Settings other = settings;
+  other.seed = settings.seed + 1;
+  EXPECT_TRUE(p.change(other, false));
+  EXPECT_FALSE(p.versionOfFrame(true)) << "nothing is right any more";
+  const auto fresh = step(p, true);
+  ASSERT_TRUE(fresh);
+  EXPECT_EQ(fresh->units, all());
+  p.done(under->key);  // came too late
+  EXPECT_FALSE(p.versionOfFrame(true));
+  p.done(fresh->key);
+  EXPECT_EQ(p.versionOfFrame(true), fresh->key.to);
+}
+
+TEST_F(StatePlanTest, AnotherViewKeepsTheState) {
+  StatePlan p = plan();
+  p.done(step(p)->key);
+  Settings other = settings;
+  other.width = 320, other.camera.eye.x += 1;
+  EXPECT_FALSE(p.change(other, false));
+  EXPECT_TRUE(p.versionOfFrame(true));
+}
+
+TEST_F(StatePlanTest, AStepThatCannotBeDoneIsMadeAgain) {
+  StatePlan p = plan();
+  ASSERT_TRUE(step(p));
+  p.giveUp();
+  const auto again = step(p);
+  ASSERT_TRUE(again);
+  p.done(again->key);
+  EXPECT_EQ(p.versionOfFrame(false), again->key.to);
+}
+
+}  // namespace
+}  // namespace ninefold
