@@ -1,4 +1,4 @@
-// compression.h: zstd frames of large blobs. Internal to scene_blobs.
+// compression.h: zstd frames of large blobs. Internal to scene_blobs and state_wire.
 //
 // Decompression is streamed: memory grows as bytes appear, never beyond the declared size.
 // Errors: throw Error with one line.   Threads: reentrant.

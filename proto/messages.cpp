@@ -16,6 +16,8 @@ constexpr uint32_t kSmall = 4096;
 constexpr uint32_t kOfferBytes = kMaxBlobs * 64;
 constexpr uint32_t kEditBytes = 3 * kMaxEdits * 128;
 constexpr uint32_t kTasksBytes = kMaxTasksPerMessage * 12 + kSmall;
+constexpr uint32_t kStepsBytes = kMaxTasksPerMessage * 6 + kSmall;
+constexpr uint32_t kPagesBytes = kMaxStatePages * 64 + kSmall;
 
 constexpr TypeFacts kUnknown{"unknown", static_cast<Direction>(0), {0, 0}};
 constexpr TypeFacts kTypes[] = {
@@ -35,6 +37,11 @@ constexpr TypeFacts kTypes[] = {
     {"Pong", kBoth, {kSmall, 0}},
     {"Goodbye", kBoth, {kSmall, 0}},
     {"Edit", kFromMaster, {kEditBytes, 0}},
+    {"Steps", kFromMaster, {kStepsBytes, 0}},
+    {"Stepped", kFromClient, {kSmall, kMaxDeltaBytes}},
+    {"CancelSteps", kFromMaster, {kSmall, 0}},
+    {"StateDelta", kFromMaster, {kSmall, kMaxDeltaBytes}},
+    {"StateOffer", kFromMaster, {kPagesBytes, 0}},
 };
 static_assert(std::size(kTypes) == std::variant_size_v<Message>);
 

@@ -6,6 +6,7 @@
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
 #include "proto/settings_wire.h"
+#include "proto/state_wire.h"
 #include "proto/text.h"
 #include "proto/tile_codec.h"
 #include "proto/tile_names.h"
@@ -39,6 +40,26 @@ T parse(const std::string& header) {
   return out;
 }
 
+BlobInfo blobInfo(const pb::BlobInfo& in, uint64_t mostBytes, BlobKind first, BlobKind last) {
+  BlobInfo info;
+  info.hash = hash(in.hash());
+  info.rawBytes = upTo<uint64_t>("blob size", in.raw_bytes(), mostBytes, 1);
+  info.kind = upTo<BlobKind>("blob kind", in.kind(), static_cast<uint64_t>(last),
+                             static_cast<uint64_t>(first));
+  return info;
+}
+
+Duration allowed(uint64_t nanoseconds) {
+  constexpr auto longest = static_cast<uint64_t>(std::chrono::nanoseconds(kLongestAllowed).count());
+  return std::chrono::nanoseconds(upTo<int64_t>("allowed time", nanoseconds, longest, 1));
+}
+
+// Of Result and Stepped.
+template <typename Header>
+RayCounts raysOf(const Header& in) {
+  return {in.rays_eye(), in.rays_shadow(), in.rays_photon(), in.rays_compensation()};
+}
+
 msg::Hello decode(const pb::Hello& in, Bytes&&) {
   msg::Hello m;
   m.protocol = in.protocol();
@@ -62,13 +83,8 @@ msg::SceneOffer decode(const pb::SceneOffer& in, Bytes&&) {
   const auto count =
       upTo<size_t>("number of blobs", static_cast<uint64_t>(in.blobs_size()), kMaxBlobs);
   m.blobs.reserve(count);
-  for (const pb::BlobInfo& blob : in.blobs()) {
-    BlobInfo info;
-    info.hash = hash(blob.hash());
-    info.rawBytes = upTo<uint64_t>("blob size", blob.raw_bytes(), kMaxBlobBytes, 1);
-    info.kind = upTo<BlobKind>("blob kind", blob.kind(), static_cast<uint64_t>(BlobKind::meshes));
-    m.blobs.push_back(info);
-  }
+  for (const pb::BlobInfo& blob : in.blobs())
+    m.blobs.push_back(blobInfo(blob, kMaxBlobBytes, BlobKind::rest, BlobKind::meshes));
   return m;
 }
 
@@ -117,8 +133,7 @@ msg::Tasks decode(const pb::Tasks& in, Bytes&&) {
   m.frame = fromWire(in.frame());
   m.neighbourWeight = in.neighbour_weight();
   m.urgent = in.urgent();
-  constexpr auto longest = static_cast<uint64_t>(std::chrono::nanoseconds(kLongestAllowed).count());
-  m.allowed = std::chrono::nanoseconds(upTo<int64_t>("allowed time", in.allowed_ns(), longest, 1));
+  m.allowed = allowed(in.allowed_ns());
   if (!(m.neighbourWeight >= 0 && m.neighbourWeight <= 1)) fail("neighbour weight is out of range");
   const auto count =
       upTo<int>("number of tasks", static_cast<uint64_t>(in.tile_size()), kMaxTasksPerMessage, 1);
@@ -142,7 +157,7 @@ msg::Result decode(const pb::Result& in, Bytes&& payload) {
   m.setsMade = upTo<uint32_t>("sets made", in.sets_made(), 256);
   m.replaced = in.replaced();
   m.replacedIn = upTo<uint32_t>("replaced in", in.replaced_in(), kAllTileFields);
-  m.rays = {in.rays_eye(), in.rays_shadow(), in.rays_photon(), in.rays_compensation()};
+  m.rays = raysOf(in);
   m.encoded = std::move(payload);
   return m;
 }
@@ -152,6 +167,52 @@ msg::Pong decode(const pb::Pong& in, Bytes&&) { return {in.echo_ns(), in.clock_n
 msg::Goodbye decode(const pb::Goodbye& in, Bytes&&) { return {text("reason", in.reason())}; }
 msg::Edit decode(const pb::Edit& in, Bytes&&) { return {in.version(), fromWire(in), in.moving()}; }
 
+msg::Steps decode(const pb::Steps& in, Bytes&&) {
+  msg::Steps m;
+  m.jobVersion = in.job_version();
+  m.step = fromWire(in.step());
+  m.allowed = allowed(in.allowed_ns());
+  upTo<size_t>("number of units", static_cast<uint64_t>(in.unit_size()), kMaxTasksPerMessage, 1);
+  for (const uint32_t unit : in.unit())
+    m.units.push_back(upTo<uint32_t>("unit", unit, ~uint32_t{0}, m.step.firstUnit));
+  return m;
+}
+
+msg::Stepped decode(const pb::Stepped& in, Bytes&& payload) {
+  return {in.job_version(), in.number(), in.unit(),         in.busy_ns(),
+          in.state_hash(),  raysOf(in),  std::move(payload)};
+}
+
+msg::CancelSteps decode(const pb::CancelSteps& in, Bytes&&) { return {in.number()}; }
+
+msg::StateDelta decode(const pb::StateDelta& in, Bytes&& payload) {
+  if (in.to() <= in.from())
+    fail("leads from version {} to {}, must lead to a later one", in.from(), in.to());
+  msg::StateDelta m;
+  m.from = in.from();
+  m.to = in.to();
+  m.parts = upTo<uint32_t>("number of parts", in.parts(), kMaxDeltaParts, 1);
+  m.part = upTo<uint32_t>("part", in.part(), m.parts - 1);
+  m.hash = in.hash();
+  m.oldest = in.oldest();
+  m.deltas = std::move(payload);
+  return m;
+}
+
+msg::StateOffer decode(const pb::StateOffer& in, Bytes&&) {
+  msg::StateOffer m{in.version(), in.hash(), {}};
+  m.pages.reserve(
+      upTo<size_t>("number of pages", static_cast<uint64_t>(in.pages_size()), kMaxStatePages));
+  for (const pb::StatePage& page : in.pages()) {
+    const PageId id{upTo<uint16_t>("page kind", page.kind(), 65535), page.index()};
+    if (!m.pages.empty() && id <= m.pages.back().page)
+      fail("page {}.{} is out of order or there twice", id.kind, id.index);
+    m.pages.push_back(
+        {id, blobInfo(page.blob(), kMaxPageBlobBytes, BlobKind::page, BlobKind::page)});
+  }
+  return m;
+}
+
 template <typename Header>
 Message decodeAs(Frame&& frame) {
   return decode(parse<Header>(frame.header), std::move(frame.payload));
@@ -159,12 +220,13 @@ Message decodeAs(Frame&& frame) {
 
 using Decoder = Message (*)(Frame&&);
 constexpr Decoder kDecoders[] = {  // in the order of MessageType
-    decodeAs<pb::Hello>,      decodeAs<pb::Welcome>,     decodeAs<pb::Refuse>,
-    decodeAs<pb::SceneOffer>, decodeAs<pb::BlobRequest>, decodeAs<pb::BlobChunk>,
-    decodeAs<pb::Configure>,  decodeAs<pb::Ready>,       decodeAs<pb::Progress>,
-    decodeAs<pb::Tasks>,      decodeAs<pb::Cancel>,      decodeAs<pb::Result>,
-    decodeAs<pb::Ping>,       decodeAs<pb::Pong>,        decodeAs<pb::Goodbye>,
-    decodeAs<pb::Edit>};
+    decodeAs<pb::Hello>,       decodeAs<pb::Welcome>,     decodeAs<pb::Refuse>,
+    decodeAs<pb::SceneOffer>,  decodeAs<pb::BlobRequest>, decodeAs<pb::BlobChunk>,
+    decodeAs<pb::Configure>,   decodeAs<pb::Ready>,       decodeAs<pb::Progress>,
+    decodeAs<pb::Tasks>,       decodeAs<pb::Cancel>,      decodeAs<pb::Result>,
+    decodeAs<pb::Ping>,        decodeAs<pb::Pong>,        decodeAs<pb::Goodbye>,
+    decodeAs<pb::Edit>,        decodeAs<pb::Steps>,       decodeAs<pb::Stepped>,
+    decodeAs<pb::CancelSteps>, decodeAs<pb::StateDelta>,  decodeAs<pb::StateOffer>};
 static_assert(std::size(kDecoders) == std::variant_size_v<Message>);
 
 }  // namespace

@@ -12,6 +12,25 @@ void putHash(const Sha256& hash, std::string& out) {
   out.assign(reinterpret_cast<const char*>(hash.data()), hash.size());
 }
 
+void put(const BlobInfo& info, pb::BlobInfo& out) {
+  putHash(info.hash, *out.mutable_hash());
+  out.set_raw_bytes(info.rawBytes);
+  out.set_kind(static_cast<uint32_t>(info.kind));
+}
+
+// Of Result and Stepped.
+template <typename Header>
+void put(const RayCounts& rays, Header& out) {
+  out.set_rays_eye(rays.eye);
+  out.set_rays_shadow(rays.shadow);
+  out.set_rays_photon(rays.photon);
+  out.set_rays_compensation(rays.compensation);
+}
+
+uint64_t nanoseconds(Duration time) {
+  return static_cast<uint64_t>(std::chrono::nanoseconds(time).count());
+}
+
 pb::Hello header(const msg::Hello& m) {
   pb::Hello out;
   out.set_protocol(m.protocol);
@@ -40,12 +59,7 @@ pb::SceneOffer header(const msg::SceneOffer& m) {
   NINEFOLD_CHECK(m.blobs.size() <= kMaxBlobs);
   pb::SceneOffer out;
   out.set_scene_version(m.sceneVersion);
-  for (const BlobInfo& info : m.blobs) {
-    pb::BlobInfo& blob = *out.add_blobs();
-    putHash(info.hash, *blob.mutable_hash());
-    blob.set_raw_bytes(info.rawBytes);
-    blob.set_kind(static_cast<uint32_t>(info.kind));
-  }
+  for (const BlobInfo& info : m.blobs) put(info, *out.add_blobs());
   return out;
 }
 
@@ -101,7 +115,7 @@ pb::Tasks header(const msg::Tasks& m) {
   toWire(m.frame, *out.mutable_frame());
   out.set_neighbour_weight(m.neighbourWeight);
   out.set_urgent(m.urgent);
-  out.set_allowed_ns(static_cast<uint64_t>(std::chrono::nanoseconds(m.allowed).count()));
+  out.set_allowed_ns(nanoseconds(m.allowed));
   for (const msg::TaskItem& item : m.items) {
     out.add_tile(item.tile);
     out.add_phase(item.phase);
@@ -128,10 +142,7 @@ pb::Result header(const msg::Result& m) {
   out.set_sets_made(m.setsMade);
   out.set_replaced(m.replaced);
   out.set_replaced_in(m.replacedIn);
-  out.set_rays_eye(m.rays.eye);
-  out.set_rays_shadow(m.rays.shadow);
-  out.set_rays_photon(m.rays.photon);
-  out.set_rays_compensation(m.rays.compensation);
+  put(m.rays, out);
   return out;
 }
 
@@ -164,8 +175,65 @@ pb::Goodbye header(const msg::Goodbye& m) {
   return out;
 }
 
+pb::Steps header(const msg::Steps& m) {
+  NINEFOLD_CHECK(!m.units.empty());
+  NINEFOLD_CHECK(m.units.size() <= kMaxTasksPerMessage);
+  pb::Steps out;
+  out.set_job_version(m.jobVersion);
+  toWire(m.step, *out.mutable_step());
+  out.mutable_unit()->Add(m.units.begin(), m.units.end());
+  out.set_allowed_ns(nanoseconds(m.allowed));
+  return out;
+}
+
+pb::Stepped header(const msg::Stepped& m) {
+  NINEFOLD_CHECK(m.deltas.size() <= kMaxDeltaBytes);
+  pb::Stepped out;
+  out.set_job_version(m.jobVersion);
+  out.set_number(m.number);
+  out.set_unit(m.unit);
+  out.set_busy_ns(m.busyNs);
+  out.set_state_hash(m.stateHash);
+  put(m.rays, out);
+  return out;
+}
+
+pb::CancelSteps header(const msg::CancelSteps& m) {
+  pb::CancelSteps out;
+  out.set_number(m.number);
+  return out;
+}
+
+pb::StateDelta header(const msg::StateDelta& m) {
+  NINEFOLD_CHECK(m.deltas.size() <= kMaxDeltaBytes);
+  pb::StateDelta out;
+  out.set_from(m.from);
+  out.set_to(m.to);
+  out.set_part(m.part);
+  out.set_parts(m.parts);
+  out.set_hash(m.hash);
+  out.set_oldest(m.oldest);
+  return out;
+}
+
+pb::StateOffer header(const msg::StateOffer& m) {
+  NINEFOLD_CHECK(m.pages.size() <= kMaxStatePages);
+  pb::StateOffer out;
+  out.set_version(m.version);
+  out.set_hash(m.hash);
+  for (const auto& [id, blob] : m.pages) {
+    pb::StatePage& page = *out.add_pages();
+    page.set_kind(id.kind);
+    page.set_index(id.index);
+    put(blob, *page.mutable_blob());
+  }
+  return out;
+}
+
 Bytes payload(msg::BlobChunk& m) { return std::move(m.bytes); }
 Bytes payload(msg::Result& m) { return std::move(m.encoded); }
+Bytes payload(msg::Stepped& m) { return std::move(m.deltas); }
+Bytes payload(msg::StateDelta& m) { return std::move(m.deltas); }
 template <typename T>
 Bytes payload(T&) {
   return {};

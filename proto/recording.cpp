@@ -12,17 +12,32 @@ Recorder::Recorder(const std::filesystem::path& file, const msg::Hello& hello)
 }
 
 void Recorder::add(const msg::Result& result) { write(result); }
+void Recorder::add(const msg::Stepped& stepped) { write(stepped); }
 
 void Recorder::heard(const Message& message) {
   switch (typeOf(message)) {
+    case MessageType::stateOffer: {
+      const std::lock_guard lock(mutex_);
+      for (const StatePage& page : std::get<msg::StateOffer>(message).pages)
+        pages_.insert(page.blob.hash);
+      break;
+    }
+    case MessageType::blobChunk: {
+      const std::lock_guard lock(mutex_);
+      if (!pages_.contains(std::get<msg::BlobChunk>(message).hash)) return;
+      break;
+    }
     case MessageType::sceneOffer:
     case MessageType::edit:
     case MessageType::configure:
     case MessageType::tasks:
-      return write(message);
-    default:
+    case MessageType::steps:
+    case MessageType::stateDelta:
       break;
+    default:
+      return;
   }
+  write(message);
 }
 
 void Recorder::write(Message message) {

@@ -82,6 +82,7 @@ void checkManifest(const std::vector<BlobInfo>& manifest) {
   for (const BlobInfo& info : manifest) {
     const bool last = &info == &manifest.back();
     if (last != (info.kind == BlobKind::rest)) fail("scene: its parts are out of order");
+    if (info.kind == BlobKind::page) fail("scene: a part of it is a page of a state");
     if (info.rawBytes == 0 || info.rawBytes > kMaxBlobBytes)
       fail("scene: a part of {} bytes, must be 1 to {}", info.rawBytes, kMaxBlobBytes);
     total += info.rawBytes;
@@ -91,16 +92,17 @@ void checkManifest(const std::vector<BlobInfo>& manifest) {
 }
 
 Bytes unpackBlob(const BlobInfo& info, ByteView compressed) {
+  const char* what = info.kind == BlobKind::page ? "state page" : "scene blob";
   if (info.rawBytes > kMaxBlobBytes)
-    fail("scene blob: declares {} bytes, at most {} are allowed", info.rawBytes, kMaxBlobBytes);
+    fail("{}: declares {} bytes, at most {} are allowed", what, info.rawBytes, kMaxBlobBytes);
   Bytes raw;
   try {
     raw = decompressBlob(compressed, info.rawBytes);
   } catch (const Error& error) {
-    fail("scene blob {}: {}", hex(info.hash), error.what());
+    fail("{} {}: {}", what, hex(info.hash), error.what());
   }
   if (sha256(raw) != info.hash)
-    fail("scene blob {}: its content does not match its SHA-256", hex(info.hash));
+    fail("{} {}: its content does not match its SHA-256", what, hex(info.hash));
   return raw;
 }
 

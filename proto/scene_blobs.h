@@ -33,7 +33,8 @@ std::vector<Blob> packScene(const Scene& scene);
 // Checks an offered manifest before anything is fetched: sizes, their sum, order of kinds.
 void checkManifest(const std::vector<BlobInfo>& manifest);
 
-// Decompresses and verifies size and hash. For bytes from the wire and from a cache alike.
+// Decompresses and verifies size and hash, of any kind of blob. For bytes from the wire and from a
+// cache alike.
 Bytes unpackBlob(const BlobInfo& info, ByteView compressed);
 
 // Raw blobs in manifest order to a valid scene (validate() of scene/reader.h is called).

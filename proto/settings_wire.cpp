@@ -147,10 +147,12 @@ void toWire(const FrameKey& frame, pb::FrameKey& out) {
   out.set_rotation(frame.rotation);
   out.set_photon_radius(frame.photonRadius);
   for (const Camera& camera : frame.lightCameras) toWire(camera, *out.add_light_cameras());
+  out.set_state(frame.state);
 }
 
 FrameKey fromWire(const pb::FrameKey& in) {
   FrameKey frame{in.frame(), in.randomization(), in.rotation(), in.photon_radius()};
+  frame.state = in.state();
   if (!(frame.photonRadius >= 0) || !std::isfinite(frame.photonRadius))
     fail("photon radius of frame {} is {}, must be 0 or more", frame.frame, frame.photonRadius);
   const auto cameras = static_cast<size_t>(in.light_cameras_size());
@@ -161,6 +163,22 @@ FrameKey fromWire(const pb::FrameKey& in) {
     checkRange(settingOf(&Settings::camera), frame.lightCameras.back());
   }
   return frame;
+}
+
+void toWire(const StepKey& step, pb::StepKey& out) {
+  out.set_number(step.number);
+  out.set_from(step.from);
+  out.set_to(step.to);
+  out.set_first_unit(step.firstUnit);
+  out.set_randomization(step.randomization);
+}
+
+StepKey fromWire(const pb::StepKey& in) {
+  const StepKey step{in.number(), in.from(), in.to(), in.first_unit(), in.randomization()};
+  if (step.to <= step.from)
+    fail("step {} leads from version {} to {}, must lead to a later one", step.number, step.from,
+         step.to);
+  return step;
 }
 
 }  // namespace ninefold

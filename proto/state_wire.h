@@ -1,7 +1,7 @@
 // state_wire.h: page deltas as bytes, and pages of a method's state as blobs; back, bit for bit.
 //
 // Deltas are the payload of Stepped and StateDelta. A blob of kind page is one delta that makes
-// the page of nothing, so its id is inside, and pages that are equal have one name.
+// the page of nothing; its id is inside.
 //
 // Layout:  PROTOCOL.md, State.
 // Limits:  kMaxRawDeltaBytes before compression. All sizes and counts are checked before memory is
@@ -21,6 +21,8 @@
 namespace ninefold {
 
 inline constexpr size_t kMaxRawDeltaBytes = 16 << 20;
+inline constexpr size_t kDeltaHeadBytes = 2 + 4 + 1 + 4;  // kind, index, form, count
+inline constexpr size_t kMaxPageBlobBytes = kDeltaHeadBytes + kPageSums * (2 + 8);
 
 // Page ids ascend: no page is there twice. A page has at most kPageSums changes, in any order.
 Bytes encodeDeltas(const PageDeltas& deltas);
