@@ -26,6 +26,9 @@ target_compile_options(ninefold_options INTERFACE
 target_link_options(ninefold_options INTERFACE -Wl,--as-needed)
 target_include_directories(ninefold_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_link_libraries(ninefold_options INTERFACE Threads::Threads)
+if(NINEFOLD_TEST_METHODS)
+  target_compile_definitions(ninefold_options INTERFACE NINEFOLD_TEST_METHODS)
+endif()
 if(NINEFOLD_SANITIZE)
   target_compile_options(ninefold_options INTERFACE
     -fsanitize=${NINEFOLD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer

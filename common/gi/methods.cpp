@@ -4,6 +4,9 @@
 #include "common/gi/bidirectional/bidirectional.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
+#ifdef NINEFOLD_TEST_METHODS
+#include "common/gi/state_check/state_check.h"
+#endif
 
 namespace ninefold {
 
@@ -15,6 +18,10 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
       return std::make_unique<const Reference>(t);
     case Method::bidirectional:
       return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
+#ifdef NINEFOLD_TEST_METHODS
+    case Method::stateCheck:
+      return std::make_unique<const StateCheck>(t);
+#endif
   }
   fail("method {} has no computing half", static_cast<int>(t.settings.method));
 }

@@ -8,8 +8,7 @@
 
 namespace ninefold {
 
-// The pages that a step makes of nothing which makes all of the state, with this randomization.
-// None for methods without a state.
+// The pages that a step of all units makes of nothing. None for methods without a state.
 inline StatePages wholeState(const Renderer& renderer, const Settings& settings,
                              uint32_t randomization) {
   StatePages pages;

@@ -29,6 +29,19 @@ double bidirectionalRays(const Settings& s, double pixels) {
 
 double pathRays(const Settings&, double pixels) { return 64 * pixels; }
 
+#ifdef NINEFOLD_TEST_METHODS
+constexpr size_t kTestMethods = 1;
+constexpr StateFacts kStateCheckSteps{
+    .unitsOfAll = [](const Settings&) { return 6u; },
+    .unitsInMotion = [](const Settings&) { return 2u; },
+    .rays = [](const Settings&) { return 1.0; },
+    .beginsAnew = false,
+    .isKept = [](const Settings& a, const Settings& b) { return a.seed == b.seed; }};
+#else
+constexpr size_t kTestMethods = 0;
+#endif
+
+// Those for tests alone at the end.
 constexpr std::array kTable{
     MethodFacts{.method = Method::instantRadiosity,
                 .name = "instant-radiosity",
@@ -60,6 +73,19 @@ constexpr std::array kTable{
                 .freeSets = false,
                 .missesPunctualCaustics = false,
                 .rays = bidirectionalRays},
+#ifdef NINEFOLD_TEST_METHODS
+    MethodFacts{.method = Method::stateCheck,
+                .name = "state-check",
+                .title = "state check",
+                .help = "",
+                .parts = 0,
+                .isUnfiltered = false,
+                .lightNeedsView = false,
+                .freeSets = true,
+                .missesPunctualCaustics = false,
+                .rays = pathRays,
+                .state = &kStateCheckSteps},
+#endif
 };
 
 constexpr bool isInOrder() {
@@ -71,7 +97,11 @@ static_assert(isInOrder());
 
 }  // namespace
 
-std::span<const MethodFacts> allMethods() { return kTable; }
+std::span<const MethodFacts> methodTable() { return kTable; }
+
+std::span<const MethodFacts> allMethods() {
+  return methodTable().first(kTable.size() - kTestMethods);
+}
 
 const MethodFacts& factsOf(Method method) { return kTable.at(static_cast<size_t>(method)); }
 
@@ -96,8 +126,8 @@ bool haveSameLight(const Settings& a, const Settings& b) {
 
 std::string describeMethods() {
   std::string text;
-  for (const MethodFacts& facts : kTable) {
-    const bool isLast = &facts == &kTable.back();
+  for (const MethodFacts& facts : allMethods()) {
+    const bool isLast = &facts == &allMethods().back();
     if (&facts != &kTable.front()) text += isLast ? " or " : ", ";
     const std::string note = facts.method == Settings{}.method ? "default" : facts.help;
     text += note.empty() ? std::string(facts.name) : fmt::format("{} ({})", facts.name, note);

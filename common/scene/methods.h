@@ -33,6 +33,7 @@ struct StateFacts {
   uint32_t (*unitsOfAll)(const Settings& settings);
   uint32_t (*unitsInMotion)(const Settings& settings);
   double (*rays)(const Settings& settings);  // of a unit, about
+  bool beginsAnew;                           // a step of all units needs no state before it
   // Whether the state of one stays right under the other: where not, it begins anew.
   bool (*isKept)(const Settings& before, const Settings& after);
 };
@@ -55,8 +56,9 @@ struct MethodFacts {
   bool has(uint8_t part) const { return (parts & part) == part; }
 };
 
-// In the order of Method.
+// In the order of Method. allMethods: without those that exist for tests alone.
 std::span<const MethodFacts> allMethods();
+std::span<const MethodFacts> methodTable();
 const MethodFacts& factsOf(Method method);
 
 // The layers that a task of this method carries; master and clients must agree on it.

@@ -14,7 +14,14 @@
 
 namespace ninefold {
 
-enum class Method : uint8_t { instantRadiosity, pathTrace, bidirectional };
+enum class Method : uint8_t {
+  instantRadiosity,
+  pathTrace,
+  bidirectional,
+#ifdef NINEFOLD_TEST_METHODS
+  stateCheck,  // for tests alone (gi/state_check)
+#endif
+};
 enum class Caustics : uint8_t { off, direct, all };
 enum class PartitionRule : uint8_t { balance, equal };
 

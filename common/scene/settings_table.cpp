@@ -46,7 +46,7 @@ std::pair<int, int> parseSize(std::string_view text) {
 std::span<const char* const> namesOf(Method) {
   static const std::vector<const char*> names = [] {
     std::vector<const char*> all;
-    for (const MethodFacts& facts : allMethods()) all.push_back(facts.name);
+    for (const MethodFacts& facts : methodTable()) all.push_back(facts.name);
     return all;
   }();
   return names;

@@ -125,6 +125,16 @@ void addWork(const RunStats& s, Json& json) {
   json["values_not_finite"] = s.valuesNotFinite;
 }
 
+// Nothing for methods without a state.
+void addSteps(const StepStats& s, Json& json) {
+  if (s.steps == 0) return;
+  json["state"] = {{"steps", s.steps},
+                   {"units", s.units},
+                   {"step_ms", s.ms},
+                   {"bytes_received", s.bytesReceived},
+                   {"bytes_sent", s.bytesSent}};
+}
+
 void addJob(const RunStats& s, Json& json) {
   json["relative_error"] = numberOrNull(s.relativeError);
   json["needs"] = object(s.needs);
@@ -141,6 +151,7 @@ std::string toJson(const RunStats& stats) {
   Json json;
   addPerformance(stats, json);
   addWork(stats, json);
+  addSteps(stats.steps, json);
   addJob(stats, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -23,6 +23,13 @@ struct ClientStats {
   uint64_t stuck = 0;       // times that a task of it was past its deadline
 };
 
+// Steps of a method's state.
+struct StepStats {
+  uint64_t steps = 0, units = 0;              // complete
+  double ms = 0;                              // of a step, from its first dispatch to its end: mean
+  uint64_t bytesReceived = 0, bytesSent = 0;  // page deltas
+};
+
 struct RunStats {
   int64_t frames = 0;           // complete, at full size
   double seconds = 0;           // first dispatch to last completion; gives fps and all rates
@@ -41,7 +48,8 @@ struct RunStats {
   uint64_t clientsStuck = 0;     // that were stuck at least once
   uint64_t stalls = 0;           // times that all clients were stuck at once
   uint64_t valuesNotFinite = 0;  // or negative, where there is no light below 0: they became 0
-  double relativeError = 0;      // not finite (less than two frames): null
+  StepStats steps;
+  double relativeError = 0;  // not finite (less than two frames): null
   Needs needs;
   std::string preset;                              // settings.preset
   Settings settings;                               // method, settings, seed

@@ -42,7 +42,7 @@ StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving) const {
       makesAll ? facts_->unitsOfAll(settings_) : facts_->unitsInMotion(settings_);
   StepKey key;
   key.number = number;
-  key.from = makesAll ? 0 : latest_, key.to = versions_ + 1;
+  key.from = makesAll && facts_->beginsAnew ? 0 : latest_, key.to = versions_ + 1;
   key.firstUnit = nextUnit_;
   key.randomization = moving ? 0 : turns_;
   return {{key, static_cast<int>(units)}, makesAll, series_, scene_};

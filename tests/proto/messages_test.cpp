@@ -172,7 +172,7 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"width", [](Settings& s) { s.width = 0; }},
       {"width", [](Settings& s) { s.width = -5; }},
       {"height", [](Settings& s) { s.height = 16385; }},
-      {"method", [](Settings& s) { s.method = static_cast<Method>(allMethods().size()); }},
+      {"method", [](Settings& s) { s.method = static_cast<Method>(methodTable().size()); }},
       {"caustics", [](Settings& s) { s.caustics = static_cast<Caustics>(3); }},
       {"partition", [](Settings& s) { s.partition = static_cast<PartitionRule>(2); }},
       {"randomization", [](Settings& s) { s.randomization = static_cast<Randomization>(3); }},

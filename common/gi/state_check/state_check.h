@@ -1,0 +1,34 @@
+// state_check.h: a method for tests of states alone. Its light tells which state lit it, to the bit:
+//
+//   unit n of a step   page (0, n mod 6) gets 8 bytes of its own, and three sums of page (1, 0) and
+//                      one of page (1, 1) get an amount of its own added; all are hashes of the
+//                      settings' seed, the step's randomization, n, and the state that it began from
+//   E = pi (0.5 + h 2^-33),  h  the upper half of the state's hash      the same everywhere [W/m^2]
+//
+// So a picture is right only if each of its steps was, from the first one on.
+// Threads, owner, errors: as method.h says.
+#pragma once
+
+#include "common/gi/method/layered_method.h"
+
+namespace ninefold {
+
+class StateCheck final : public LayeredMethod {
+ public:
+  using LayeredMethod::LayeredMethod;
+
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
+                                          std::span<const View> views,
+                                          const MethodState* state) const override;
+  std::unique_ptr<Scratch> makeScratch() const override;
+  StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit) const override;
+  std::shared_ptr<const MethodState> digest(const StatePages& pages,
+                                            const MethodState* before) const override;
+
+ protected:
+  void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
+             LayeredScratch& scratch, Receivers& receivers, std::vector<Irradiance>* caustic,
+             RayCounts& rays) const override;
+};
+
+}  // namespace ninefold

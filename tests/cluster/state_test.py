@@ -1,0 +1,77 @@
+"""A method's state in a cluster of real programs. The method state-check shows which state lit a frame, to the bit:
+each step depends on all before it (common/gi/state_check). Builds for tests have it.
+"""
+import re
+import unittest
+
+from programs import BIN, ClusterTest, signal
+
+
+class State(ClusterTest):
+    SIZE = "48x36"
+    METHOD = ("--method", "state-check")
+    LONG = 60  # frames: enough to lose or find somebody in the middle
+
+    def test_any_number_of_clients_and_threads(self):
+        hashes = set()
+        for clients, threads in ((1, 1), (2, 1), (5, 1), (1, 2), (2, 2)):
+            stats = self.render(*self.METHOD, "--local-clients", clients, "--client-threads", threads, frames=4)
+            hashes.add(stats["image_hash"])
+            self.assertEqual(stats["state"]["steps"], 4, stats["state"])
+            self.assertEqual(stats["state"]["units"], 4 * 6)
+            self.assertGT(stats["state"]["bytes_received"], 0)
+            self.assertGT(stats["state"]["bytes_sent"], 0)
+        self.assertEqual(len(hashes), 1, hashes)
+
+    def test_each_step_counts_for_all_pictures_after_it(self):
+        hashes = [self.render(*self.METHOD, "--seed", seed, frames=frames)["image_hash"]
+                  for seed, frames in ((1, 1), (1, 2), (1, 3), (2, 3))]
+        self.assertEqual(len(set(hashes)), 4)
+
+    def test_a_killed_client_does_not_show(self):
+        undisturbed = self.render(*self.METHOD, "--local-clients", 2, frames=self.LONG)
+        master = self.master(*self.METHOD, "--local-clients", 2, "--wait-clients", 2, frames=self.LONG)
+        master.waits_for(r"client \d+ is ready(.|\n)*client \d+ is ready")
+        self.send(master.children()[0], signal.SIGKILL)
+        stats = self.finish(master)
+        self.assertIn("signal 9", master.text)
+        self.assertEqual(stats["image_hash"], undisturbed["image_hash"])
+
+    def test_who_comes_late_has_the_state_of_all_others(self):
+        self.new_key()
+        frames = 200
+        undisturbed = self.render(*self.METHOD, "--local-clients", 1, frames=frames)
+        master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=frames)
+        address = self.address_of(master)
+        first = self.client(address)
+        master.waits_for(r"progress: \d+% frame [3-9]")
+        late = self.client(address)
+        master.waits_for("client 2 is ready")
+        first.process.kill()  # what is left is the late one's alone
+        stats = self.finish(master)
+        self.assertEqual(late.ends(), 0, late.text)
+        self.assertEqual(stats["image_hash"], undisturbed["image_hash"])
+        self.assertEqual(sum(client["tasks"] > 0 for client in stats["clients"]), 2)
+
+    def test_all_clients_may_be_lost(self):
+        self.new_key()
+        frames = 60
+        undisturbed = self.render(*self.METHOD, "--local-clients", 1, frames=frames)
+        master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=frames)
+        address = self.address_of(master)
+        for _ in range(2):
+            client = self.client(address)
+            master.waits_for(rf"client {_ + 1} is ready")
+            client.process.kill()
+            master.waits_for(rf"client {_ + 1} is gone")
+        self.client(address)
+        self.assertEqual(self.finish(master)["image_hash"], undisturbed["image_hash"])
+
+    def test_releases_lack_it(self):
+        said = self.start(BIN / "ninefold-master", "--help")
+        self.assertEqual(said.ends(), 0)
+        self.assertFalse(re.search("state-check", said.text))
+
+
+if __name__ == "__main__":
+    unittest.main()
