@@ -2,7 +2,7 @@
 
 #include <zstd.h>
 
-#include <array>
+#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -16,7 +16,6 @@ constexpr size_t kHeadBytes = 1 + 4;
 constexpr int kLevel = 3;
 constexpr size_t kPartBytes = 512 << 10;  // before compression; so that heartbeats slip in between
 enum Form : uint8_t { kRecords = 0, kSums = 1 };
-constexpr size_t kAmountBytes = sizeof(int64_t);
 
 struct Head {
   PageId page;
@@ -24,7 +23,7 @@ struct Head {
   size_t count;  // of bytes or changes
 };
 
-size_t bytesEach(uint8_t form) { return form == kSums ? sizeof(uint16_t) + kAmountBytes : 1; }
+size_t bytesEach(uint8_t form) { return form == kSums ? sizeof(uint16_t) + sizeof(int64_t) : 1; }
 
 Head headOf(const PageDelta& delta) {
   const auto* records = std::get_if<Records>(&delta.change);
@@ -71,32 +70,46 @@ uint64_t folded(int64_t n) {
 }
 int64_t unfolded(uint64_t n) { return static_cast<int64_t>(n >> 1 ^ (~(n & 1) + 1)); }
 
-void writeChanges(PageId page, const std::vector<SumChange>& changes, ByteWriter& writer) {
-  for (const SumChange& change : changes) {
-    checkPlace(page, change.place);
-    writer.number(change.place);
-  }
-  Bytes plane(changes.size());
-  for (size_t b = 0; b < kAmountBytes; ++b) {
-    for (size_t i = 0; i < changes.size(); ++i)
-      plane[i] = static_cast<std::byte>(folded(changes[i].amount) >> 8 * b);
+// The lowest byte of each number, then the next of each.
+template <typename Unsigned, typename NumberOf>
+void writePlanes(size_t count, const NumberOf& numberOf, ByteWriter& writer) {
+  Bytes plane(count);
+  for (size_t b = 0; b < sizeof(Unsigned); ++b) {
+    for (size_t i = 0; i < count; ++i)
+      plane[i] = static_cast<std::byte>(static_cast<Unsigned>(numberOf(i)) >> 8 * b);
     writer.raw(plane.data(), plane.size());
   }
 }
 
-std::vector<SumChange> readChanges(PageId page, size_t count, ByteReader& in) {
-  std::vector<SumChange> changes(count);
-  for (SumChange& change : changes) {
-    change.place = in.number<uint16_t>("place");
-    checkPlace(page, change.place);
+template <typename Unsigned>
+std::vector<Unsigned> readPlanes(size_t count, const char* field, ByteReader& in) {
+  std::vector<Unsigned> numbers(count);
+  for (size_t b = 0; b < sizeof(Unsigned); ++b) {
+    const ByteView plane = in.take(count, field);
+    for (size_t i = 0; i < count; ++i)
+      numbers[i] = static_cast<Unsigned>(numbers[i] | static_cast<Unsigned>(plane[i]) << 8 * b);
   }
-  std::array<ByteView, kAmountBytes> planes;
-  for (ByteView& plane : planes) plane = in.take(count, "amounts");
+  return numbers;
+}
+
+void writeChanges(PageId page, const std::vector<SumChange>& changes, ByteWriter& writer) {
+  for (const SumChange& change : changes) checkPlace(page, change.place);
+  const auto placeBefore = [&](size_t i) { return i == 0 ? 0 : changes[i - 1].place; };
+  writePlanes<uint16_t>(
+      changes.size(), [&](size_t i) { return changes[i].place - placeBefore(i); }, writer);
+  writePlanes<uint64_t>(
+      changes.size(), [&](size_t i) { return folded(changes[i].amount); }, writer);
+}
+
+std::vector<SumChange> readChanges(PageId page, size_t count, ByteReader& in) {
+  const std::vector<uint16_t> steps = readPlanes<uint16_t>(count, "places", in);
+  const std::vector<uint64_t> amounts = readPlanes<uint64_t>(count, "amounts", in);
+  std::vector<SumChange> changes(count);
+  uint16_t place = 0;
   for (size_t i = 0; i < count; ++i) {
-    uint64_t amount = 0;
-    for (size_t b = 0; b < kAmountBytes; ++b)
-      amount |= static_cast<uint64_t>(planes[b][i]) << 8 * b;
-    changes[i].amount = unfolded(amount);
+    place = static_cast<uint16_t>(place + steps[i]);
+    checkPlace(page, place);
+    changes[i] = {place, unfolded(amounts[i])};
   }
   return changes;
 }
@@ -139,12 +152,21 @@ Bytes decompressed(ByteView compressed, size_t size) {
   return raw;
 }
 
-Bytes encode(std::span<const PageDelta> deltas) {
+using DeltaViews = std::vector<const PageDelta*>;
+
+DeltaViews byPage(const PageDeltas& deltas) {
+  DeltaViews views;
+  for (const PageDelta& delta : deltas) views.push_back(&delta);
+  std::ranges::stable_sort(views, {}, [](const PageDelta* delta) { return delta->page; });
+  return views;
+}
+
+Bytes encode(std::span<const PageDelta* const> deltas) {
   Bytes raw;
   Order order;
-  for (const PageDelta& delta : deltas) {
-    order.next(delta.page);
-    write(delta, raw);
+  for (const PageDelta* delta : deltas) {
+    order.next(delta->page);
+    write(*delta, raw);
     if (raw.size() > kMaxRawDeltaBytes)
       fail("state deltas: more than {} bytes for one message", kMaxRawDeltaBytes);
   }
@@ -173,7 +195,7 @@ PageDelta deltaTo(PageId id, const Page& page) {
 
 }  // namespace
 
-Bytes encodeDeltas(const PageDeltas& deltas) { return encode(deltas); }
+Bytes encodeDeltas(const PageDeltas& deltas) { return encode(byPage(deltas)); }
 
 PageDeltas decodeDeltas(ByteView encoded) {
   ByteReader in(encoded, "state deltas");
@@ -193,11 +215,12 @@ PageDeltas decodeDeltas(ByteView encoded) {
 
 std::vector<Bytes> encodeParts(const PageDeltas& deltas) {
   std::vector<Bytes> parts;
-  std::span<const PageDelta> left(deltas);
+  const DeltaViews all = byPage(deltas);
+  std::span left(all);
   do {
     size_t count = 0;
     for (size_t bytes = 0; count < left.size(); ++count) {
-      bytes += rawBytes(left[count]);
+      bytes += rawBytes(*left[count]);
       if (count > 0 && (bytes > kPartBytes || count == kMaxStatePages)) break;
     }
     parts.push_back(encode(left.first(count)));

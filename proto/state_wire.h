@@ -7,8 +7,8 @@
 // Limits:  kMaxRawDeltaBytes before compression. All sizes and counts are checked before memory is
 //          taken; decompression stops at the declared size.
 // Proved:  tests/proto/state_wire_test.cpp.
-// Errors:  all throw Error with one line. Those that encode do so if page ids do not ascend, or
-//          pages or the whole are too large: what they give can always be sent and decoded.
+// Errors:  all throw Error with one line. Those that encode do so for a page that is there twice or
+//          more than it can hold or send: what they give can always be sent and decoded.
 // Threads: pure functions.
 #pragma once
 
@@ -24,7 +24,8 @@ inline constexpr size_t kMaxRawDeltaBytes = 16 << 20;
 inline constexpr size_t kDeltaHeadBytes = 2 + 4 + 1 + 4;  // kind, index, form, count
 inline constexpr size_t kMaxPageBlobBytes = kDeltaHeadBytes + kPageSums * (2 + 8);
 
-// Page ids ascend: no page is there twice. A page has at most kPageSums changes, in any order.
+// Pages go in the order of their ids, each once. A page's changes keep their order; there may be
+// kPageSums of them, and they are shortest if their places ascend.
 Bytes encodeDeltas(const PageDeltas& deltas);
 PageDeltas decodeDeltas(ByteView encoded);
 

@@ -7,6 +7,7 @@
 //   messages   the text of messages.proto without comments and spaces, and the settings' names
 //   tiles      stored tiles of all layers and planes, of radiance and of a display's codes
 //   scenes     the raw blobs of a scene with one of everything
+//   states     deltas and pages of both forms, before compression
 #pragma once
 
 #include <cstdint>
@@ -14,11 +15,12 @@
 
 namespace ninefold {
 
-// Raised whenever the meaning of any message, the tiles' or the scenes' format changes.
-inline constexpr uint32_t kProtocol = 3;
+// Raised whenever the meaning of any message, or the format of tiles, scenes or states changes.
+inline constexpr uint32_t kProtocol = 4;
 
-inline constexpr std::string_view kMessagesDigest = "5792c48490fa8acd";
+inline constexpr std::string_view kMessagesDigest = "11784bab53433667";
 inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
 inline constexpr std::string_view kScenesDigest = "fde0a0c2619dbf8c";
+inline constexpr std::string_view kStatesDigest = "bc7f3e420652a9f2";
 
 }  // namespace ninefold

@@ -41,7 +41,12 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
   const msg::Result result{1, 2, 3, 4, 5, 1, 0, 0, {6, 7, 8, 9}, Bytes(40)};
   const msg::Tasks tasks{1, {2, 3, 4, 0.5f}, {{1, 2, 3}, {4, 5, 6}}};
   const msg::SceneOffer offer{1, {{{}, 10, BlobKind::image}, {{}, 20, BlobKind::rest}}};
-  return {stream(2, {msg::Hello{}, msg::BlobRequest{}, msg::Progress{}, msg::Ready{1, 1}, result}),
+  const msg::Steps steps{1, {2, 3, 4, 5, 6}, {5, 7}};
+  const msg::StateOffer pages{1, 2, {{{3, 4}, {{}, 50, BlobKind::page}}}};
+  return {stream(2, {msg::Hello{}, msg::Stepped{1, 2, 3, 4, 5, {6, 7, 8, 9}, Bytes(40)}}),
+          stream(0, {msg::Welcome{}, pages, steps, msg::CancelSteps{2}}),
+          stream(5, {msg::StateDelta{1, 2, 0, 3, 4, 1, Bytes(40)}, tasks, steps}),
+          stream(2, {msg::Hello{}, msg::BlobRequest{}, msg::Progress{}, msg::Ready{1, 1}, result}),
           stream(7, {msg::Hello{}, result, msg::Pong{1, 2}, msg::Goodbye{"done"}}),
           stream(0, {msg::Welcome{}, offer, msg::BlobChunk{{}, 5, 9, Bytes(4)},
                      msg::Configure{1, 1, {}}}),

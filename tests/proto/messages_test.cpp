@@ -8,6 +8,7 @@
 #include "common/scene/settings_table.h"
 #include "proto/messages.pb.h"
 #include "proto/scene_blobs.h"
+#include "proto/state_wire.h"
 #include "proto/tile_names.h"
 
 namespace ninefold {
@@ -49,6 +50,10 @@ SceneEdit oddEdit() {
   return edit;
 }
 
+StatePage somePage(uint16_t kind, uint32_t index) {
+  return {{kind, index}, {someHash(5), kMaxPageBlobBytes, BlobKind::page}};
+}
+
 // One message of every type, with every field different from its default.
 std::vector<Message> oneOfEach() {
   return {
@@ -62,7 +67,7 @@ std::vector<Message> oneOfEach() {
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
       msg::Tasks{4,
-                 {10, 11, 12, 0.25f, std::vector(kMostLightCameras, oddSettings().camera)},
+                 {10, 11, 12, 0.25f, std::vector(kMostLightCameras, oddSettings().camera), 13},
                  {{1, 2, 3}, {4, 255, 31}},
                  0.5f,
                  true,
@@ -72,7 +77,12 @@ std::vector<Message> oneOfEach() {
       msg::Ping{1},
       msg::Pong{1, 2},
       msg::Goodbye{"done"},
-      msg::Edit{9, oddEdit(), true}};
+      msg::Edit{9, oddEdit(), true},
+      msg::Steps{4, {21, 5, 7, 40, 3}, {40, ~0u}, milliseconds(1500)},
+      msg::Stepped{4, 21, 41, 12345, ~0ull, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
+      msg::CancelSteps{21},
+      msg::StateDelta{5, 7, 2, 3, ~0ull, 4, Bytes(100, std::byte{6})},
+      msg::StateOffer{7, ~0ull, {somePage(1, 9), somePage(65535, 0), somePage(65535, ~0u)}}};
 }
 
 Peer senderOf(const Message& message) {
@@ -104,9 +114,24 @@ TEST(Messages, FieldsArriveWhereTheyBelong) {
   EXPECT_EQ(tasks.frame.rotation, 12u);
   EXPECT_EQ(tasks.frame.lightCameras, std::vector(kMostLightCameras, oddSettings().camera));
   EXPECT_EQ(tasks.items[1], (msg::TaskItem{4, 255, 31}));
+  EXPECT_EQ(tasks.frame.state, 13u);
   EXPECT_TRUE(tasks.urgent);
   EXPECT_EQ(std::get<msg::Edit>(decode(oneOfEach()[15])).edit, oddEdit());
   EXPECT_TRUE(std::get<msg::Edit>(decode(oneOfEach()[15])).moving);
+  const auto steps = std::get<msg::Steps>(decode(oneOfEach()[16]));
+  EXPECT_EQ(steps.step, (StepKey{21, 5, 7, 40, 3}));
+  EXPECT_EQ(steps.units, (std::vector<uint32_t>{40, ~0u}));
+  EXPECT_EQ(steps.allowed, milliseconds(1500));
+  const auto stepped = std::get<msg::Stepped>(decode(oneOfEach()[17]));
+  EXPECT_EQ(stepped.unit, 41u);
+  EXPECT_EQ(stepped.rays.compensation, 4u);
+  EXPECT_EQ(stepped.deltas, Bytes(100, std::byte{5}));
+  const auto delta = std::get<msg::StateDelta>(decode(oneOfEach()[19]));
+  EXPECT_EQ(delta.part, 2u);
+  EXPECT_EQ(delta.oldest, 4u);
+  EXPECT_EQ(delta.deltas, Bytes(100, std::byte{6}));
+  const auto offer = std::get<msg::StateOffer>(decode(oneOfEach()[20]));
+  EXPECT_EQ(offer.pages, std::get<msg::StateOffer>(oneOfEach()[20]).pages);
   const auto settings = std::get<msg::Configure>(decode(oneOfEach()[6])).settings;
   EXPECT_EQ(settings.camera, oddSettings().camera);
   EXPECT_EQ(settings.interleave, oddSettings().interleave);
@@ -143,7 +168,7 @@ TEST(Messages, AMotionHasTwelveNumbers) {
 }
 
 TEST(Messages, UnknownTypesAreRefused) {
-  for (const uint16_t type : {uint16_t{0}, uint16_t{17}, uint16_t{65535}}) {
+  for (const uint16_t type : {uint16_t{0}, uint16_t{22}, uint16_t{65535}}) {
     EXPECT_THROW(decodeMessage(Frame{type, "", {}}, Peer::client), Error);
     EXPECT_EQ(messageLimit(type).header + messageLimit(type).payload, 0u);
   }
@@ -298,6 +323,24 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
       {"allowed time", msg::Tasks{1, {}, {{0, 0, 0}}, 1, false, std::chrono::hours(1001)}},
       {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, 0, {}, {}}},
       {"replaced in", msg::Result{1, 1, 1, 1, 1, 0, 1, kAllTileFields + 1, {}, {}}},
+      {"blob kind", msg::SceneOffer{1, {{someHash(1), 1, BlobKind::page}}}},
+      {"version 3 to 3", msg::Steps{1, {0, 3, 3}, {0}}},
+      {"unit is 6", msg::Steps{1, {0, 0, 1, 7}, {7, 6}}},
+      {"allowed time", msg::Steps{1, {}, {0}, Duration(0)}},
+      {"allowed time", msg::Steps{1, {}, {0}, std::chrono::hours(1001)}},
+      {"version 3 to 3", msg::StateDelta{3, 3, 0, 1, 0, 0, {}}},
+      {"version 3 to 2", msg::StateDelta{3, 2, 0, 1, 0, 0, {}}},
+      {"part is 1", msg::StateDelta{0, 1, 1, 1, 0, 0, {}}},
+      {"number of parts", msg::StateDelta{0, 1, 0, 0, 0, 0, {}}},
+      {"number of parts", msg::StateDelta{0, 1, 0, 65537, 0, 0, {}}},
+      {"page 2.3", msg::StateOffer{1, 0, {somePage(2, 3), somePage(2, 3)}}},
+      {"page 2.3", msg::StateOffer{1, 0, {somePage(2, 4), somePage(2, 3)}}},
+      {"page 1.9", msg::StateOffer{1, 0, {somePage(2, 4), somePage(1, 9)}}},
+      {"blob kind", msg::StateOffer{1, 0, {{{}, {someHash(1), 1, BlobKind::meshes}}}}},
+      {"blob kind", msg::StateOffer{1, 0, {{{}, {someHash(1), 1, static_cast<BlobKind>(4)}}}}},
+      {"blob size", msg::StateOffer{1, 0, {{{}, {someHash(1), 0, BlobKind::page}}}}},
+      {"blob size",
+       msg::StateOffer{1, 0, {{{}, {someHash(1), kMaxPageBlobBytes + 1, BlobKind::page}}}}},
   };
   for (const auto& [field, message] : cases) {
     const std::string text = refusal(Message(message));
@@ -391,6 +434,54 @@ TEST(Messages, LargestListsFitTheirLimits) {
   msg::Tasks tasks{~0u, {~0u, ~0u, ~0u, 1e30f, std::vector(kMostLightCameras, longNamed)}, {}};
   tasks.items.assign(kMaxTasksPerMessage, {~0u, 255, 31});
   EXPECT_EQ(refusal(Message(tasks)), "");
+  msg::Steps steps{~0u, {~0u, 0, ~0u, ~0u, ~0u}, {}, kLongestAllowed};
+  steps.units.assign(kMaxTasksPerMessage, ~0u);
+  EXPECT_EQ(refusal(Message(steps)), "");
+  msg::StateOffer pages{~0u, ~0ull, {}};
+  for (uint32_t i = 0; i < kMaxStatePages; ++i)
+    pages.pages.push_back(somePage(65535, ~0u << 16 | i));
+  EXPECT_EQ(refusal(Message(pages)), "");
+  const Bytes deltas(kMaxDeltaBytes, std::byte{1});
+  EXPECT_EQ(refusal(msg::Stepped{1, 1, 1, 1, 1, {}, deltas}), "");
+  EXPECT_EQ(refusal(msg::StateDelta{0, 1, 65535, 65536, 1, 0, deltas}), "");
+}
+
+// What our own encoder would not write, as a hostile peer may.
+template <typename Header>
+std::string refusalOfHeader(MessageType type, const Header& header, size_t payload = 0) {
+  Frame frame{static_cast<uint16_t>(type), "", Bytes(payload, std::byte{1})};
+  header.SerializeToString(&frame.header);
+  try {
+    decodeMessage(std::move(frame), Peer::master);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Messages, ListsOfAStateThatAreTooShortOrTooLongAreNamed) {
+  pb::Steps steps;
+  steps.mutable_step()->set_to(1), steps.set_allowed_ns(1);
+  const auto says = [](const std::string& text, const char* part) {
+    return text.find(part) != std::string::npos ? "" : "says: " + text;
+  };
+  EXPECT_EQ(says(refusalOfHeader(MessageType::steps, steps), "number of units is 0"), "");
+  for (size_t i = 0; i <= kMaxTasksPerMessage; ++i) steps.add_unit(0);
+  EXPECT_EQ(says(refusalOfHeader(MessageType::steps, steps), "number of units is 4097"), "");
+
+  pb::StateOffer offer;
+  for (uint32_t i = 0; i <= kMaxStatePages; ++i) offer.add_pages()->set_index(i);
+  EXPECT_EQ(says(refusalOfHeader(MessageType::stateOffer, offer), "number of pages is 65537"), "");
+  offer.clear_pages(), offer.add_pages();
+  EXPECT_EQ(says(refusalOfHeader(MessageType::stateOffer, offer), "hash has 0 bytes"), "");
+  offer.mutable_pages(0)->set_kind(65536);
+  EXPECT_EQ(says(refusalOfHeader(MessageType::stateOffer, offer), "page kind is 65536"), "");
+
+  pb::StateDelta delta;
+  delta.set_to(1), delta.set_parts(1);
+  EXPECT_EQ(refusalOfHeader(MessageType::stateDelta, delta, kMaxDeltaBytes), "");
+  EXPECT_EQ(says(refusalOfHeader(MessageType::stateDelta, delta, kMaxDeltaBytes + 1), "too long"),
+            "");
 }
 
 }  // namespace

@@ -54,6 +54,34 @@ TEST(Recording, HoldsWhatTheMasterAskedForInItsOrder) {
   EXPECT_EQ(std::get<msg::Result>(messages[5]).frame, 3u);
 }
 
+TEST(Recording, HoldsAStateAndItsSteps) {
+  const TempFolder folder;
+  Recorder recorder(folder.path() / "r", msg::Hello{});
+  Sha256 page{}, mesh{};
+  page[0] = 1, mesh[0] = 2;
+  msg::StateOffer offer{3, 4, {{{1, 2}, {page, 9, BlobKind::page}}}};
+  msg::StateDelta delta;
+  delta.from = 3, delta.to = 4, delta.deltas = Bytes(5, std::byte{6});
+  const msg::Steps steps{1, {9, 4, 5}, {0, 1}};
+  for (const Message& message :
+       {Message(msg::BlobChunk{mesh, 0, 1, Bytes(1, std::byte{1})}), Message(offer),
+        Message(msg::BlobChunk{page, 0, 1, Bytes(1, std::byte{2})}),
+        Message(msg::BlobChunk{mesh, 0, 1, Bytes(1, std::byte{1})}), Message(delta), Message(steps),
+        Message(msg::CancelSteps{9})})
+    recorder.heard(message);
+  msg::Stepped stepped;
+  stepped.number = 9, stepped.unit = 1;
+  recorder.add(stepped);
+  recorder.finish();
+  const std::vector<Message> messages = readRecording(folder.path() / "r");
+  ASSERT_EQ(messages.size(), 6u) << "a scene's blobs are of no use";
+  EXPECT_EQ(std::get<msg::StateOffer>(messages[1]).pages, offer.pages);
+  EXPECT_EQ(std::get<msg::BlobChunk>(messages[2]).bytes, Bytes(1, std::byte{2}));
+  EXPECT_EQ(std::get<msg::StateDelta>(messages[3]).deltas, delta.deltas);
+  EXPECT_EQ(std::get<msg::Steps>(messages[4]).units, steps.units);
+  EXPECT_EQ(std::get<msg::Stepped>(messages[5]).unit, 1u);
+}
+
 TEST(Recording, AFileThatCannotBeIsRefusedBeforeAnythingIsRendered) {
   const TempFolder folder;
   EXPECT_THROW(Recorder(folder.path() / "none" / "r", msg::Hello{}), Error);

@@ -228,6 +228,8 @@ TEST(SceneBlobs, ManifestsAreCheckedBeforeAnythingIsFetched) {
   EXPECT_NE(errorOf([&] { checkManifest({image}); }), "") << "no rest";
   EXPECT_NE(errorOf([&] { checkManifest({rest, image}); }), "") << "rest not last";
   EXPECT_NE(errorOf([&] { checkManifest({rest, rest}); }), "");
+  const BlobInfo page{{}, 10, BlobKind::page};
+  EXPECT_NE(errorOf([&] { checkManifest({page, rest}); }), "") << "a state is no part of a scene";
   const BlobInfo big{{}, kMaxBlobBytes, BlobKind::image};
   EXPECT_NE(errorOf([&] {
               checkManifest({big, big, big, big, big, rest});

@@ -1,5 +1,5 @@
-// The protocol's number is raised with what is spoken: digests of the messages' text, of tiles and
-// of a scene stand beside it. What is digested here is made by formulas, without compression, so
+// The protocol's number is raised with what is spoken: digests of the messages' text, of tiles, of a
+// scene and of a state stand beside it. What is digested here is made by formulas, without compression, so
 // that only a change of the format changes it.
 #include "proto/wire_version.h"
 
@@ -14,6 +14,7 @@
 #include "proto/compression.h"
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
+#include "proto/state_wire.h"
 #include "proto/tile_codec.h"
 
 namespace ninefold {
@@ -123,6 +124,25 @@ Bytes rawBlobsOf(const Scene& scene) {
   return all;
 }
 
+// The head of encoded deltas and what is compressed behind it, then a page of each form.
+Bytes someState() {
+  const Records records{std::byte{1}, std::byte{2}, std::byte{3}};
+  Sums sums(kPageSums, 0);
+  sums[0] = -1, sums[4097] = INT64_MAX, sums[8191] = INT64_MIN;
+  const Bytes encoded = encodeDeltas(
+      {{{1, 2}, records}, {{3, 1'000'000}, std::vector<SumChange>{{8191, 1}, {5, -300}}}});
+  Bytes all(encoded.begin(), encoded.begin() + 5);
+  ByteReader head(encoded, "head");
+  head.take(1, "version");
+  const auto size = head.number<uint32_t>("size");
+  const Blob pages[] = {packPage({1, 2}, records), packPage({3, 4}, sums)};
+  for (const Bytes& raw : {decompressBlob(ByteView(encoded).subspan(5), size),
+                           unpackBlob(pages[0].info, pages[0].compressed),
+                           unpackBlob(pages[1].info, pages[1].compressed)})
+    all.insert(all.end(), raw.begin(), raw.end());
+  return all;
+}
+
 TEST(WireVersion, IsRaisedWithTheMessages) {
   ASSERT_NE(messagesText().find("message Hello"), std::string::npos);
   expectRecorded(digest(bytesOf(messagesText())), kMessagesDigest, "messages.proto",
@@ -136,6 +156,10 @@ TEST(WireVersion, IsRaisedWithTheTiles) {
 TEST(WireVersion, IsRaisedWithTheScenes) {
   expectRecorded(digest(rawBlobsOf(someScene())), kScenesDigest, "The scenes' format",
                  "kScenesDigest");
+}
+
+TEST(WireVersion, IsRaisedWithTheStates) {
+  expectRecorded(digest(someState()), kStatesDigest, "The states' format", "kStatesDigest");
 }
 
 }  // namespace
