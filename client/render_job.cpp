@@ -1,5 +1,6 @@
 #include "client/render_job.h"
 
+#include "common/gi/whole_state.h"
 #include "common/sampling/whole_tile.h"
 #include "common/scene/methods.h"
 #include "common/scene/replay_line.h"
@@ -119,12 +120,17 @@ msg::Stepped RenderJob::step(const StepKey& step, uint32_t unit, const StatePage
   return result;
 }
 
+StatePages RenderJob::stateAtRest(uint32_t randomization) const {
+  return ninefold::stateAtRest(light_->renderer, settings_, randomization);
+}
+
 std::string RenderJob::describe(const FrameKey& frame, const msg::TaskItem& item) const {
   const int set =
       lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, settings_.interleave.sets());
   const TracedScene& scene = *light_->scene;
-  return fmt::format("frame {}, tile {}, set {} (again{}: {})", frame.frame, item.tile, set,
-                     scene.scene == scene.asFetched ? "" : ", but for edits of the scene",
+  std::string what = scene.scene == scene.asFetched ? "" : ", but for edits of the scene";
+  if (frame.state != 0) what += ", with the method's state as at rest";
+  return fmt::format("frame {}, tile {}, set {} (again{}: {})", frame.frame, item.tile, set, what,
                      replayLine(*scene.scene, settings_, frame, static_cast<int>(item.tile),
                                 static_cast<int>(item.phase)) +
                          (delivery_.wholeTiles() ? " --filter-at clients" : ""));

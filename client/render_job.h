@@ -81,6 +81,8 @@ class RenderJob {
   // One unit of a step. `state`: pages of version step.from.
   msg::Stepped step(const StepKey& step, uint32_t unit, const StatePages& state,
                     Time (*now)()) const;
+  // The pages that light a frame at rest of this randomization (gi/whole_state.h).
+  StatePages stateAtRest(uint32_t randomization) const;
   // Names a task for people, with the command that does it again.
   std::string describe(const FrameKey& frame, const msg::TaskItem& item) const;
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "client/state_store.h"
 #include "proto/messages.h"
 
 namespace ninefold {
@@ -23,6 +24,7 @@ struct RecordedTask {
   msg::Configure job;
   msg::Tasks order;  // of which it was one
   msg::TaskItem item;
+  StatePages state;                   // of the method, that lit the frame
   std::optional<msg::Result> result;  // none: the client did not finish it
 };
 
@@ -52,7 +54,17 @@ class RecordedRun {
   void on(const msg::SceneOffer& m, const TaskPlace&) {  // of a connection; jobs count anew
     now_.scene = m.blobs;
     now_.edits.clear(), jobs_.clear();
+    states_.clear();
   }
+  void on(const msg::StateOffer& m, const TaskPlace&) {
+    states_.offer(msg::StateOffer(m));
+    states_.requests();
+  }
+  void on(const msg::BlobChunk& m, const TaskPlace&) {
+    states_.chunk(msg::BlobChunk(m));
+    states_.requests();
+  }
+  void on(const msg::StateDelta& m, const TaskPlace&) { states_.add(msg::StateDelta(m)); }
   void on(const msg::Edit& m, const TaskPlace&) { now_.edits.push_back(m); }
   void on(const msg::Configure& m, const TaskPlace&) {
     jobs_[m.jobVersion] = {m, now_.edits.size()};
@@ -67,6 +79,9 @@ class RecordedRun {
       found_ = now_;
       found_->job = job->second.configure, found_->edits.resize(job->second.edits);
       found_->order = m, found_->item = item;
+      const auto state = states_.find(m.frame.state);
+      if (!state) fail("the recording lacks version {} of the method's state", m.frame.state);
+      found_->state = *state;
     }
   }
   void on(const msg::Result& m, const TaskPlace& place) {
@@ -79,6 +94,7 @@ class RecordedRun {
   const std::vector<Message>& messages_;
   RecordedTask now_;
   std::map<uint32_t, Job> jobs_;
+  StateStore states_;
   std::optional<TaskPlace> first_;
   std::optional<RecordedTask> found_;
 };

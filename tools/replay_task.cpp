@@ -129,6 +129,7 @@ struct TaskAgain {
   msg::TaskItem item;
   float neighbourWeight = 1;
   std::optional<msg::Result> recorded = {};
+  std::optional<StatePages> state = {};  // of the method; none: as at rest
 };
 
 void warnOfAnotherClass(const msg::Hello& client, Isa isa) {
@@ -162,7 +163,7 @@ TaskAgain fromRecording(const CommandLine& line, const TaskPlace& place) {
     scene = TracedScene::after(scene, all, edit.moving);
   }
   return {scene,      found.job.settings,          found.job.delivery, found.order.frame,
-          found.item, found.order.neighbourWeight, found.result};
+          found.item, found.order.neighbourWeight, found.result,       found.state};
 }
 
 // Of a headless run: its plan's, unless it is given whole.
@@ -202,6 +203,8 @@ TaskAgain fromFlags(const CommandLine& line, const TaskPlace& place) {
   const float weight = plan.neighbourWeight(place.frame);
   const Scene scene = readScene(options.scene, options.clip);
   if (line.lightCameras) frame.lightCameras = camerasOf(scene, *line.lightCameras);
+  // Any version but 0, which has no pages.
+  if (factsOf(job.settings.method).state != nullptr) frame.state = frame.randomization + 1;
   return {traced(packScene(scene), isaNamed(options.isa)), job.settings, job.delivery, frame,
           {place.tile, place.phase, job.shape.extraMask},  weight};
 }
@@ -236,8 +239,10 @@ std::string describe(const msg::Result& result) {
 void replay(const TaskAgain& task) {
   const TileShape shape = shapeOf(task);
   RenderJob job(task.scene, 1, task.settings, task.delivery, 1);
-  const msg::Result result = job.run(task.frame, task.item, task.neighbourWeight, WireLevel::kLight,
-                                     0, [] { return Clock::now(); })
+  const StatePages state = task.state ? *task.state : job.stateAtRest(task.frame.randomization);
+  const msg::Result result = job.run(
+                                    task.frame, task.item, task.neighbourWeight, WireLevel::kLight,
+                                    0, [] { return Clock::now(); }, state)
                                  .result;
   const std::string hash = TileHash::of(result.encoded, shape);
   writeOutput(fmt::format("frame {}, tile {}, phase {}: {}x{} pixels, {}\nhash {}\n{}",

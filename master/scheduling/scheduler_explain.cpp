@@ -53,8 +53,9 @@ std::vector<std::string> Scheduler::explainFrames(Time now) const {
   std::vector<std::string> lines;
   for (const auto& [number, frame] : frames_) {
     const int done = countTasks(frame, TaskState::done);
-    lines.push_back(fmt::format("frame {}: {} of {} tasks are done, {} are at clients, {} wait",
-                                number, done, done + frame.left(), frame.left() - frame.waiting(),
+    lines.push_back(fmt::format("{} {}: {} of {} tasks are done, {} are at clients, {} wait",
+                                frame.isStep() ? "step" : "frame", number, done,
+                                done + frame.left(), frame.left() - frame.waiting(),
                                 frame.waiting()));
     const int task = longestUnderWay(frame);
     if (task >= 0) lines.push_back(explain(frame.idOf(task), now));

@@ -32,9 +32,11 @@ std::vector<ClientReport> Scheduler::report(Time now) const {
 }
 
 std::string Scheduler::explain(const TaskId& task, Time now) const {
-  const std::string name =
-      fmt::format("tile {} phase {} of frame {}", task.tile, task.phase, task.frame);
   const SchedulerFrame* frame = findFrame(task.frame);
+  const std::string name =
+      frame != nullptr && frame->isStep()
+          ? fmt::format("unit {} of step {}", task.tile, task.frame)
+          : fmt::format("tile {} phase {} of frame {}", task.tile, task.phase, task.frame);
   if (frame != nullptr) {
     const int index = frame->indexOf(task);
     return name + ": " + (index < 0 ? "no such task" : explainOpen(*frame, index, now));
