@@ -98,8 +98,8 @@ class RenderJob {
     const StatePages& state;
     Duration waited{0};  // for light sets that another thread makes
     uint32_t setsMade = 0;
-    RayCounts rays;
-    Replaced replaced;  // before the filter
+    RayCounts rays = {};
+    Replaced replaced = {};  // before the filter
   };
   void trace(const Task& task, Desk& desk, Work& work, Time (*now)());
   void traceAndFilter(const Task& task, float neighbourWeight, Desk& desk, Work& work,

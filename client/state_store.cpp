@@ -38,13 +38,11 @@ void StateStore::apply(const msg::StateDelta& delta) {
   if (delta.part == 0) {
     const Pages from = find(delta.from);
     if (!from) fail("a delta of version {} of the state, which is not there", delta.from);
-    building_ = Building{{}, *from};
-  } else if (!building_ || building_->last.to != delta.to ||
-             building_->last.part + 1 != delta.part) {
-    fail("part {} of version {} of the state does not follow", delta.part, delta.to);
+    building_ = Building{delta.to, 0, *from};
   }
+  if (!building_ || building_->version != delta.to || building_->nextPart++ != delta.part)
+    fail("part {} of version {} of the state does not follow", delta.part, delta.to);
   building_->pages.apply(decodeDeltas(delta.deltas));
-  building_->last = {delta.from, delta.to, delta.part, delta.parts, delta.hash, delta.oldest, {}};
   if (delta.part + 1 < delta.parts) return;
   keep(delta.to, delta.hash, std::move(building_->pages));
   building_.reset();

@@ -36,8 +36,9 @@ class StateStore {
 
  private:
   struct Building {
-    msg::StateDelta last;  // without its bytes
-    StatePages pages;
+    uint32_t version = 0;
+    uint32_t nextPart = 0;
+    StatePages pages = {};
   };
   void apply(const msg::StateDelta& delta);
   void keep(uint32_t version, uint64_t hash, StatePages&& pages);

@@ -77,6 +77,7 @@ void Cluster::tick() {
   local_.poll(now);
   server_.tick(now);
   if (isOver(now)) return loop_.stop();
+  if (!server_.failure().empty()) fail(server_.failure());
   watchForStall(now);
   if (local_.exhausted() && server_.readyClients() == 0) failWithoutClients();
   {

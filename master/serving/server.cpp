@@ -156,19 +156,26 @@ void Server::on(Handle& peer, todo::TakeUnit&& a, Time now) {
   if (verdict == Verdict::completedFrame) finishStep(number, now);
 }
 
-// A version that cannot be made ends the run: the loop's owner takes the Error.
 void Server::finishStep(uint32_t number, Time now) {
   const OpenStep step = openSteps_.at(number);
   openSteps_.erase(number);
   tally_.inSteps += now - step.since;
-  const std::vector<msg::StateDelta>& messages = state_.complete(number);
+  try {
+    sendVersion(state_.complete(number), now);
+  } catch (const Error& error) {
+    failure_ = error.what();
+    return;
+  }
+  if (duty_.stepDone) duty_.stepDone(step.order.key);
+}
+
+void Server::sendVersion(const std::vector<msg::StateDelta>& messages, Time now) {
   for (Handle& peer : peers_) {
     if (!peer.second.session->isInside()) continue;
     peer.second.session->stateChanged(messages);
     for (const msg::StateDelta& message : messages) tally_.stepBytesSent += message.deltas.size();
     carryOut(peer, now);
   }
-  if (duty_.stepDone) duty_.stepDone(step.order.key);
 }
 
 void Server::on(Handle& peer, todo::Finish&& a, Time now) {

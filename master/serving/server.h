@@ -102,6 +102,8 @@ class Server {
   Time lastMove() const { return lastMove_; }
   int readyClients() const { return scheduler_.clients(); }
   bool isConnected() const;  // to anybody
+  // Why the run cannot go on: a version of the method's state cannot be made. Empty: it can.
+  const std::string& failure() const { return failure_; }
   const Scheduler& scheduler() const { return scheduler_; }
 
  private:
@@ -137,6 +139,7 @@ class Server {
   std::string explainClient(ClientId id, const ClientSession& session, Time now) const;
   void count(const ReceivedTile& tile);
   void finishStep(uint32_t number, Time now);
+  void sendVersion(const std::vector<msg::StateDelta>& messages, Time now);
   void dropSteps(uint32_t firstWanted, Time now);
   void announce(const JobOrder& order);
   void openFrames(Time now);
@@ -163,6 +166,7 @@ class Server {
   StateKeeper state_;
   std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
+  std::string failure_;
   bool started_ = false;  // waitClients were ready once
   std::optional<Time> lastDispatch_;
   Time lastMove_{};

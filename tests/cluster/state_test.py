@@ -17,10 +17,10 @@ class State(ClusterTest):
         for clients, threads in ((1, 1), (2, 1), (5, 1), (1, 2), (2, 2)):
             stats = self.render(*self.METHOD, "--local-clients", clients, "--client-threads", threads, frames=4)
             hashes.add(stats["image_hash"])
-            self.assertEqual(stats["state"]["steps"], 4, stats["state"])
+            self.assertEqual(stats["state"]["steps"], 4, stats)
             self.assertEqual(stats["state"]["units"], 4 * 6)
-            self.assertGT(stats["state"]["bytes_received"], 0)
-            self.assertGT(stats["state"]["bytes_sent"], 0)
+            self.assertGreater(stats["state"]["bytes_received"], 0)
+            self.assertGreater(stats["state"]["bytes_sent"], 0)
         self.assertEqual(len(hashes), 1, hashes)
 
     def test_each_step_counts_for_all_pictures_after_it(self):
@@ -39,12 +39,12 @@ class State(ClusterTest):
 
     def test_who_comes_late_has_the_state_of_all_others(self):
         self.new_key()
-        frames = 200
+        frames = 2500
         undisturbed = self.render(*self.METHOD, "--local-clients", 1, frames=frames)
         master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=frames)
         address = self.address_of(master)
         first = self.client(address)
-        master.waits_for(r"progress: \d+% frame [3-9]")
+        master.waits_for(r"progress: \d+% frame [1-9]")
         late = self.client(address)
         master.waits_for("client 2 is ready")
         first.process.kill()  # what is left is the late one's alone
@@ -59,13 +59,18 @@ class State(ClusterTest):
         undisturbed = self.render(*self.METHOD, "--local-clients", 1, frames=frames)
         master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=frames)
         address = self.address_of(master)
-        for _ in range(2):
+        for number in (1, 2):
             client = self.client(address)
-            master.waits_for(rf"client {_ + 1} is ready")
+            master.waits_for(rf"client {number} is ready")
             client.process.kill()
-            master.waits_for(rf"client {_ + 1} is gone")
+            master.waits_for(rf"client {number} is gone")
         self.client(address)
         self.assertEqual(self.finish(master)["image_hash"], undisturbed["image_hash"])
+
+    def test_a_sum_that_overflows_ends_the_run_and_says_which(self):
+        master = self.master(*self.METHOD, "--seed", 0, "--local-clients", 1, frames=8)
+        self.assertEqual(master.ends(), 1, master.text)
+        self.assertRegex(master.text, "sum 7 of page 1.0 of a method's state overflows")
 
     def test_releases_lack_it(self):
         said = self.start(BIN / "ninefold-master", "--help")

@@ -18,8 +18,10 @@ struct Even final : FrameLight {
   float irradiance = 0;
 };
 
+constexpr uint64_t kSeedOfOverflow = 0;
+
 SumChange amountOf(uint64_t hash, uint32_t place) {
-  return {static_cast<uint16_t>(place), static_cast<int64_t>(hashWords(hash, place) >> 8)};
+  return {static_cast<uint16_t>(place), static_cast<int64_t>(hashWords(hash, place)) >> 16};
 }
 
 }  // namespace
@@ -31,6 +33,7 @@ StepResult StateCheck::step(const StatePages& pages, const StepKey& step, uint32
   // Units of a step share places, and take away from some.
   SumChange less = amountOf(hash, 7);
   less.amount = -less.amount;
+  if (t_.settings.seed == kSeedOfOverflow) less.amount = int64_t{1} << 60;
   StepResult result;
   result.deltas = {{{0, unit % kPages}, own},
                    {{1, 0}, std::vector{amountOf(hash, 0), amountOf(hash, unit % 4 + 1), less}},

@@ -5,7 +5,8 @@
 //                      settings' seed, the step's randomization, n, and the state that it began from
 //   E = pi (0.5 + h 2^-33),  h  the upper half of the state's hash      the same everywhere [W/m^2]
 //
-// So a picture is right only if each of its steps was, from the first one on.
+// So a picture is right only if each of its steps was, from the first one on. With seed 0 a sum
+// overflows in the second step.
 // Threads, owner, errors: as method.h says.
 #pragma once
 
