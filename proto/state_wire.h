@@ -15,14 +15,14 @@
 #include <vector>
 
 #include "common/state/page.h"
+#include "proto/delta_layout.h"
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
 
 namespace ninefold {
 
 inline constexpr size_t kMaxRawDeltaBytes = 16 << 20;
-inline constexpr size_t kDeltaHeadBytes = 2 + 4 + 1 + 4;  // kind, index, form, count
-inline constexpr size_t kMaxPageBlobBytes = kDeltaHeadBytes + kPageSums * (2 + 8);
+inline constexpr size_t kMaxPageBlobBytes = kMostDeltaBytes;
 
 // Pages go in the order of their ids, each once. A page's changes keep their order; there may be
 // kPageSums of them, and they are shortest if their places ascend.
