@@ -84,11 +84,6 @@ std::vector<SumChange> readChanges(PageId page, size_t count, ByteReader& in) {
 
 }  // namespace
 
-size_t rawBytes(const PageDelta& delta) {
-  const Head head = headOf(delta);
-  return kDeltaHeadBytes + head.count * bytesEach(head.form);
-}
-
 void writeDelta(const PageDelta& delta, Bytes& out) {
   const Head head = headOf(delta);
   checkHead(head);

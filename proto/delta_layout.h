@@ -16,8 +16,6 @@ inline constexpr size_t kDeltaHeadBytes = 2 + 4 + 1 + 4;  // kind, index, form, 
 inline constexpr size_t kChangeBytes = 2 + 8;             // place, amount
 inline constexpr size_t kMostDeltaBytes = kDeltaHeadBytes + kPageSums * kChangeBytes;
 
-size_t rawBytes(const PageDelta& delta);
-
 // Appends to `out`.
 void writeDelta(const PageDelta& delta, Bytes& out);
 PageDelta readDelta(ByteReader& in);

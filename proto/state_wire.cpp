@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
+#include <vector>
 
 #include "proto/compression.h"
 #include "proto/delta_layout.h"
@@ -15,7 +15,6 @@ namespace {
 constexpr uint8_t kVersion = 1;
 constexpr size_t kHeadBytes = 1 + 4;
 constexpr int kLevel = 3;
-constexpr size_t kPartBytes = 512 << 10;  // before compression; so that heartbeats slip in between
 
 // Of pages that follow one another, and how many there are.
 class Order {
@@ -43,19 +42,29 @@ Bytes decompressed(ByteView compressed, size_t size) {
   return raw;
 }
 
-using DeltaViews = std::vector<const PageDelta*>;
-
-DeltaViews byPage(const PageDeltas& deltas) {
-  DeltaViews views;
+std::vector<const PageDelta*> byPage(const PageDeltas& deltas) {
+  std::vector<const PageDelta*> views;
   for (const PageDelta& delta : deltas) views.push_back(&delta);
-  std::ranges::stable_sort(views, {}, [](const PageDelta* delta) { return delta->page; });
+  std::ranges::sort(views, {}, [](const PageDelta* delta) { return delta->page; });
   return views;
 }
 
-Bytes encode(std::span<const PageDelta* const> deltas) {
+// What makes the page of nothing.
+PageDelta deltaTo(PageId id, const Page& page) {
+  if (const auto* records = std::get_if<Records>(&page)) return {id, *records};
+  const Sums& sums = std::get<Sums>(page);
+  std::vector<SumChange> changes;
+  for (size_t place = 0; place < sums.size(); ++place)
+    if (sums[place] != 0) changes.push_back({static_cast<uint16_t>(place), sums[place]});
+  return {id, std::move(changes)};
+}
+
+}  // namespace
+
+Bytes encodeDeltas(const PageDeltas& deltas) {
   Bytes raw;
   Order order;
-  for (const PageDelta* delta : deltas) {
+  for (const PageDelta* delta : byPage(deltas)) {
     order.next(delta->page);
     writeDelta(*delta, raw);
     if (raw.size() > kMaxRawDeltaBytes)
@@ -74,20 +83,6 @@ Bytes encode(std::span<const PageDelta* const> deltas) {
   return out;
 }
 
-// What makes the page of nothing.
-PageDelta deltaTo(PageId id, const Page& page) {
-  if (const auto* records = std::get_if<Records>(&page)) return {id, *records};
-  const Sums& sums = std::get<Sums>(page);
-  std::vector<SumChange> changes;
-  for (size_t place = 0; place < sums.size(); ++place)
-    if (sums[place] != 0) changes.push_back({static_cast<uint16_t>(place), sums[place]});
-  return {id, std::move(changes)};
-}
-
-}  // namespace
-
-Bytes encodeDeltas(const PageDeltas& deltas) { return encode(byPage(deltas)); }
-
 PageDeltas decodeDeltas(ByteView encoded) {
   ByteReader in(encoded, "state deltas");
   if (const auto version = in.number<uint8_t>("version"); version != kVersion)
@@ -104,22 +99,6 @@ PageDeltas decodeDeltas(ByteView encoded) {
   return deltas;
 }
 
-std::vector<Bytes> encodeParts(const PageDeltas& deltas) {
-  std::vector<Bytes> parts;
-  const DeltaViews all = byPage(deltas);
-  std::span left(all);
-  do {
-    size_t count = 0;
-    for (size_t bytes = 0; count < left.size(); ++count) {
-      bytes += rawBytes(*left[count]);
-      if (count > 0 && (bytes > kPartBytes || count == kMaxStatePages)) break;
-    }
-    parts.push_back(encode(left.first(count)));
-    left = left.subspan(count);
-  } while (!left.empty());
-  return parts;
-}
-
 Blob packPage(PageId id, const Page& page) {
   Bytes raw;
   writeDelta(deltaTo(id, page), raw);
@@ -130,16 +109,13 @@ PageDelta unpackPage(const StatePage& offered, ByteView compressed) {
   if (offered.blob.rawBytes > kMaxPageBlobBytes)
     fail("state page: declares {} bytes, at most {} are allowed", offered.blob.rawBytes,
          kMaxPageBlobBytes);
-  return readPage(offered.page, unpackBlob(offered.blob, compressed));
-}
-
-PageDelta readPage(PageId offered, ByteView raw) {
+  const Bytes raw = unpackBlob(offered.blob, compressed);
   ByteReader in(raw, "state page");
   PageDelta delta = readDelta(in);
   in.expectEnd();
-  if (delta.page != offered)
+  if (delta.page != offered.page)
     fail("state page: is page {}.{}, {}.{} was offered", delta.page.kind, delta.page.index,
-         offered.kind, offered.index);
+         offered.page.kind, offered.page.index);
   return delta;
 }
 

@@ -12,8 +12,6 @@
 // Threads: pure functions.
 #pragma once
 
-#include <vector>
-
 #include "common/state/page.h"
 #include "proto/delta_layout.h"
 #include "proto/messages.h"
@@ -29,16 +27,9 @@ inline constexpr size_t kMaxPageBlobBytes = kMostDeltaBytes;
 Bytes encodeDeltas(const PageDeltas& deltas);
 PageDeltas decodeDeltas(ByteView encoded);
 
-// The same for any amount of deltas: at least one part, each small enough for a message.
-std::vector<Bytes> encodeParts(const PageDeltas& deltas);
-
 Blob packPage(PageId id, const Page& page);
 
-// What makes the page of nothing. Checks size, hash and id against what was offered. For bytes from
-// the wire and from a cache alike.
+// What makes the page of nothing. Checks size, hash and id against what was offered.
 PageDelta unpackPage(const StatePage& offered, ByteView compressed);
-
-// The same for bytes that unpackBlob has given back.
-PageDelta readPage(PageId offered, ByteView raw);
 
 }  // namespace ninefold
