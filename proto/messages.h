@@ -73,7 +73,7 @@ enum class MessageType : uint16_t {
   stepped = 18,  // C -> M  one finished unit, its page deltas as payload
   cancelSteps = 19,  // M -> C  forget queued units of older steps (no answer)
   stateDelta = 20,   // M -> C  from one version of the state to a later one, deltas as payload
-  stateOffer = 21,   // M -> C  a version's pages; what is not there is asked for -> BlobRequest*
+  stateOffer = 21,   // M -> C  a version's pages, for a client that comes late   -> BlobRequest*
 };
 
 // Who sent it. Messages that run the wrong way are malformed.

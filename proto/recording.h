@@ -4,7 +4,6 @@
 //                SceneOffer, Edit, Configure, Tasks, Steps, StateDelta and StateOffer, its
 //                BlobChunks of pages, and the client's Result for each task, Stepped for each unit
 //
-// A page that the client had cached did not come, and is not there.
 // The file is whole or as it was before (written_file.h).
 // Errors: throw Error that names the file.   Threads: a Recorder from any thread; the rest pure.
 #pragma once

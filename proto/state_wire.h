@@ -12,33 +12,24 @@
 // Threads: pure functions.
 #pragma once
 
-#include <vector>
-
 #include "common/state/page.h"
+#include "proto/delta_layout.h"
 #include "proto/messages.h"
 #include "proto/scene_blobs.h"
 
 namespace ninefold {
 
 inline constexpr size_t kMaxRawDeltaBytes = 16 << 20;
-inline constexpr size_t kDeltaHeadBytes = 2 + 4 + 1 + 4;  // kind, index, form, count
-inline constexpr size_t kMaxPageBlobBytes = kDeltaHeadBytes + kPageSums * (2 + 8);
+inline constexpr size_t kMaxPageBlobBytes = kMostDeltaBytes;
 
 // Pages go in the order of their ids, each once. A page's changes keep their order; there may be
 // kPageSums of them, and they are shortest if their places ascend.
 Bytes encodeDeltas(const PageDeltas& deltas);
 PageDeltas decodeDeltas(ByteView encoded);
 
-// The same for any amount of deltas: at least one part, each small enough for a message.
-std::vector<Bytes> encodeParts(const PageDeltas& deltas);
-
 Blob packPage(PageId id, const Page& page);
 
-// What makes the page of nothing. Checks size, hash and id against what was offered. For bytes from
-// the wire and from a cache alike.
+// What makes the page of nothing. Checks size, hash and id against what was offered.
 PageDelta unpackPage(const StatePage& offered, ByteView compressed);
-
-// The same for bytes that unpackBlob has given back.
-PageDelta readPage(PageId offered, ByteView raw);
 
 }  // namespace ninefold

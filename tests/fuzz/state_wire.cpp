@@ -34,7 +34,8 @@ void decodeInside(ByteView bytes) {
 
 void decodePage(ByteView bytes) {
   try {
-    const PageDelta delta = readPage({1, 2}, bytes);
+    const BlobInfo info{sha256(bytes), bytes.size(), BlobKind::page};
+    const PageDelta delta = unpackPage({{1, 2}, info}, compressBlob(bytes, 1));
     NINEFOLD_CHECK(decodeDeltas(encodeDeltas({delta})) == PageDeltas{delta});
     StatePages pages;
     pages.apply({delta});

@@ -324,23 +324,6 @@ TEST(Messages, OtherFieldsOutOfRangeAreNamed) {
       {"sets made", msg::Result{1, 1, 1, 1, 1, 257, 0, 0, {}, {}}},
       {"replaced in", msg::Result{1, 1, 1, 1, 1, 0, 1, kAllTileFields + 1, {}, {}}},
       {"blob kind", msg::SceneOffer{1, {{someHash(1), 1, BlobKind::page}}}},
-      {"version 3 to 3", msg::Steps{1, {0, 3, 3}, {0}}},
-      {"unit is 6", msg::Steps{1, {0, 0, 1, 7}, {7, 6}}},
-      {"allowed time", msg::Steps{1, {}, {0}, Duration(0)}},
-      {"allowed time", msg::Steps{1, {}, {0}, std::chrono::hours(1001)}},
-      {"version 3 to 3", msg::StateDelta{3, 3, 0, 1, 0, 0, {}}},
-      {"version 3 to 2", msg::StateDelta{3, 2, 0, 1, 0, 0, {}}},
-      {"part is 1", msg::StateDelta{0, 1, 1, 1, 0, 0, {}}},
-      {"number of parts", msg::StateDelta{0, 1, 0, 0, 0, 0, {}}},
-      {"number of parts", msg::StateDelta{0, 1, 0, 65537, 0, 0, {}}},
-      {"page 2.3", msg::StateOffer{1, 0, {somePage(2, 3), somePage(2, 3)}}},
-      {"page 2.3", msg::StateOffer{1, 0, {somePage(2, 4), somePage(2, 3)}}},
-      {"page 1.9", msg::StateOffer{1, 0, {somePage(2, 4), somePage(1, 9)}}},
-      {"blob kind", msg::StateOffer{1, 0, {{{}, {someHash(1), 1, BlobKind::meshes}}}}},
-      {"blob kind", msg::StateOffer{1, 0, {{{}, {someHash(1), 1, static_cast<BlobKind>(4)}}}}},
-      {"blob size", msg::StateOffer{1, 0, {{{}, {someHash(1), 0, BlobKind::page}}}}},
-      {"blob size",
-       msg::StateOffer{1, 0, {{{}, {someHash(1), kMaxPageBlobBytes + 1, BlobKind::page}}}}},
   };
   for (const auto& [field, message] : cases) {
     const std::string text = refusal(Message(message));
@@ -431,57 +414,9 @@ TEST(Messages, LargestListsFitTheirLimits) {
   EXPECT_EQ(refusal(Message(offer)), "");
   Camera longNamed = oddSettings().camera;
   longNamed.name.assign(kMaxText, 'x');
-  msg::Tasks tasks{~0u, {~0u, ~0u, ~0u, 1e30f, std::vector(kMostLightCameras, longNamed)}, {}};
+  msg::Tasks tasks{~0u, {~0u, ~0u, ~0u, 1e30f, std::vector(kMostLightCameras, longNamed), ~0u}, {}};
   tasks.items.assign(kMaxTasksPerMessage, {~0u, 255, 31});
   EXPECT_EQ(refusal(Message(tasks)), "");
-  msg::Steps steps{~0u, {~0u, 0, ~0u, ~0u, ~0u}, {}, kLongestAllowed};
-  steps.units.assign(kMaxTasksPerMessage, ~0u);
-  EXPECT_EQ(refusal(Message(steps)), "");
-  msg::StateOffer pages{~0u, ~0ull, {}};
-  for (uint32_t i = 0; i < kMaxStatePages; ++i)
-    pages.pages.push_back(somePage(65535, ~0u << 16 | i));
-  EXPECT_EQ(refusal(Message(pages)), "");
-  const Bytes deltas(kMaxDeltaBytes, std::byte{1});
-  EXPECT_EQ(refusal(msg::Stepped{1, 1, 1, 1, 1, {}, deltas}), "");
-  EXPECT_EQ(refusal(msg::StateDelta{0, 1, 65535, 65536, 1, 0, deltas}), "");
-}
-
-// What our own encoder would not write, as a hostile peer may.
-template <typename Header>
-std::string refusalOfHeader(MessageType type, const Header& header, size_t payload = 0) {
-  Frame frame{static_cast<uint16_t>(type), "", Bytes(payload, std::byte{1})};
-  header.SerializeToString(&frame.header);
-  try {
-    decodeMessage(std::move(frame), Peer::master);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
-
-TEST(Messages, ListsOfAStateThatAreTooShortOrTooLongAreNamed) {
-  pb::Steps steps;
-  steps.mutable_step()->set_to(1), steps.set_allowed_ns(1);
-  const auto says = [](const std::string& text, const char* part) {
-    return text.find(part) != std::string::npos ? "" : "says: " + text;
-  };
-  EXPECT_EQ(says(refusalOfHeader(MessageType::steps, steps), "number of units is 0"), "");
-  for (size_t i = 0; i <= kMaxTasksPerMessage; ++i) steps.add_unit(0);
-  EXPECT_EQ(says(refusalOfHeader(MessageType::steps, steps), "number of units is 4097"), "");
-
-  pb::StateOffer offer;
-  for (uint32_t i = 0; i <= kMaxStatePages; ++i) offer.add_pages()->set_index(i);
-  EXPECT_EQ(says(refusalOfHeader(MessageType::stateOffer, offer), "number of pages is 65537"), "");
-  offer.clear_pages(), offer.add_pages();
-  EXPECT_EQ(says(refusalOfHeader(MessageType::stateOffer, offer), "hash has 0 bytes"), "");
-  offer.mutable_pages(0)->set_kind(65536);
-  EXPECT_EQ(says(refusalOfHeader(MessageType::stateOffer, offer), "page kind is 65536"), "");
-
-  pb::StateDelta delta;
-  delta.set_to(1), delta.set_parts(1);
-  EXPECT_EQ(refusalOfHeader(MessageType::stateDelta, delta, kMaxDeltaBytes), "");
-  EXPECT_EQ(says(refusalOfHeader(MessageType::stateDelta, delta, kMaxDeltaBytes + 1), "too long"),
-            "");
 }
 
 }  // namespace
