@@ -6,6 +6,11 @@
 #include "proto/state_wire.h"
 
 namespace ninefold {
+namespace {
+
+constexpr size_t kWaiting = 65536;  // messages, while pages are fetched
+
+}  // namespace
 
 void StateStore::offer(msg::StateOffer&& offer) {
   clear();
@@ -28,10 +33,9 @@ void StateStore::chunk(msg::BlobChunk&& chunk) {
 }
 
 void StateStore::add(msg::StateDelta&& delta) {
-  if (isWhole())
-    apply(delta);
-  else
-    waiting_.push_back(std::move(delta));
+  if (isWhole()) return apply(delta);
+  if (waiting_.size() == kWaiting) fail("more deltas of the state than can wait for its pages");
+  waiting_.push_back(std::move(delta));
 }
 
 void StateStore::apply(const msg::StateDelta& delta) {

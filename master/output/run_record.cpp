@@ -16,15 +16,15 @@ std::vector<ClientStats> clientStats(const Server& server, Time end) {
   return all;
 }
 
-StepStats stepStats(const ServerTally& tally) {
+}  // namespace
+
+StepStats stepStatsOf(const ServerTally& tally) {
   StepStats stats;
   stats.steps = tally.tasks.completedSteps, stats.units = tally.tasks.completedUnits;
   if (stats.steps > 0) stats.ms = inMs(tally.inSteps) / static_cast<double>(stats.steps);
   stats.bytesReceived = tally.stepBytesReceived, stats.bytesSent = tally.stepBytesSent;
   return stats;
 }
-
-}  // namespace
 
 void RunRecord::frameDone(const Assembly::Complete& frame, Duration cpu) {
   frames_.push_back(frame);
@@ -42,7 +42,7 @@ RunStats RunRecord::stats(const Server& server, const Assembly::Busy& busy, int 
   stats.tasksReissued = tally.tasks.reissued;
   stats.clientsStuck = tally.tasks.clientsStuck;
   stats.valuesNotFinite = tally.replaced;
-  stats.steps = stepStats(tally);
+  stats.steps = stepStatsOf(tally);
   stats.reproducible = tally.reproducible;
   stats.clients = clientStats(server, frames_.empty() ? Clock::now() : frames_.back().finished);
   if (frames_.empty() || !tally.firstDispatch) return stats;

@@ -9,6 +9,8 @@
 
 namespace ninefold {
 
+StepStats stepStatsOf(const ServerTally& tally);
+
 class RunRecord {
  public:
   // `cpu`: what the process has used so far.

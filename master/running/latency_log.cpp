@@ -32,7 +32,8 @@ nlohmann::ordered_json summary(const std::vector<double>& values) {
 
 void LatencyLog::add(const Shown& shown) {
   const LiveFrame& frame = shown.frame;
-  entries_.push_back({frame.order.key.frame, seconds(shown.completed - start_),
+  entries_.push_back({frame.order.key.frame, frame.order.key.state,
+                      seconds(shown.completed - start_),
                       frame.moving ? seconds(shown.completed - frame.changed) : -1,
                       seconds(shown.completed - frame.opened), frame.moving,
                       frame.order.delivery.form, shown.image->width, shown.image->height,
@@ -47,6 +48,7 @@ std::string LatencyLog::json(const std::string& scene, const ServerTally& tally)
     nlohmann::ordered_json frame{
         {"frame", e.frame}, {"time", e.time},     {"moving", e.moving}, {"form", nameOf(e.form)},
         {"width", e.width}, {"height", e.height}, {"light", e.light},   {"took_ms", 1e3 * e.took}};
+    if (e.state != 0) frame["state"] = e.state;
     if (e.moving) frame["latency_ms"] = 1e3 * e.latency;
     frames.push_back(std::move(frame));
   }

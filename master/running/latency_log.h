@@ -17,7 +17,7 @@ class LatencyLog {
 
  private:
   struct Entry {
-    uint32_t frame;
+    uint32_t frame, state;
     double time, latency;  // [s]; latency < 0: the frame shows no change
     double took;           // from opening to the last tile [s]
     bool moving;

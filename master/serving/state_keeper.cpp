@@ -30,6 +30,8 @@ void StateKeeper::take(msg::Stepped&& result) {
         "here",
         result.unit, result.number, step.key.from, result.stateHash, hash);
   PageDeltas deltas = decodeDeltas(result.deltas);
+  StatePages alone = pagesOf(step.key.from);
+  alone.apply(deltas);  // what cannot be by itself is this client's fault
   step.results[result.unit] = {std::move(deltas), std::move(result.deltas)};
 }
 
@@ -39,6 +41,9 @@ const std::vector<msg::StateDelta>& StateKeeper::complete(uint32_t number) {
   NINEFOLD_CHECK(std::ssize(step.results) == step.units);
   Version version{pagesOf(step.key.from), {}};
   for (auto& [unit, result] : step.results) version.pages.apply(result.first);
+  if (version.pages.all().size() > kMaxStatePages)
+    fail("a method's state has {} pages; it may have {}", version.pages.all().size(),
+         kMaxStatePages);
   const auto parts = static_cast<uint32_t>(step.results.size());
   for (auto& [unit, result] : step.results) {
     const auto part = static_cast<uint32_t>(version.messages.size());

@@ -10,8 +10,9 @@
 //
 // Proved:  tests/master/state_keeper_test.cpp.
 // Threads: plain value, one owner.
-// Errors:  take throws Error for a result that is malformed or was made of another state, complete
-//          if the state cannot take the deltas (a sum overflows).
+// Errors:  take throws Error for a result that is malformed, was made of another state, or that the
+//          state cannot take; complete if it cannot take all of them together (a sum overflows).
+// Memory:  a state has at most kMaxStatePages pages.
 #pragma once
 
 #include <map>

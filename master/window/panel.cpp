@@ -41,6 +41,9 @@ void drawNumbers(const PanelView& view) {
     line(shown.frames < 2
              ? fmt::format("{} frame", shown.frames)
              : fmt::format("{} frames   error {:.2f} %", shown.frames, 100 * shown.relativeError));
+  if (const StepStats& s = view.steps; s.steps > 0)
+    line(fmt::format("state: {} steps of {:.1f} ms, {:.1f} kB each", s.steps, s.ms,
+                     1e-3 * static_cast<double>(s.bytesReceived) / static_cast<double>(s.steps)));
   line(fmt::format("flying {:.2f} m/s", view.speed));
   const auto stuck = std::ranges::count_if(view.clients, &ClientInfo::isStuck);
   if (stuck > 0) line(fmt::format("{} client(s) stuck: see Clients", stuck));

@@ -10,6 +10,7 @@
 
 #include "common/scene/edit.h"
 #include "master/interaction/window_layout.h"
+#include "master/output/stats.h"
 #include "master/running/live_run.h"
 
 namespace ninefold {
@@ -28,6 +29,7 @@ struct PanelView {
   std::vector<float> frameTimes;  // the latest, oldest first [ms]
   double raysPerSecond = 0, tasksPerSecond = 0;
   std::string state;  // "loading the scene ...", "2 ready"
+  StepStats steps;    // of the method's state
   std::vector<ClientInfo> clients;
   std::vector<std::string> needs;
   Settings settings;

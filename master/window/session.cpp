@@ -7,6 +7,7 @@
 #include "common/image/auto_exposure.h"
 #include "common/scene/camera_choice.h"
 #include "master/output/output_files.h"
+#include "master/output/run_record.h"
 #include "master/output/stats.h"
 #include "master/running/cluster_setup.h"
 #include "master/running/headless.h"
@@ -234,6 +235,7 @@ PanelView WindowSession::panelView() const {
   editor_->tell(view);
   view.state = live_->cluster().summary();
   view.clients = live_->cluster().clients();
+  view.steps = stepStatsOf(live_->cluster().tally());
   view.needs = describe(live_->needs());
   view.settings = live_->settings();
   view.view = view_;

@@ -1,0 +1,144 @@
+// What a session opens whose method has a state: steps of six units at rest, of two in motion
+// (state check), and frames that wait for them.
+#include <gtest/gtest.h>
+
+#include "master/running/live_plan.h"
+
+namespace ninefold {
+namespace {
+
+class LivePlanState : public testing::Test {
+ protected:
+  static LivePlan::Setup setup() {
+    LivePlan::Setup s;
+    s.state.settings.method = Method::stateCheck;
+    s.state.settings.width = 64, s.state.settings.height = 48;
+    s.sceneRadius = 5;
+    return s;
+  }
+  void pass(Duration time) { now += time; }
+  std::optional<uint32_t> edit() {
+    LiveState state = plan.state();
+    ++state.scene;
+    return plan.change(state, now);
+  }
+  StepOrder step() {
+    const auto step = plan.nextStep(now);
+    EXPECT_TRUE(step);
+    return step.value_or(StepOrder{});
+  }
+  LiveFrame frame() {
+    const auto frame = plan.next(now);
+    EXPECT_TRUE(frame);
+    return frame.value_or(LiveFrame{});
+  }
+  void finish(const LiveFrame& frame) { EXPECT_TRUE(plan.completed(frame.order.key.frame, now)); }
+  // A picture at rest is there, and nothing is under way.
+  uint32_t rest() {
+    const StepOrder made = step();
+    plan.stepDone(made.key);
+    const StepOrder next = step();
+    finish(frame());
+    plan.stepDone(next.key);
+    return next.key.to;
+  }
+
+  Time now = Time(std::chrono::hours(1));
+  LivePlan plan{setup(), now};
+};
+
+TEST_F(LivePlanState, AFrameIsOpenedWhenItsStateIsThere) {
+  EXPECT_FALSE(plan.next(now));
+  const StepOrder first = step();
+  EXPECT_EQ(first.units, 6);
+  EXPECT_FALSE(plan.next(now));
+  plan.stepDone(first.key);
+  const StepOrder second = step();
+  const LiveFrame lit = frame();
+  EXPECT_EQ(lit.order.key.state, first.key.to);
+  EXPECT_GT(lit.order.key.frame, second.key.number) << "one count of numbers";
+  EXPECT_EQ(lit.order.job, second.job);
+  EXPECT_EQ(lit.rested, 0);
+}
+
+TEST_F(LivePlanState, AnEditIsShownByTheLatestStateWhileASmallStepFollowsIt) {
+  const uint32_t latest = rest();
+  ASSERT_TRUE(edit());
+  const LiveFrame lit = frame();
+  EXPECT_TRUE(lit.moving);
+  EXPECT_EQ(lit.order.key.state, latest);
+  const StepOrder small = step();
+  EXPECT_EQ(small.units, 2);
+  EXPECT_EQ(small.key.from, latest);
+  EXPECT_EQ(small.scene, lit.order.scene) << "of the scene as it is now";
+  EXPECT_EQ(small.key.randomization, 0u);
+  finish(lit);
+  plan.stepDone(small.key);
+  edit();
+  EXPECT_EQ(frame().order.key.state, small.key.to);
+}
+
+TEST_F(LivePlanState, ACameraAloneNeedsNoStep) {
+  const uint32_t latest = rest();
+  LiveState state = plan.state();
+  state.settings.camera.eye.x += 1;
+  ASSERT_TRUE(plan.change(state, now));
+  EXPECT_FALSE(plan.nextStep(now));
+  EXPECT_EQ(frame().order.key.state, latest);
+}
+
+TEST_F(LivePlanState, APictureThatComesToRestHasAStateOfItsScene) {
+  rest();
+  ASSERT_TRUE(edit());
+  const LiveFrame last = frame();
+  const StepOrder small = step();
+  finish(last);
+  pass(LivePlan::kSettle);
+  EXPECT_FALSE(plan.next(now)) << "it rests, and its state is not there";
+  EXPECT_FALSE(plan.isMoving());
+  EXPECT_FALSE(plan.nextStep(now)) << "the small step is under way";
+  plan.stepDone(small.key);
+  const StepOrder all = step();
+  EXPECT_EQ(all.units, 6);
+  EXPECT_FALSE(plan.next(now));
+  plan.stepDone(all.key);
+  const LiveFrame first = frame();
+  EXPECT_FALSE(first.moving);
+  EXPECT_EQ(first.rested, 0);
+  EXPECT_EQ(first.order.key.state, all.key.to);
+}
+
+TEST_F(LivePlanState, OtherSettingsOfTheMethodVoidOpenSteps) {
+  step();
+  LiveState state = plan.state();
+  state.settings.seed += 1;
+  plan.change(state, now);
+  const auto voided = plan.takeVoidSteps();
+  ASSERT_TRUE(voided);
+  EXPECT_FALSE(plan.takeVoidSteps());
+  const StepOrder fresh = step();
+  EXPECT_GE(fresh.key.number, *voided);
+  EXPECT_EQ(fresh.key.from, 0u);
+}
+
+TEST_F(LivePlanState, AMethodWithoutAStateHasNone) {
+  const StepOrder open = step();
+  LiveState state = plan.state();
+  state.settings.method = Method::instantRadiosity;
+  plan.change(state, now);
+  EXPECT_TRUE(plan.takeVoidSteps());
+  plan.stepDone(open.key);
+  EXPECT_FALSE(plan.nextStep(now));
+  EXPECT_EQ(frame().order.key.state, 0u);
+}
+
+TEST_F(LivePlanState, FramesThatCannotBeRenderedTakeTheirStepsWithThem) {
+  step();
+  plan.giveUp();
+  const StepOrder again = step();
+  plan.stepDone(again.key);
+  EXPECT_EQ(frame().order.key.state, again.key.to);
+}
+
+}  // namespace
+}  // namespace ninefold
