@@ -31,8 +31,8 @@ std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
   open_ = stepOf(number, moving);
   ++versions_;
   mayStep_ = false;
-  nextUnit_ += static_cast<uint32_t>(open_->step.units);
-  turns_ += open_->makesAll;
+  if (!moving) ++index_;
+  nextUnit_ = open_->step.key.firstUnit + static_cast<uint32_t>(open_->step.units);
   return open_->step;
 }
 
@@ -43,8 +43,8 @@ StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving) const {
   StepKey key;
   key.number = number;
   key.from = makesAll && facts_->beginsAnew ? 0 : latest_, key.to = versions_ + 1;
-  key.firstUnit = nextUnit_;
-  key.randomization = moving ? 0 : turns_;
+  key.firstUnit = moving ? nextUnit_ : index_ * units;
+  key.randomization = moving ? 0 : index_;
   return {{key, static_cast<int>(units)}, makesAll, series_, scene_};
 }
 

@@ -1,9 +1,9 @@
 // state_plan.h: which steps the state of a method takes, and which version of it lights a frame.
 // Pure. Methods without a state have no steps, and version 0 lights their frames.
 //
-//   rest    Each frame has a state of its own: a step makes all of it of nothing, with a
-//           randomization of its own, so that frames are independent. Step i + 1 begins when step i is done: beside
-//           the frame that i lights.
+//   rest    Each frame has a state of its own. Step i of a series of frames makes all of it, with
+//           randomization i, so that frames are independent. Step i + 1 begins when step i is done:
+//           beside the frame that i lights.
 //   motion  The latest version lights a frame. After a change of the scene a small step runs beside
 //           each frame, until all of the state has been made anew: the picture lags by as many
 //           frames.
@@ -30,9 +30,9 @@ class StatePlan {
   // Other settings, or another scene. True if the open step is void.
   bool change(const Settings& settings, bool sceneChanged);
   // Frames at rest begin anew: what was made for those before lights none of them.
-  void restart() { ready_.clear(), ++series_; }
-  // The open step cannot be done any more.
-  void giveUp() { open_.reset(); }
+  void restart() { ready_.clear(), ++series_, index_ = 0; }
+  // The open step cannot be done any more, and frames at rest begin anew.
+  void giveUp() { open_.reset(), restart(); }
 
   struct Step {
     StepKey key;

@@ -1,10 +1,11 @@
 """A method's state in a cluster of real programs. The method state-check shows which state lit a frame, to the bit:
 each step depends on all before it (common/gi/state_check). Builds for tests have it.
 """
+import json
 import re
 import unittest
 
-from programs import BIN, ClusterTest, signal
+from programs import BIN, SCENES, ClusterTest, signal
 
 
 class State(ClusterTest):
@@ -66,6 +67,28 @@ class State(ClusterTest):
             master.waits_for(rf"client {number} is gone")
         self.client(address)
         self.assertEqual(self.finish(master)["image_hash"], undisturbed["image_hash"])
+
+    def test_edits_of_a_script_meet_the_same_state_whoever_dies_and_joins(self):
+        (self.folder / "s.json").write_text(json.dumps({"seconds": 4, "rate": 10, "frames": 2, "events": [
+            {"from": 0, "to": 4, "object": "glass sphere", "by": [0.3, 0, 0.1]}]}))
+        options = (SCENES / "table_room.glb", "--size", self.SIZE, *self.METHOD, "--script", "s.json")
+        calm = self.start(BIN / "ninefold-master", *options, "--local-clients", 2, "--output", "calm.##.png")
+        self.assertEqual(calm.ends(), 0, calm.text)
+        self.new_key()
+        wild = self.start(BIN / "ninefold-master", *options, "--local-clients", 0, "--key-file", "cluster.key",
+                          "--output", "wild.##.png")
+        address = self.address_of(wild)
+        before = self.client(address)
+        for number, picture in enumerate((3, 12, 21), 2):  # somebody is always there: each step counts once
+            wild.waits_for(f"picture {picture} of 41")
+            after = self.client(address)
+            wild.waits_for(f"client {number} is ready")
+            self.send(before.process.pid, signal.SIGKILL)
+            before = after
+        self.assertEqual(wild.ends(), 0, wild.text)
+        pictures = [[p.read_bytes() for p in sorted(self.folder.glob(f"{kind}.*.png"))] for kind in ("calm", "wild")]
+        self.assertEqual(len(set(pictures[0])), 41)
+        self.assertEqual([i for i in range(41) if pictures[0][i] != pictures[1][i]], [])
 
     def test_a_sum_that_overflows_ends_the_run_and_says_which(self):
         master = self.master(*self.METHOD, "--seed", 0, "--local-clients", 1, frames=8)
