@@ -59,8 +59,8 @@ class StatePlan {
   uint32_t latest_ = 0;    // version; 0: none that is right
   uint32_t versions_ = 0;  // that steps were opened for
   uint32_t nextUnit_ = 0;
-  uint32_t turns_ = 0;          // steps that made all of it
   uint32_t series_ = 0;         // of frames at rest
+  uint32_t index_ = 0;          // of the series' next step
   uint32_t scene_ = 0;          // counts changes
   uint32_t stale_ = 0;          // units that show an older scene
   bool mayStep_ = true;         // a frame in motion was opened since the last step
