@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "proto/scene_blobs.h"
+#include "proto/state_wire.h"
 
 namespace ninefold {
 namespace {
@@ -70,6 +71,33 @@ TEST_F(ClientSessionTest, WelcomesAndOffersSceneAndSettings) {
   ASSERT_EQ(scene.size(), 1u);
   EXPECT_EQ(scene[0].blobs.size(), blobs.size());
   EXPECT_EQ(sent<msg::Configure>(actions).size(), 1u);
+}
+
+TEST_F(ClientSessionTest, OffersTheOldestStateThatIsNamedAndWhatCameSince) {
+  uint64_t hash = 0;
+  for (uint32_t version = 1; version <= 3; ++version) {
+    state.open({.number = version, .from = version - 1, .to = version}, 1);
+    msg::Stepped unit;
+    unit.number = version, unit.stateHash = hash;
+    unit.deltas = encodeDeltas({{{0, version}, Records(10, std::byte{1})}});
+    state.take(std::move(unit));
+    hash = state.complete(version).back().hash;
+  }
+  state.forget(2);
+  ClientSession s = session();
+  s.received(hello(), now);
+  auto actions = s.takeActions();
+  const auto offer = sent<msg::StateOffer>(actions);
+  ASSERT_EQ(offer.size(), 1u);
+  EXPECT_EQ(offer[0].version, 2u);
+  ASSERT_EQ(offer[0].pages.size(), 2u);
+  const auto since = sent<msg::StateDelta>(actions);
+  ASSERT_EQ(since.size(), 1u);
+  EXPECT_EQ(since[0].to, 3u);
+  const auto last = take<todo::Send>(actions).back();
+  EXPECT_TRUE(std::holds_alternative<msg::Configure>(last.message)) << "work may follow it";
+  s.received(msg::BlobRequest{offer[0].pages[1].blob.hash, 0}, now);
+  EXPECT_EQ(sent<msg::BlobChunk>(s.takeActions()).size(), 1u);
 }
 
 TEST_F(ClientSessionTest, SendsBlobsPieceByPiece) {
