@@ -94,7 +94,7 @@ TEST_F(SessionState, LeavesAMasterThatAsksForUnitsOfAStateThatIsNotThere) {
 }
 
 TEST_F(SessionState, LeavesAMasterWhosePageIsAnotherThanItOffered) {
-  page.info.hash[5] ^= std::byte{1};
+  page.info.hash[5] ^= 1;
   join(), fetch();
   EXPECT_TRUE(h.sent<msg::Ready>().empty());
   EXPECT_EQ(h.take<act::Disconnect>().size(), 1u);
