@@ -2,6 +2,7 @@
 
 #include "common/base/error.h"
 #include "common/gi/bidirectional/bidirectional.h"
+#include "common/gi/photon_map/photon_map.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
 
@@ -15,6 +16,8 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
       return std::make_unique<const Reference>(t);
     case Method::bidirectional:
       return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
+    case Method::photonMap:
+      return std::make_unique<const PhotonMap>(t);
   }
   fail("method {} has no computing half", static_cast<int>(t.settings.method));
 }
