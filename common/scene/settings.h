@@ -14,7 +14,12 @@
 
 namespace ninefold {
 
-enum class Method : uint8_t { instantRadiosity, pathTrace, bidirectional, photonMap };
+enum class Method : uint8_t {
+  instantRadiosity,
+  pathTrace,
+  bidirectional,
+  photonMap,
+};
 enum class Caustics : uint8_t { off, direct, all };
 enum class PartitionRule : uint8_t { balance, equal };
 enum class MapDistribution : uint8_t { random, frame, turn, nets };  // photon_map/shooting.h

@@ -19,7 +19,7 @@ PhotonCells::PhotonCells(std::span<const NamedPoint> points) {
   const float longest = std::max(std::max(size.x, size.y), size.z);
   // As if they lay on the faces of a cube. Then by what that gave: they lie on surfaces.
   float h = longest * std::sqrt(6 * kWanted / static_cast<float>(points.size()));
-  const float least = std::max(2 * longest / kMostCells, std::numeric_limits<float>::min());
+  const float least = longest > 0 ? 2 * longest / kMostCells : 1.0f;
   for (int trial = 0; trial < kTrials; ++trial) {
     place(points, low, high, std::max(h, least));
     const float mean = static_cast<float>(points.size()) / static_cast<float>(used_);

@@ -46,7 +46,9 @@ class PhotonCells {
     for (int k = 0; k <= last; ++k) {
       const float away = k == 0 ? 0.0f : static_cast<float>(k - 1) * h_ + toFace;
       if (away * away > r2) return;
-      forShell(c, k, [&](uint32_t block) { r2 = visitCell(block, x, r2, visit); });
+      const auto each = [&](uint32_t block) { r2 = visitCell(block, x, r2, visit); };
+      if (24.0 * k * k > static_cast<double>(cells_.size())) return forAllFrom(c, k, each);
+      forShell(c, k, each);
     }
   }
 
@@ -85,6 +87,10 @@ class PhotonCells {
     return static_cast<uint64_t>(x) | static_cast<uint64_t>(y) << 20 |
            static_cast<uint64_t>(z) << 40;
   }
+  static std::array<int, 3> unpacked(uint64_t key) {
+    const auto part = [&](int shift) { return static_cast<int>(key >> shift & (kMostCells - 1)); };
+    return {part(0), part(20), part(40)};
+  }
   static uint64_t hashed(uint64_t key) {
     key *= 0x9e3779b97f4a7c15ull;
     return key ^ key >> 32;
@@ -122,6 +128,17 @@ class PhotonCells {
         else
           forRow(c[0] - k, c[0] + k, std::max(2 * k, 1), y, z, each);
       }
+  }
+  // All cells with photons in shell k and beyond, where that is less work than the shell alone.
+  template <typename Do>
+  void forAllFrom(const std::array<int, 3>& c, int k, const Do& each) const {
+    for (const Cell& cell : cells_) {
+      if (cell.first == kNone) continue;
+      const std::array<int, 3> at = unpacked(cell.key);
+      const int away = std::max(std::max(std::abs(at[0] - c[0]), std::abs(at[1] - c[1])),
+                                std::abs(at[2] - c[2]));
+      if (away >= k) each(cell.first);
+    }
   }
   template <typename Visit>
   float visitCell(uint32_t block, Vec3 x, float r2, Visit&& visit) const {

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "common/gi/light/light_path.h"
+#include "common/gi/light/media_around.h"
 
 namespace ninefold {
 namespace {
@@ -52,10 +53,13 @@ void shootStream(const Transport& t, size_t stream, uint32_t randomization, uint
   const float share = 1 / (static_cast<float>(count) * static_cast<float>(layout.parts()));
   for (uint32_t i = 0; i < count; ++i) {
     const uint32_t index = numbers.first + i;
-    const Particle start =
+    Particle start =
         emitParticle(t, stream, numbers.sampler.get2D(index, 0), numbers.sampler.get2D(index, 2));
+    // A lamp may lie in a solid that its light never leaves.
+    const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
+    start.flux *= t.shader.squaredIndex(media);
     walkLightPath(
-        t, start, {}, 0, numbers.sampler, index, kWalkDimension, rays, [&](const Arrival& a) {
+        t, start, media, 0, numbers.sampler, index, kWalkDimension, rays, [&](const Arrival& a) {
           const ShadingPoint& p = *a.point;
           if (isOfPool(t, a)) {
             const Flux flux =
