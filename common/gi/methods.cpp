@@ -2,6 +2,7 @@
 
 #include "common/base/error.h"
 #include "common/gi/bidirectional/bidirectional.h"
+#include "common/gi/photon_map/photon_map.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
 #ifdef NINEFOLD_TEST_METHODS
@@ -18,6 +19,8 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
       return std::make_unique<const Reference>(t);
     case Method::bidirectional:
       return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
+    case Method::photonMap:
+      return std::make_unique<const PhotonMap>(t);
 #ifdef NINEFOLD_TEST_METHODS
     case Method::stateCheck:
       return std::make_unique<const StateCheck>(t);

@@ -5,7 +5,7 @@
 
 #include <fmt/core.h>
 
-#include "common/gi/renderer.h"
+#include "common/gi/whole_state.h"
 #include "common/sampling/sampler.h"
 #include "common/scene/methods.h"
 
@@ -91,9 +91,10 @@ uint64_t addPicture(uint64_t hash, const Tracer& tracer, const Settings& setting
   const Renderer renderer(tracer, settings);
   const auto scratch = renderer.makeScratch();
   const FrameKey frame{0, 0, 0, 0.1f};
+  const auto state = wholeState(renderer, settings, frame.randomization);
   TileResult tile;
   for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
-    const auto lights = renderer.light(frame, phase);
+    const auto lights = renderer.light(frame, phase, state.get());
     renderer.render(Task{frame, 0, phase, 0}, *lights, *scratch, tile);
     hash = addTile(hash, tile);
   }

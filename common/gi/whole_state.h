@@ -1,27 +1,22 @@
-// whole_state.h: a method's state made in one process, as the steps of frames at rest make it
-// (master/running/state_plan.h).
+// whole_state.h: a method's state made in this process, as the steps of frames at rest make it
+// (master/running/state_plan.h): for tests, tools and the probe of the pixel class.
 //
-// Threads: pure function.   Errors: as GiMethod::step.
+// Threads: pure functions.   Errors: as GiMethod::step.
 #pragma once
 
 #include "common/gi/renderer.h"
-#include "common/scene/methods.h"
+#include "common/scene/settings.h"
 
 namespace ninefold {
 
-// The pages that light frame `frame` of a run at rest, counted from 0; none without a state.
-inline StatePages stateAtRest(const Renderer& renderer, const Settings& settings, uint32_t frame) {
-  StatePages pages;
-  const StateFacts* facts = factsOf(settings.method).state;
-  if (facts == nullptr) return pages;
-  const uint32_t units = facts->unitsOfAll(settings);
-  for (uint32_t i = facts->beginsAnew ? frame : 0; i <= frame; ++i) {
-    const StatePages before = pages;
-    const StepKey step{.firstUnit = i * units, .randomization = i};
-    for (uint32_t unit = 0; unit < units; ++unit)
-      pages.apply(renderer.step(before, step, step.firstUnit + unit).deltas);
-  }
-  return pages;
-}
+// The pages that light frame `frame` of a run at rest, counted from 0, which is also its
+// randomization; none for methods without a state. settings: those of the renderer. Adds the rays to
+// `rays` if not null.
+StatePages stateAtRest(const Renderer& renderer, const Settings& settings, uint32_t frame,
+                       RayCounts* rays = nullptr);
+
+// The same, ready to be asked; null for methods without a state.
+std::shared_ptr<const MethodState> wholeState(const Renderer& renderer, const Settings& settings,
+                                              uint32_t frame, RayCounts* rays = nullptr);
 
 }  // namespace ninefold

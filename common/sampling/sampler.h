@@ -48,7 +48,8 @@ enum class SampleUse : uint32_t {
   glossyPath,
   cameraPoint,
   reverseVpl,
-  resampling
+  resampling,
+  mapPhoton
 };
 
 // The least m with 2^m >= n: LightSampler's log2Count for n points.

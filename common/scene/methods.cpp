@@ -5,6 +5,8 @@
 //     n = the same + 18 r c + M v    bidirectional: r c candidates, c = direct + 2 indirect VPLs,
 //                                    each judged by 16 camera points; those kept see all M
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
+//     n = p (11 + d) + d + 4 f       photon map: d direct VPLs, and eight rays that tell how much
+//                                    surface is around; a unit of its state: 4 rays a path
 #include "common/scene/methods.h"
 
 #include <fmt/format.h>
@@ -28,6 +30,38 @@ double bidirectionalRays(const Settings& s, double pixels) {
 }
 
 double pathRays(const Settings&, double pixels) { return 64 * pixels; }
+
+double mapRays(const Settings& s, double pixels) {
+  const double direct = s.mapDirect == MapDirect::on ? 0 : s.directVpls;
+  return pixels * (11 + direct) + direct + 4.0 * s.photons + 64;
+}
+
+uint32_t partsOfMap(const Settings& s) {
+  return static_cast<uint32_t>(s.mapPhotons / s.mapPerFrame);
+}
+
+// What the pool's photons do not go by is taken from the other; all else must be the same.
+bool haveSameMap(const Settings& before, const Settings& after) {
+  Settings a = before;
+  a.width = after.width, a.height = after.height, a.camera = after.camera;
+  a.interleave = after.interleave, a.jitter = after.jitter;
+  a.indirectVpls = after.indirectVpls, a.photons = after.photons, a.caustics = after.caustics;
+  a.photonRadius = after.photonRadius, a.bound = after.bound, a.compensate = after.compensate;
+  a.vplRoulette = after.vplRoulette, a.resampling = after.resampling;
+  a.cameraPoints = after.cameraPoints, a.partition = after.partition;
+  a.mapNearest = after.mapNearest, a.mapDistance = after.mapDistance, a.mapIndex = after.mapIndex;
+  const bool hadLamps = before.directVpls > 0, hasLamps = after.directVpls > 0;
+  if (hadLamps == hasLamps || before.mapDirect == MapDirect::off) a.directVpls = after.directVpls;
+  return a == after;
+}
+
+constexpr StateFacts kMapState{
+    .unitsOfAll = partsOfMap,
+    .unitsInMotion = [](const Settings&) { return 1u; },
+    .rays = [](const Settings& s) { return 4.0 * s.mapPerFrame; },
+    .beginsAnew = true,
+    .isKept = haveSameMap,
+};
 
 #ifdef NINEFOLD_TEST_METHODS
 constexpr size_t kTestMethods = 1;
@@ -73,6 +107,18 @@ constexpr std::array kTable{
                 .freeSets = false,
                 .missesPunctualCaustics = false,
                 .rays = bidirectionalRays},
+    MethodFacts{.method = Method::photonMap,
+                .name = "photon-map",
+                .title = "photon map",
+                .help = "a pool of photons that is renewed bit by bit; blurs bounced light",
+                .parts = kDirectVpls | kCausticPhotons | kMapPhotons,
+                .isUnfiltered = false,
+                .lightNeedsView = false,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = mapRays,
+                .state = &kMapState,
+                .bias = "light that has bounced is blurred over as wide as its nearest photons"},
 #ifdef NINEFOLD_TEST_METHODS
     MethodFacts{.method = Method::stateCheck,
                 .name = "state-check",

@@ -22,7 +22,8 @@ enum LightPart : uint8_t {
   kDirectVpls = 1,
   kIndirectVpls = 2,
   kCausticPhotons = 4,
-  kReverseVpls = 8
+  kReverseVpls = 8,
+  kMapPhotons = 16  // of a pool that outlives frames
 };
 inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 
@@ -52,6 +53,7 @@ struct MethodFacts {
   bool missesPunctualCaustics;  // cannot meet point, spot or directional lights by smooth surfaces
   double (*rays)(const Settings& settings, double pixels);  // of a task; see methods.cpp
   const StateFacts* state = nullptr;                        // null: no state
+  const char* bias = nullptr;  // what stays wrong however many frames are averaged; null: nothing
 
   bool has(uint8_t part) const { return (parts & part) == part; }
 };

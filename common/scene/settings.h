@@ -18,12 +18,16 @@ enum class Method : uint8_t {
   instantRadiosity,
   pathTrace,
   bidirectional,
+  photonMap,
 #ifdef NINEFOLD_TEST_METHODS
   stateCheck,  // for tests alone (gi/state_check)
 #endif
 };
 enum class Caustics : uint8_t { off, direct, all };
 enum class PartitionRule : uint8_t { balance, equal };
+enum class MapDistribution : uint8_t { random, frame, turn, nets };  // photon_map/shooting.h
+enum class MapIndex : uint8_t { grid, tree };
+enum class MapDirect : uint8_t { off, on };
 
 struct Settings {
   Method method = Method::instantRadiosity;
@@ -36,6 +40,13 @@ struct Settings {
   int resampling = 10;     // r: candidates for each VPL that is kept (resampling.h)
   int cameraPoints = 256;  // M, per set (camera_points.h)
   PartitionRule partition = PartitionRule::balance;  // of paths that both families find
+  int mapPhotons = 2000;                             // paths of the rolling pool
+  int mapPerFrame = 100;                             // of them shot anew by one unit; divides them
+  int mapNearest = 100;                              // m: hits that tell the light at a point
+  float mapDistance = 0.25f;             // D: how far away they may be, as a fraction of R
+  MapDirect mapDirect = MapDirect::off;  // whether the light straight from lamps is the pool's
+  MapDistribution mapDistribution = MapDistribution::nets;
+  MapIndex mapIndex = MapIndex::grid;
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row
   float bound = 30;            // c of b = c/R^2

@@ -8,12 +8,15 @@ namespace {
 
 constexpr int64_t kMostCandidates = 1 << 20, kMostDensityRays = 1 << 26;
 constexpr int kLongestSums = 64;
+constexpr int kMostParts = 65536;
 
-}  // namespace
+// The largest divisor of n that is not above `wanted`.
+int nearestDivisor(int n, int wanted) {
+  while (n % wanted != 0) --wanted;
+  return wanted;
+}
 
-void checkTogether(const Settings& s) {
-  const MethodFacts& facts = factsOf(s.method);
-  if (!facts.has(kReverseVpls)) return;
+void checkReverse(const Settings& s, const MethodFacts& facts) {
   const int64_t vpls = s.directVpls + 2 * int64_t{s.indirectVpls};
   const int64_t candidates = s.resampling * vpls;
   if (candidates > kMostCandidates)
@@ -29,6 +32,28 @@ void checkTogether(const Settings& s) {
   if (s.pathLength > kLongestSums)
     fail("path-length is {}: with the method {} it is at most {}, or 0 for no limit", s.pathLength,
          facts.name, kLongestSums);
+}
+
+void checkMap(const Settings& s) {
+  if (s.mapPerFrame > s.mapPhotons)
+    fail(
+        "map-photons-per-frame is {}, more than all {} of the pool: lower it, or raise "
+        "--map-photons",
+        s.mapPerFrame, s.mapPhotons);
+  if (s.mapPhotons % s.mapPerFrame != 0)
+    fail("map-photons-per-frame is {} and does not divide the {} of the pool: {} would do",
+         s.mapPerFrame, s.mapPhotons, nearestDivisor(s.mapPhotons, s.mapPerFrame));
+  if (s.mapPhotons / s.mapPerFrame > kMostParts)
+    fail("the pool has {} parts of {} photons, at most are {}: raise --map-photons-per-frame",
+         s.mapPhotons / s.mapPerFrame, s.mapPerFrame, kMostParts);
+}
+
+}  // namespace
+
+void checkTogether(const Settings& s) {
+  const MethodFacts& facts = factsOf(s.method);
+  if (facts.has(kReverseVpls)) checkReverse(s, facts);
+  if (facts.has(kMapPhotons)) checkMap(s);
 }
 
 }  // namespace ninefold

@@ -6,7 +6,10 @@
 //
 //   n = r (direct + 2 indirect VPLs) <= 2^20,   n M <= 2^26,   path length <= 64, or 0 for no limit
 //
-// Threads: pure function.   Errors: throws Error that says what is too much and what to lower.
+// A rolling pool of photons is renewed in parts (gi/photon_map): as many a frame as divide it, and
+// 65536 parts at most.
+//
+// Threads: pure function.   Errors: throws Error that says what is wrong and what would do.
 #pragma once
 
 #include "common/scene/settings.h"

@@ -62,6 +62,21 @@ std::span<const char* const> namesOf(PartitionRule) {
   return kNames;
 }
 
+std::span<const char* const> namesOf(MapDistribution) {
+  static constexpr std::array kNames{"random", "frame", "turn", "nets"};
+  return kNames;
+}
+
+std::span<const char* const> namesOf(MapIndex) {
+  static constexpr std::array kNames{"grid", "tree"};
+  return kNames;
+}
+
+std::span<const char* const> namesOf(MapDirect) {
+  static constexpr std::array kNames{"off", "on"};
+  return kNames;
+}
+
 std::span<const char* const> namesOf(Randomization) {
   static constexpr std::array kNames{"xor", "owen", "random"};
   return kNames;

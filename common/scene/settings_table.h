@@ -117,6 +117,58 @@ inline constexpr std::tuple kSettings{
         .help = "who brings light that paths of the lamps and of the camera both find: the one "
                 "that finds it more often, or each one half, as published",
         .parts = kReverseVpls},
+    Setting<int>{.name = "map-photons",
+                 .member = &Settings::mapPhotons,
+                 .low = 1,
+                 .high = 4194304,
+                 .value = "N",
+                 .help = "photon paths that the pool keeps, {0} to {1}",
+                 .parts = kMapPhotons,
+                 .slider = {"pool", 100, 100000, "%d paths", true}},
+    Setting<int>{.name = "map-photons-per-frame",
+                 .member = &Settings::mapPerFrame,
+                 .low = 1,
+                 .high = 65536,
+                 .value = "N",
+                 .help = "photon paths shot anew at a time, the oldest first; divides the pool",
+                 .parts = kMapPhotons,
+                 .slider = {"shot anew", 10, 10000, "%d paths", true}},
+    Setting<int>{.name = "map-nearest",
+                 .member = &Settings::mapNearest,
+                 .low = 2,
+                 .high = 65536,
+                 .value = "N",
+                 .help = "photons that tell the light at a point, {0} to {1}",
+                 .parts = kMapPhotons,
+                 .slider = {"nearest", 10, 500}},
+    Setting<float>{.name = "map-distance",
+                   .member = &Settings::mapDistance,
+                   .low = 1e-6,
+                   .high = 2,
+                   .unit = "R",
+                   .value = "F",
+                   .help = "how far away they may be as a fraction of R, up to {1}",
+                   .parts = kMapPhotons,
+                   .slider = {"not beyond", 0.01, 1, "%.3f R"}},
+    Setting<MapDirect>{.name = "map-direct",
+                       .member = &Settings::mapDirect,
+                       .value = "off|on",
+                       .help = "light straight from lamps by photons, too; off: by virtual lights",
+                       .parts = kMapPhotons,
+                       .slider = {"direct light by photons"}},
+    Setting<MapDistribution>{
+        .name = "map-distribution",
+        .member = &Settings::mapDistribution,
+        .value = "random|frame|turn|nets",
+        .help = "how photons leave the lamps: by chance; alike each frame; alike each turn of the "
+                "pool; the same, each frame's evenly spread",
+        .parts = kMapPhotons,
+        .slider = {"distribution"}},
+    Setting<MapIndex>{.name = "map-index",
+                      .member = &Settings::mapIndex,
+                      .value = "grid|tree",
+                      .help = "how photons near a point are found; the picture is the same",
+                      .parts = kMapPhotons},
     Setting<int>{.name = "path-length",
                  .member = &Settings::pathLength,
                  .low = 0,
@@ -208,6 +260,9 @@ std::pair<int, int> parseSize(std::string_view text);
 std::span<const char* const> namesOf(Method);
 std::span<const char* const> namesOf(Caustics);
 std::span<const char* const> namesOf(PartitionRule);
+std::span<const char* const> namesOf(MapDistribution);
+std::span<const char* const> namesOf(MapIndex);
+std::span<const char* const> namesOf(MapDirect);
 std::span<const char* const> namesOf(Randomization);
 
 // One word, as a flag takes it.

@@ -155,6 +155,10 @@ Tracer::Corners Tracer::corners(uint32_t instance, uint32_t triangle) const {
   return impl_->geometries[instance]->corners(triangle);
 }
 
+Vec3 Tracer::frontNormal(uint32_t instance, uint32_t triangle) const {
+  return impl_->geometries[instance]->frontNormal(triangle);
+}
+
 const Scene& Tracer::scene() const { return impl_->scene; }
 const std::string& Tracer::isaName() const { return impl_->isaName; }
 

@@ -86,6 +86,8 @@ class Tracer {
     Vec3 a, b, c;
   };
   Corners corners(uint32_t instance, uint32_t triangle) const;
+  // Unit geometric normal of the triangle's front; 0 for one without area.
+  Vec3 frontNormal(uint32_t instance, uint32_t triangle) const;
 
   // Keeps every ray in `log` until called with null. For measurements, with one tracing thread.
   void logTo(RayLog* log) { log_ = log; }

@@ -32,9 +32,11 @@ void forEachTask(const Tracer& tracer, Settings s, uint32_t frame, uint8_t plane
   const Renderer renderer(tracer, s);
   const auto scratch = renderer.makeScratch();
   const FrameKey key{frame, frame, 0, s.photonRadius * tracer.scene().bounds.radius()};
+  const auto state = wholeState(renderer, s, frame);
   TileResult tile;
   for (int phase = 0; phase < s.interleave.sets(); ++phase) {
-    renderer.render({key, 0, phase, planes, {}}, *renderer.light(key, phase), *scratch, tile);
+    renderer.render({key, 0, phase, planes, {}}, *renderer.light(key, phase, state.get()), *scratch,
+                    tile);
     visit(phase, tile);
   }
 }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/gi/renderer.h"
+#include "common/gi/whole_state.h"
 
 namespace ninefold::testing {
 
@@ -53,10 +53,11 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames,
   for (uint32_t frame = 0; frame < static_cast<uint32_t>(frames); ++frame) {
     const FrameKey key{frame, frame, frame, settings.photonRadius * tracer.scene().bounds.radius(),
                        lightCameras};
+    const auto state = wholeState(renderer, settings, frame, &out.rays);
     double sum = 0;
     for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
-      const auto lights =
-          renderer.light(key, lightSetOfPhase(phase, frame, settings.interleave.sets()));
+      const auto lights = renderer.light(
+          key, lightSetOfPhase(phase, frame, settings.interleave.sets()), state.get());
       for (int t = 0; t < grid.tiles(); ++t) {
         renderer.render(Task{key, t, phase, 0}, *lights, *scratch, tile);
         out.rays += tile.rays;

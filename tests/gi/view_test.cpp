@@ -29,12 +29,14 @@ void expectTheSameBytes(const Tracer& tracer, const MethodFacts& facts) {
   const Renderer original(tracer, first), shared(original, second), fresh(tracer, second);
   const Renderer& lit = facts.lightNeedsView ? shared : original;
   const FrameKey key{3, 3, 3, 0.1f};
+  const auto oneState = wholeState(lit, first, key.randomization);
+  const auto otherState = wholeState(fresh, second, key.randomization);
   TileResult a, c;
   const auto scratch = original.makeScratch(), other = fresh.makeScratch();
   for (int phase = 0; phase < 9; ++phase) {
     const int set = lightSetOfPhase(phase, key.rotation, 9);
-    shared.render(Task{key, 0, phase, 7}, *lit.light(key, set), *scratch, a);
-    fresh.render(Task{key, 0, phase, 7}, *fresh.light(key, set), *other, c);
+    shared.render(Task{key, 0, phase, 7}, *lit.light(key, set, oneState.get()), *scratch, a);
+    fresh.render(Task{key, 0, phase, 7}, *fresh.light(key, set, otherState.get()), *other, c);
     EXPECT_EQ(a.layers, c.layers) << facts.name;
     EXPECT_EQ(a.extras, c.extras) << facts.name;
     EXPECT_EQ(a.width * a.height, TileGrid(20, 15, {3, 3}).rect(0, phase).count());

@@ -32,6 +32,7 @@ struct Arrival {
   const ShadingPoint* point;
   Flux flux;
   MediumStack media;  // on the side it came from
+  bool turned;        // some lobe turned it: it does not come straight from the lamp
   bool focused;       // the last lobe that turned it was S and not glossy: photons bring this light
   bool hidden;        // the light is punctual and met a smooth lobe first: no eye path finds it
   int diffuseBefore;  // D vertices before this one
@@ -59,7 +60,7 @@ template <typename Visit>
 void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
                    const LightSampler& sampler, uint32_t index, uint32_t firstDimension,
                    RayCounts& rays, Visit&& visit) {
-  bool focused = false, hidden = false;
+  bool turned = false, focused = false, hidden = false;
   int specularRun = 0;
   for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
     if (isBlack(particle.flux)) return;
@@ -74,7 +75,8 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
       particle.flux *= t.shader.squaredIndex(media);
     }
     particle.flux *= t.shader.attenuation(p, media, hit.t);
-    const bool goOn = visit(Arrival{&p, particle.flux, media, focused, hidden, diffuseBefore});
+    const bool goOn =
+        visit(Arrival{&p, particle.flux, media, turned, focused, hidden, diffuseBefore});
 
     // Choose D or an S lobe, or the end.
     const uint32_t d = firstDimension + 4 * static_cast<uint32_t>(vertex);
@@ -90,7 +92,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
       const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
       particle.flux *= shadingFactor(p, p.ns, p.wo) / choice.diffuse * p.bsdf.diffuse;
       particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
-      focused = hidden = false, specularRun = 0, ++diffuseBefore;
+      turned = true, focused = hidden = false, specularRun = 0, ++diffuseBefore;
       continue;
     }
     u -= choice.diffuse;
@@ -105,9 +107,9 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     particle.origin = offsetOrigin(p.surface, scattered->wi), particle.direction = scattered->wi;
     if (lobe == Lobe::transmission) media = t.shader.pass(p, media);
     if (lobe == Lobe::reflection)
-      focused = !isGlossy(p.bsdf);
+      turned = true, focused = !isGlossy(p.bsdf);
     else if (!scattered->smooth || !t.shader.passesStraight(p.surface))
-      focused = true;  // else it goes on as it came
+      turned = focused = true;  // else it goes on as it came
     if (vertex == 0) hidden = particle.punctual && scattered->smooth;
   }
 }

@@ -21,7 +21,7 @@
 
 namespace ninefold {
 
-struct LightSet final : FrameLight, VplSet {
+struct LightSet : FrameLight, VplSet {
   CausticPhotons photons;
 
   std::string oddValue() const override;

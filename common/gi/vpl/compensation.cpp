@@ -112,7 +112,7 @@ struct Level {
       receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
     const Vec3 factor = above * left * y.bsdf.diffuse;
     float q = std::min(maxComponent(factor), kMaxSurvival), qGlossy = 0;
-    if (isGlossy(y.bsdf)) {
+    if (parts.glossy && isGlossy(y.bsdf)) {
       qGlossy = maxComponent(left * lobeAlbedo(y.bsdf, Lobe::reflection, y.localWo().z)) * above;
       const float scale = std::min(std::min(above, kMaxSurvival) / (q + qGlossy), 1.0f);
       q *= scale, qGlossy *= scale;

@@ -58,6 +58,7 @@ using IrradianceQuery = std::function<void(int pathVertices, Receivers& receiver
 struct CompensationParts {
   bool emission = true;  // W_e L_e
   bool onward = true;    // W rho_y/pi E(y)
+  bool glossy = true;    // what a glossy lobe of y sends
 };
 
 // Adds compensation to receivers.er/eg/eb. pathVertices as in layered_method.h.

@@ -1,0 +1,13 @@
+// media_around.h: the solids that a place lies in: those of which a ray from there meets the back
+// face first.
+//
+// Threads: pure function.   Errors: none; after 64 surfaces what is behind them does not count.
+#pragma once
+
+#include "common/gi/light/transport.h"
+
+namespace ninefold {
+
+MediumStack mediaAround(const Transport& transport, Vec3 place);
+
+}  // namespace ninefold

@@ -1,0 +1,52 @@
+// map_gather.h: irradiance from the pool.
+//
+//   E(x) = 1/(pi r^2 f) sum Phi_i   over the hits that x accepts, nearer than r     [W/m^2]
+//   r    = distance to the m-th of them; D if there are fewer within D
+//   f    part of the disk of radius r on which such hits may lie (surface_cover.h)
+//
+//   m    --map-nearest          D    --map-distance times R [m]
+//
+// x accepts a hit within D if it landed on x's side, its normal is within 60 degrees of x's, it lies
+// within D/8 of x's tangent plane, and its path together with the eye path has no more D vertices
+// than allowed. (Without the bound on height a surface behind a picture on the wall counts as
+// surface, and darkens the picture.) Of equally far ones the first in page order is nearer.
+//
+// The m-th tells r and is not counted: if hits are spread evenly and by chance, the mean of
+// (m-1)/(pi r^2) is their density, that of m/(pi r^2) m/(m-1) times it. With fewer than m within D
+// all of them count; both cases together are right in the mean, too.
+//
+// Receivers of a task lie together. Those of a group of up to 32 share one search: for the nearest
+// of one in its middle, and then for all hits within reach of any. Whose m nearest might lie further
+// away searches alone. So what a receiver finds does not depend on its group.
+//
+// Source:  Jensen 2001, 7; Jozwowski 2002, 3.3 (m nearest within a distance). Moore and Yackel 1977
+//          (m - 1). Groups: made for this project.
+// Proved:  tests/gi/photon_map_test.cpp (closed forms; groups find what single searches find).
+// Fails:   light is blurred over r.
+// Threads: reentrant with one scratch a thread.   Errors: none.
+#pragma once
+
+#include "common/base/counters.h"
+#include "common/gi/eye/receivers.h"
+#include "common/gi/photon_map/photon_pool.h"
+#include "common/gi/photon_map/surface_cover.h"
+
+namespace ninefold {
+
+struct MapGatherScratch {
+  Nearest nearest;
+  std::vector<uint32_t> names;    // hits within reach of the group, in their order
+  std::vector<float> px, py, pz;  // their positions ...
+  std::vector<float> nx, ny, nz;  // and normals
+  std::vector<Flux> flux;
+  std::vector<float> d2;  // from one receiver; infinite if it does not accept the hit
+  std::vector<NearKey> keys;
+  SurfaceCover cover;
+};
+
+// Adds E of the pool to receivers. pathVertices as in layered_method.h; randomization: of the frame.
+void gatherPool(const Transport& transport, const PhotonPool& pool, int pathVertices,
+                uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
+                RayCounts& rays);
+
+}  // namespace ninefold

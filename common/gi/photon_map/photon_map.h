@@ -1,0 +1,44 @@
+// photon_map.h: photon mapping with a rolling pool. The state is a ring of photon paths of which the
+// oldest are shot anew, frame by frame (shooting.h). The light at x:
+//
+//   last turn before x          who brings it
+//   none: straight from a lamp  direct VPLs, and compensation of their bound: L_e alone;
+//                               with --map-direct the pool, and neither of them
+//   D, or a glossy lobe         the pool: the m nearest hits (map_gather.h)
+//   any other S lobe            caustic photons (caustic_photons.h)
+//
+// ...D S+ D starts at light-path vertices that are traced for that alone.
+//
+// The pool keeps light while lamps and things move: light of P = total/per-frame frames ago goes
+// out with the last photon of that time.
+//
+// Source:  Jozwowski, "Real Time Photon Mapping", 2002; Jensen 2001.
+// Proved:  tests/gi (all tests over the table of methods; photon_map_test.cpp).
+// Threads, owner, errors: as method.h says.
+#pragma once
+
+#include "common/gi/light_set/light_set.h"
+#include "common/gi/photon_map/photon_pool.h"
+
+namespace ninefold {
+
+class PhotonMap final : public LayeredMethod {
+ public:
+  using LayeredMethod::LayeredMethod;
+
+  // `state` may be null: the empty state, without a photon.
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
+                                          std::span<const View> views,
+                                          const MethodState* state) const override;
+  std::unique_ptr<Scratch> makeScratch() const override;
+  StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit) const override;
+  std::shared_ptr<const MethodState> digest(const StatePages& pages,
+                                            const MethodState* before) const override;
+
+ protected:
+  void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
+             LayeredScratch& scratch, Receivers& receivers, std::vector<Irradiance>* caustic,
+             RayCounts& rays) const override;
+};
+
+}  // namespace ninefold
