@@ -12,6 +12,7 @@
 // Threads: plain values.   Errors: pages that are no rows of hits are read as far as they are.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "common/math/units.h"
@@ -34,11 +35,14 @@ static_assert(sizeof(MapPhoton) == 40);
 class MapLayout {
  public:
   static constexpr size_t kPerPage = kPageBytes / sizeof(MapPhoton);
-  static constexpr size_t kMostPerPath = 64;  // mean number of hits that there is room for
+  static constexpr size_t kMostPerPath = 64;  // mean number of hits that there is room for ...
+  static constexpr size_t kMostPages = 30;    // ... in pages that can be sent at once, 2 MiB
 
   explicit MapLayout(const Settings& s)
       : parts_(static_cast<uint32_t>(s.mapPhotons / s.mapPerFrame)),
-        pages_((static_cast<size_t>(s.mapPerFrame) * kMostPerPath + kPerPage - 1) / kPerPage) {}
+        pages_(std::min(
+            kMostPages,
+            (static_cast<size_t>(s.mapPerFrame) * kMostPerPath + kPerPage - 1) / kPerPage)) {}
 
   uint32_t parts() const { return parts_; }
   uint32_t partOf(uint32_t unit) const { return unit % parts_; }
