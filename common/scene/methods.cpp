@@ -189,9 +189,6 @@ std::vector<std::string> leftOut(const Needs& needs, const Settings& settings) {
         "{} cannot find light that comes from point, spot or directional lights by way of smooth "
         "mirrors, glass or transparent surfaces: it is missing",
         facts.name));
-  if (facts.bias != nullptr)
-    lines.push_back(fmt::format("{}: {}; no number of frames and no stated error tells of that",
-                                facts.name, facts.bias));
   if (!needs.caustics) return lines;
   const bool noPhotons = facts.has(kCausticPhotons) && settings.photons == 0;
   if (settings.caustics == Caustics::off || noPhotons)
