@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "common/math/units.h"
-#include "common/scene/settings.h"
+#include "common/scene/methods.h"
 #include "common/state/state_pages.h"
 
 namespace ninefold {
@@ -37,7 +37,7 @@ class MapLayout {
   static constexpr size_t kMostPerPath = 64;  // mean number of hits that there is room for
 
   explicit MapLayout(const Settings& s)
-      : parts_(static_cast<uint32_t>(s.mapPhotons / s.mapPerFrame)),
+      : parts_(factsOf(Method::photonMap).state->unitsOfAll(s)),
         pages_((static_cast<size_t>(s.mapPerFrame) * kMostPerPath + kPerPage - 1) / kPerPage) {}
 
   uint32_t parts() const { return parts_; }
