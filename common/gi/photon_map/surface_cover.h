@@ -5,9 +5,10 @@
 //   f(x, r) = sum 1/cos_j over what rays met within r of x / number of rays through x's disk
 //
 // The rays go along -n through a pattern on one disk that covers those of all the points: 48 through
-// the smallest. They go on behind what they meet, as far as photons may be off x's tangent plane;
-// what does not accept photons does not count. cos_j: between n and the normal that was met. So f is
-// exactly 1 in the middle of a plane.
+// the smallest. Each counts where it first meets a surface that accepts photons, as far off x's
+// tangent plane as photons may be: what lies below that (a floor under a carpet, a wall behind a
+// picture) gets no light. cos_j: between n and the normal that was met. So f is exactly 1 in the
+// middle of a plane.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; shared rays were made for this
 //          project (one set of rays for each x took a third of the time of a picture).
@@ -46,7 +47,9 @@ class SurfaceCover {
     float area = 0;  // 1/cos
   };
   void tracePacket(const Transport& t, size_t first, RayCounts& counts);
-  void meet(const Transport& t, size_t ray, const Hit& hit);
+  void findOwn(const Transport& t, RayCounts& counts);
+  // Whether it accepts photons.
+  bool meet(const Transport& t, size_t ray, const Hit& hit);
 
   Disks disks_;
   std::vector<Vec3> through_;  // the pattern
