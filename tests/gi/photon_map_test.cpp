@@ -275,18 +275,18 @@ testing::Estimator large(MapDirect direct, int pathLength) {
 TEST(PhotonMap, FindsEachPathOnce) {
   const Scene scene = mixedRoom();
   const Tracer tracer(scene, Isa::automatic);
-  for (const int length : {1, 2, 3, 4, 0}) {
+  for (const int length : {1, 2, 4, 0}) {
     auto reference = testing::reference(12, length);
-    const auto expected = testing::render(tracer, reference.settings, 600);
-    EXPECT_LT(expected.error(), 0.01 * expected.grey());
+    const auto expected = testing::render(tracer, reference.settings, 300);
+    EXPECT_LT(expected.error(), 0.015 * expected.grey());
     for (const MapDirect direct : {MapDirect::off, MapDirect::on}) {
-      const auto image = testing::render(tracer, large(direct, length).settings, 48);
+      const auto image = testing::render(tracer, large(direct, length).settings, 24);
       const double bias = direct == MapDirect::on ? 0.03 : 0.02;
       const double error = std::hypot(image.error(), expected.error());
       EXPECT_NEAR(image.grey(), expected.grey(), 4 * error + bias * expected.grey())
           << "path length " << length << (direct == MapDirect::on ? ", direct " : ", ") << "ratio "
           << image.grey() / expected.grey() << " +- " << error / expected.grey();
-      EXPECT_LT(error, 0.02 * expected.grey());
+      EXPECT_LT(error, 0.025 * expected.grey());
     }
   }
 }
@@ -305,7 +305,7 @@ TEST(PhotonMap, WithoutCausticsItLacksWhatInstantRadiosityLacks) {
     const double error = std::hypot(image.error(), expected.error());
     EXPECT_NEAR(image.grey(), expected.grey(), 4 * error + 0.02 * expected.grey())
         << "path length " << length << " ratio " << image.grey() / expected.grey();
-    EXPECT_LT(error, 0.02 * expected.grey());
+    EXPECT_LT(error, 0.03 * expected.grey());
   }
 }
 

@@ -6,7 +6,7 @@ namespace ninefold {
 namespace {
 
 constexpr float kGoldenAngle = 2.39996323f;  // turns rings against each other: even coverage
-constexpr float kRaysThroughDisk = 48;
+constexpr float kRaysThroughDisk = 32;
 constexpr size_t kMostRays = 512;
 constexpr int kMostLayers = 4;
 constexpr float kLayerGap = 1e-3f;     // [height] behind a hit the search goes on

@@ -4,7 +4,7 @@
 //
 //   f(x, r) = sum 1/cos_j over what rays met within r of x / number of rays through x's disk
 //
-// The rays go along -n through a pattern on one disk that covers those of all the points: 48 through
+// The rays go along -n through a pattern on one disk that covers those of all the points: 32 through
 // the smallest. Each counts where it first meets a surface that accepts photons, as far off x's
 // tangent plane as photons may be: what lies below that (a floor under a carpet, a wall behind a
 // picture) gets no light. cos_j: between n and the normal that was met. So f is exactly 1 in the
