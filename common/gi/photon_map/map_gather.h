@@ -22,7 +22,8 @@
 // Source:  Jensen 2001, 7; Jozwowski 2002, 3.3 (m nearest within a distance). Moore and Yackel 1977
 //          (m - 1). Groups: made for this project.
 // Proved:  tests/gi/photon_map_test.cpp (closed forms; groups find what single searches find).
-// Fails:   light is blurred over r.
+// Fails:   light is blurred over r. It leaks under walls that are thinner than that, and to floors
+//          up to D/8 below a lit one.
 // Threads: reentrant with one scratch a thread.   Errors: none.
 #pragma once
 
