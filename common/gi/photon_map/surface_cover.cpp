@@ -6,12 +6,11 @@ namespace ninefold {
 namespace {
 
 constexpr float kGoldenAngle = 2.39996323f;  // turns rings against each other: even coverage
-constexpr float kRaysThroughDisk = 48;
+constexpr float kRaysThroughDisk = 32;
 constexpr size_t kMostRays = 512;
 constexpr int kMostLayers = 4;
 constexpr float kLayerGap = 1e-3f;     // [height] behind a hit the search goes on
 constexpr float kLeastCosine = 0.25f;  // no point of the group accepts what landed on steeper ones
-constexpr float kLeast = 1.0f / 16;    // of f: disks that lie nowhere are no bright spots
 
 size_t raysFor(float radius, float least) {
   const float wanted = kRaysThroughDisk * (radius / least) * (radius / least);
@@ -108,7 +107,7 @@ float SurfaceCover::share(Vec3 x, Vec3 n, Metres r) const {
                         std::abs(glm::dot(off, n)) <= disks_.height;
     covered += counts ? met.area : 0.0f;
   }
-  return rays > 0 ? std::max(covered / rays, kLeast) : 1.0f;
+  return rays > 0 ? std::max(covered, 1.0f) / rays : 1.0f;
 }
 
 }  // namespace ninefold
