@@ -41,6 +41,10 @@ def scanline(body, at, width):
     return [body[at + c:at + 4 * width:4] for c in range(4)], at + 4 * width
 
 
+# Receivers of a task that lie together share rays that tell how much surface is around. At a border they lie with others.
+SHARING = ("photon-map",)
+
+
 class FilterAtClients(ClusterTest):
     def picture(self, where, *options):
         name = self.folder / f"{where}.hdr"
@@ -69,7 +73,7 @@ class FilterAtClients(ClusterTest):
                 inside, border = self.errors("--method", method, "--vpl-roulette", 0)
                 self.assertGreater(inside, 0, "the two modes are not the same code")
                 self.assertLess(inside, 0.02)
-                self.assertLess(border, 1.3 * inside)
+                self.assertLess(border, (3 if method in SHARING else 1.3) * inside)
 
     def test_with_roulette_only_the_borders_noise_is_another(self):
         # Receivers that share a packet share their choice of lights; at a border they are in other packets.

@@ -40,7 +40,7 @@ class State(ClusterTest):
 
     def test_who_comes_late_has_the_state_of_all_others(self):
         self.new_key()
-        frames = 2500
+        frames = 700
         undisturbed = self.render(*self.METHOD, "--local-clients", 1, frames=frames)
         master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=frames)
         address = self.address_of(master)
