@@ -22,7 +22,7 @@ LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set, const St
   bool ours = false;
   {
     const std::lock_guard lock(mutex_);
-    std::shared_future<Shared>& entry = group(frame).sets[set];
+    std::shared_future<Shared>& entry = group(frame, state).sets[set];
     ours = !entry.valid();
     if (ours) entry = promise.get_future().share();
     future = entry;
@@ -37,17 +37,16 @@ LightSetCache::Found LightSetCache::get(const FrameKey& frame, int set, const St
   return {future.get(), ours};
 }
 
-LightSetCache::Group& LightSetCache::group(const FrameKey& frame) {
+LightSetCache::Group& LightSetCache::group(const FrameKey& frame, const State& state) {
   const auto same = [&](const Group& g) {
     return g.randomization == frame.randomization && g.photonRadius == frame.photonRadius &&
-           g.lightCameras == frame.lightCameras && g.state == frame.state;
+           g.lightCameras == frame.lightCameras && g.state == state;
   };
   const auto found = std::find_if(groups_.begin(), groups_.end(), same);
   if (found != groups_.end()) {
     groups_.splice(groups_.begin(), groups_, found);
   } else {
-    groups_.push_front(
-        {frame.randomization, frame.photonRadius, frame.lightCameras, frame.state, {}});
+    groups_.push_front({frame.randomization, frame.photonRadius, frame.lightCameras, state, {}});
     if (groups_.size() > frames_) groups_.pop_back();
   }
   return groups_.front();

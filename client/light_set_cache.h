@@ -2,8 +2,8 @@
 //
 // The first thread that needs a set makes it; others that need it meanwhile wait. The sets of the
 // `frames` frame keys used last are kept, older ones dropped; a task keeps the set that it uses
-// alive. A set does not depend on the frame's number or rotation: frames that differ in nothing
-// else of their keys share.
+// alive. A set does not depend on the frame's number or rotation, and on the state of its method,
+// not on the number that it has: frames that differ in nothing else of their keys share.
 // Threads: get from any thread.
 // Errors: what `make` throws reaches everyone who waits for that set.
 #pragma once
@@ -43,11 +43,11 @@ class LightSetCache {
     uint32_t randomization = 0;
     Metres photonRadius = 0;
     std::vector<Camera> lightCameras;
-    uint32_t state = 0;
+    State state;
     std::map<int, std::shared_future<Shared>> sets;
   };
 
-  Group& group(const FrameKey& frame);
+  Group& group(const FrameKey& frame, const State& state);
 
   const Make make_;      // constant after construction
   const size_t frames_;  // constant after construction

@@ -1,15 +1,18 @@
 #include "client/method_states.h"
 
+#include <algorithm>
+
 namespace ninefold {
 
 MethodStates::Shared MethodStates::get(uint32_t version, const StatePages& pages) {
   if (version == 0) return nullptr;
   const std::lock_guard lock(mutex_);
-  if (const auto found = states_.find(version); found != states_.end()) return found->second;
-  const MethodState* before = states_.empty() ? nullptr : states_.rbegin()->second.get();
+  const auto found = std::ranges::find(states_, pages.hash(), &std::pair<uint64_t, Shared>::first);
+  if (found != states_.end()) return found->second;
+  const MethodState* before = states_.empty() ? nullptr : states_.back().second.get();
   Shared made = digest_(pages, before);
-  states_.emplace(version, made);
-  if (states_.size() > kKept) states_.erase(states_.begin());
+  states_.emplace_back(pages.hash(), made);
+  if (states_.size() > kKept) states_.pop_front();
   return made;
 }
 

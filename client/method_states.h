@@ -1,14 +1,16 @@
 // method_states.h: versions of a method's state, ready to be asked, that the worker threads of one
 // client share.
 //
-// The first thread that needs a version digests its pages; others wait. The latest few are kept.
+// The first thread that needs a version digests its pages; others wait. The latest few are kept, by
+// the pages' hash: another master may give other pages the same number.
 // Threads: get from any thread.   Errors: what `digest` throws reaches who asked.
 #pragma once
 
+#include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "common/gi/method/method.h"
 
@@ -21,7 +23,7 @@ class MethodStates {
 
   explicit MethodStates(Digest digest) : digest_(std::move(digest)) {}
 
-  // Null for version 0.
+  // Null for version 0, the state of nothing.
   Shared get(uint32_t version, const StatePages& pages);
 
  private:
@@ -29,7 +31,7 @@ class MethodStates {
 
   const Digest digest_;  // constant after construction
   std::mutex mutex_;
-  std::map<uint32_t, Shared> states_;  // guarded by mutex_
+  std::deque<std::pair<uint64_t, Shared>> states_;  // guarded by mutex_; the latest last
 };
 
 }  // namespace ninefold

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "client/method_states.h"
+
 namespace ninefold {
 namespace {
 
@@ -84,6 +86,47 @@ TEST(LightSetCache, AFailureReachesTheCallerThroughTheFuture) {
       2);
   EXPECT_THROW(cache.get(frameOf(1), 0), std::runtime_error);
   EXPECT_THROW(cache.get(frameOf(1), 0), std::runtime_error);
+}
+
+// Another master may give another state the same number.
+TEST(LightSetCache, AnotherStateIsAnotherLight) {
+  int made = 0;
+  LightSetCache cache([&](const FrameKey&, int, const MethodState*) { return ++made, someSet(); },
+                      4);
+  FrameKey key;
+  key.state = 3;
+  const auto one = std::make_shared<const MethodState>();
+  const auto other = std::make_shared<const MethodState>();
+  const auto set = cache.get(key, 0, one).set;
+  EXPECT_EQ(cache.get(key, 0, one).set, set);
+  EXPECT_NE(cache.get(key, 0, other).set, set);
+  EXPECT_EQ(made, 2);
+}
+
+TEST(LightSetCache, ASetKeepsTheStateThatItIsMadeOf) {
+  LightSetCache cache([](const FrameKey&, int, const MethodState*) { return someSet(); }, 1);
+  auto state = std::make_shared<const MethodState>();
+  const std::weak_ptr<const MethodState> watched = state;
+  auto set = cache.get({}, 0, std::exchange(state, nullptr)).set;
+  cache.get(FrameKey{.randomization = 1}, 0);  // the first is kept no more
+  EXPECT_FALSE(watched.expired());
+  set.reset();
+  EXPECT_TRUE(watched.expired());
+}
+
+TEST(MethodStates, AreKeptByWhatTheirPagesHold) {
+  int digested = 0;
+  MethodStates states([&](const StatePages&, const MethodState*) {
+    return ++digested, std::make_shared<const MethodState>();
+  });
+  StatePages one, other;
+  one.apply({{{0, 0}, Records(8, std::byte{1})}});
+  other.apply({{{0, 0}, Records(8, std::byte{2})}});
+  EXPECT_EQ(states.get(0, {}), nullptr);
+  const auto first = states.get(1, one);
+  EXPECT_EQ(states.get(1, one), first);
+  EXPECT_NE(states.get(1, other), first) << "another master's version 1";
+  EXPECT_EQ(digested, 2);
 }
 
 }  // namespace
