@@ -21,9 +21,11 @@ def add_to(context, section):
     for name in ("cornell",) if context.options.quick else ("cornell", "office"):
         series[name] = _scene(context, shipped(name), table)
     section.tables.append(table)
-    plots.bias(os.path.join(context.folder, "bias.png"), series, {name: slope(points) for name, points in series.items()})
-    section.pictures.append(Picture("bias.png", "relMSE that stays when frames are averaged, over the paths of the pool; 100 nearest", plot=True))
-    section.text.append("Slope of the bias: " + ", ".join(f"{name} {figure(slope(points), 2)}" for name, points in series.items()) + ".")
+    slopes = {name: slope(points) for name, points in series.items()}
+    plots.bias(os.path.join(context.folder, "bias.png"), series, slopes)
+    section.pictures.append(Picture("bias.png", "relMSE that stays when frames are averaged, over the paths of the pool; 100 nearest",
+                                    plot=True))
+    section.text.append("Slope of the bias: " + ", ".join(f"{name} {figure(found, 2)}" for name, found in slopes.items()) + ".")
 
 
 def _scene(context, scene, table):
@@ -38,8 +40,8 @@ def _scene(context, scene, table):
             context.programs.render(job, seed, ("--frames", frames), file)
         made = [pictures.read(file) for file in files]
         bias = common_error(*made, truth) - reference.noise["relmse"]
-        entry = {"scene": scene.name, "paths": paths, "frames": frames, "relmse": common_error(made[0], made[0], truth), "bias": bias,
-                 "noise": reference.noise["relmse"]}
+        entry = {"scene": scene.name, "paths": paths, "frames": frames, "relmse": common_error(made[0], made[0], truth),
+                 "bias": bias, "noise": reference.noise["relmse"]}
         table.data.append(entry)
         table.rows.append([scene.name, str(paths), str(frames)] + [figure(entry[key]) for key in ("relmse", "bias", "noise")])
         points.append((paths, bias))

@@ -16,6 +16,7 @@ HIS = {("too small", "too small"): "fast, inaccurate estimates", ("too small", "
        ("appropriate", "appropriate"): "great results, good time", ("appropriate", "too large"): "slight fluctuation, slow shooting",
        ("too large", "too small"): "reacts slowly, slow balancing", ("too large", "appropriate"): "reacts slowly, slow balancing",
        ("too large", "too large"): "very slow"}
+SOURCE = {"on": "photons", "off": "virtual lights"}
 DISTRIBUTIONS = {"random": "by chance", "frame": "alike each frame", "turn": "alike each turn", "nets": "alike each turn, nets"}
 
 
@@ -38,8 +39,9 @@ def _jump(context, flags):
 
 
 def _guidelines(context, frames):
-    table = Table("photon_map_guidelines", ["total", "per frame", "shoot [ms]", "balance [ms]", "variance at rest", "flicker on the circle",
-                                            "relMSE on the circle", "lag [frames]", "theory", "Table 1 says"])
+    table = Table("photon_map_guidelines", ["total", "per frame", "shoot [ms]", "balance [ms]", "variance at rest",
+                                            "flicker on the circle", "relMSE on the circle", "lag [frames]", "theory", "Table 1 says"])
+    measured = ("shoot_ms", "balance_ms", "variance_at_rest", "flicker", "relmse")
     for total, much in zip(TOTALS, WORDS):
         for part, many in zip(PER_FRAME, WORDS):
             flags = replaced(replaced(PUBLISHED, "--map-photons", total), "--map-photons-per-frame", part)
@@ -51,14 +53,15 @@ def _guidelines(context, frames):
                      "flicker": circle["flicker"], "relmse": circle["relmse_mean"], "lag": jump["lag_frames"],
                      "theory": jump["lag_theory"], "his": HIS[much, many]}
             table.data.append(entry)
-            table.rows.append([f"{total} ({much})", f"{part} ({many})"] + [figure(entry[key]) for key in (
-                "shoot_ms", "balance_ms", "variance_at_rest", "flicker", "relmse")] + [str(entry["lag"]), str(entry["theory"]), entry["his"]])
+            table.rows.append([f"{total} ({much})", f"{part} ({many})"] + [figure(entry[key]) for key in measured]
+                              + [str(entry["lag"]), str(entry["theory"]), entry["his"]])
     return table
 
 
 def _distributions(context, frames):
-    table = Table("photon_map_distributions", ["distribution", "direct light", "variance at rest", "relMSE at rest", "flicker on the circle",
-                                               "variance of the error", "relMSE on the circle"])
+    table = Table("photon_map_distributions", ["distribution", "direct light", "variance at rest", "relMSE at rest",
+                                               "flicker on the circle", "variance of the error", "relMSE on the circle"])
+    measured = ("variance_at_rest", "relmse_at_rest", "flicker", "error_variance", "relmse")
     for direct in ("on", "off"):
         for name, text in DISTRIBUTIONS.items():
             flags = (*replaced(PUBLISHED, "--map-direct", direct), "--map-distribution", name)
@@ -66,8 +69,7 @@ def _distributions(context, frames):
             entry = {"distribution": name, "direct": direct, "variance_at_rest": rest["variance"], "relmse_at_rest": rest["relmse_mean"],
                      "flicker": circle["flicker"], "error_variance": circle["error_variance"], "relmse": circle["relmse_mean"]}
             table.data.append(entry)
-            table.rows.append([f"{name}: {text}", "photons" if direct == "on" else "virtual lights"] + [figure(entry[key]) for key in (
-                "variance_at_rest", "relmse_at_rest", "flicker", "error_variance", "relmse")])
+            table.rows.append([f"{name}: {text}", SOURCE[direct]] + [figure(entry[key]) for key in measured])
     return table
 
 
@@ -75,7 +77,7 @@ def _answers(context):
     answers = {}
     for direct, name in (("on", "random"), ("on", "nets"), ("off", "nets")):
         flags = (*replaced(PUBLISHED, "--map-direct", direct), "--map-distribution", name)
-        answers[f"{name}, direct light by {'photons' if direct == 'on' else 'virtual lights'}"] = _jump(context, flags)["response"]
+        answers[f"{name}, direct light by {SOURCE[direct]}"] = _jump(context, flags)["response"]
     plots.answers(os.path.join(context.folder, "lag.png"), answers)
     return Picture("lag.png", "The lamp jumps in frame 0; 2,000 paths, 100 a frame. Grey: k per-frame/total, and the 95 % that "
                               "lag is told by", plot=True)
@@ -85,12 +87,12 @@ def _moments(context):
     """The box at four moments, above their truths."""
     folder = os.path.join(context.folder, "moments")
     os.makedirs(folder)
-    context.programs.photon_map("--box", "256", "--size", "192x144", *PUBLISHED, "--map-distribution", "random", "--repeats", "0", "--light", "circle",
-                                "--frames", "100" if not context.options.quick else "48", "--pictures", folder)
+    context.programs.photon_map("--box", "256", "--size", "192x144", *PUBLISHED, "--map-distribution", "random", "--repeats", "0",
+                                "--light", "circle", "--frames", "48" if context.options.quick else "100", "--pictures", folder)
     frames, truths = ([pictures.read(path) for path in sorted(glob.glob(os.path.join(folder, name + "_*.exr")))]
                       for name in ("frame", "truth"))
     exposure = pictures.good_exposure(truths[0])
     rows = [[pictures.shown(picture, exposure) for picture in row] for row in (frames, truths)]
     pictures.write(os.path.join(context.folder, "moments.png"), pictures.sheet(rows))
-    return Picture("moments.png", "The box at four moments of the lamp's circle, 2,000 paths, 100 a frame, all light by photons (as his Figure "
-                                  "28, but at each pixel); below them the truth of the moment")
+    return Picture("moments.png", "The box at four moments of the lamp's circle, 2,000 paths, 100 a frame, all light by photons (as his "
+                                  "Figure 28, but at each pixel); below them the truth of the moment")

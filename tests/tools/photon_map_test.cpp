@@ -47,7 +47,7 @@ TEST(PhotonMapTool, TellsHowMuchAPictureFluctuates) {
     return motion.at("motion").at("variance").get<double>();
   };
   EXPECT_GT(variance("--map-distribution random"), 0);
-  for (const char* name : {"turn", "nets"})
+  for (const char* name : {"frame", "turn", "nets"})
     EXPECT_EQ(variance(std::string("--map-distribution ") + name), 0) << name;
 }
 
