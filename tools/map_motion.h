@@ -13,72 +13,23 @@
 //                   units, mean over some runs of unlike seeds. lag: least k with response >= 0.95;
 //                   theory: each unit brings 1/P of the change, 0.95 P rounded up.
 //
-// The truth is the picture of the same method with a pool of `truthPaths` paths, direct light by
-// virtual lights, and m = 100 sqrt(paths/2000): the radius that light is blurred over is
-// (2000/paths)^(1/4) of that of 2,000 paths and m = 100.
-//
 // Threads: one thread's.   Errors: as Renderer.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
-#include <memory>
-#include <optional>
 #include <vector>
 
-#include "common/gi/whole_state.h"
 #include "common/image/metrics.h"
 #include "tools/map_box.h"
-#include "tools/map_picture.h"
+#include "tools/map_truth.h"
 
 namespace ninefold {
-
-// A scene with the lamp somewhere, ready to be seen.
-class Moment {
- public:
-  Moment(const Scene& scene, const std::optional<Vec3>& lamp, const Settings& settings)
-      : scene_(scene), settings_(settings) {
-    if (lamp) scene_.lights.front().position = *lamp;
-    tracer_ = std::make_unique<Tracer>(scene_, Isa::automatic);
-    renderer_ = std::make_unique<Renderer>(*tracer_, settings);
-  }
-
-  void step(StatePages& pages, uint32_t unit) const {
-    StepKey key;
-    key.firstUnit = unit;
-    pages.apply(renderer_->step(pages, key, unit).deltas);
-  }
-  StatePages whole() const { return stateAtRest(*renderer_, settings_, 0); }
-  RgbImage picture(const StatePages& pages) const {
-    RgbImage picture;
-    renderPicture(*renderer_, settings_, pictureKey(settings_, scene_),
-                  renderer_->digest(pages).get(), picture);
-    return picture;
-  }
-
- private:
-  Scene scene_;
-  Settings settings_;
-  std::unique_ptr<Tracer> tracer_;
-  std::unique_ptr<Renderer> renderer_;
-};
 
 inline double meanLuminance(const RgbImage& image) {
   double sum = 0;
   for (size_t i = 0; i < image.count(); ++i) sum += double{luminance(image.rgb(i))};
   return sum / static_cast<double>(image.count());
-}
-
-inline Settings truthSettings(Settings s, int paths) {
-  constexpr int kMostAtOnce = 65536;
-  s.mapPhotons = s.mapPerFrame = paths;
-  for (int parts = 1; s.mapPerFrame > kMostAtOnce || paths % s.mapPerFrame != 0; ++parts)
-    s.mapPerFrame = paths / parts;
-  s.mapNearest = static_cast<int>(std::lround(100 * std::sqrt(paths / 2000.0)));
-  s.mapDirect = MapDirect::off, s.mapDistribution = MapDistribution::nets;
-  s.seed += 1'000'003;
-  return s;
 }
 
 // Mean and variance over time of one value a pixel, and of its steps.
@@ -120,10 +71,9 @@ class MapMotion {
   // Told of each measured frame and its truth.
   using Seen = std::function<void(int frame, const RgbImage& picture, const RgbImage& truth)>;
 
-  MapMotion(const Scene& scene, const Settings& settings, int truthPaths)
-      : scene_(scene), settings_(settings), truth_(truthSettings(settings, truthPaths)) {
-    settings_.jitter = truth_.jitter = false;
-  }
+  // settings.jitter: off, as in motion everywhere.
+  MapMotion(const Scene& scene, const Settings& settings, const MapTruth& truth)
+      : scene_(scene), settings_(settings), truth_(truth) {}
 
   // moves: the lamp of the box goes round.
   Fluctuation fluctuation(int frames, bool moves, const Seen& seen) const {
@@ -141,7 +91,7 @@ class MapMotion {
       moment->step(pages, unit);
       if (i < 0) continue;
       const RgbImage picture = moment->picture(pages);
-      if (moves || i == 0) truth = truthOf(place(i));
+      if (moves || i == 0) truth = truth_.at(i, place(i));
       meanOfTruth += meanLuminance(truth) / frames;
       found.relMse.push_back(compareImages(picture, truth).relMse);
       light.add(luminances(picture, nullptr)), error.add(luminances(picture, &truth));
@@ -177,10 +127,6 @@ class MapMotion {
   }
 
  private:
-  RgbImage truthOf(const std::optional<Vec3>& lamp) const {
-    const Moment moment(scene_, lamp, truth_);
-    return moment.picture(moment.whole());
-  }
   // Of each pixel, less those of `truth` if there is one.
   static std::vector<double> luminances(const RgbImage& picture, const RgbImage* truth) {
     std::vector<double> values(picture.count());
@@ -191,7 +137,8 @@ class MapMotion {
   }
 
   const Scene& scene_;
-  Settings settings_, truth_;
+  Settings settings_;
+  const MapTruth& truth_;
 };
 
 // Frames until so much of a change is there; one more than all if it never is.

@@ -36,6 +36,8 @@ constexpr const char* kHelp =
     "                  --box (default: none)\n"
     "  --frames N      how many of them are measured (default 64); for jump it is all of the pool\n"
     "  --truth N       paths of the pool that makes the truth of a moment (default 100000)\n"
+    "  --truths DIR    keep truths there, and take those that are there: of the same scene and "
+    "flags\n"
     "  --runs N        of unlike seeds, whose mean is the answer to a jump (default 4)\n"
     "  --pictures DIR  write four of the frames there, and their truths, as .exr\n"
     "  --help, -h      print this and end\n"
@@ -94,7 +96,7 @@ class Words {
 struct Wanted {
   int surfaces = 0;  // of the box; 0: a scene file
   int repeats = 9, truth = 100'000, runs = 4;
-  std::string light, pictures;
+  std::string light, pictures, truths;
   Options options;
 };
 
@@ -114,6 +116,7 @@ Wanted wantedOf(Words words) {
   w.runs = words.takeWhole("runs", w.runs, 1, 100'000);
   w.light = words.take("light").value_or("");
   w.pictures = words.take("pictures").value_or("");
+  w.truths = words.take("truths").value_or("");
   words.addIfMissing("output", "none.exr");  // a run needs one
   words.addIfMissing("method", "photon-map");
   if (w.surfaces > 0) words.add("box");
@@ -197,12 +200,14 @@ int run(int argc, char** argv) {
   const Wanted w = wantedOf(words);
   const Scene scene = w.surfaces > 0 ? MapBox::make(cutsOf(w.surfaces))
                                      : readScene(w.options.scene, w.options.clip);
-  const Settings settings = makeSettings(w.options, scene);
+  Settings settings = makeSettings(w.options, scene);
   Json all{{"scene", scene.name}, {"settings", settingsOf(settings)}};
   if (w.surfaces > 0) all["surfaces"] = w.surfaces;
   if (w.repeats > 0) all["stages"] = stagesOf(scene, settings, w.repeats);
   if (!w.light.empty()) {
-    const MapMotion motion(scene, settings, w.truth);
+    settings.jitter = false;
+    const MapTruth truth(scene, settings, w.truth, w.truths);
+    const MapMotion motion(scene, settings, truth);
     all["motion"] = w.light == "jump" ? jumpOf(motion, settings, w.runs) : fluctuationOf(motion, w);
   }
   return writeOutput(all.dump() + "\n"), 0;

@@ -30,8 +30,11 @@ def _run(context, flags, *more):
     return context.programs.photon_map(*BOX, *flags, *more)
 
 
-def _motion(context, flags, light, frames):
-    return _run(context, flags, "--repeats", "0", "--light", light, *frames)["motion"]
+def _motion(context, flags, light, frames, *more):
+    """Truths are the same for all of them: made once."""
+    truths = os.path.join(context.folder, "truths")
+    os.makedirs(truths, exist_ok=True)
+    return _run(context, flags, *(more or ("--repeats", "0")), "--light", light, *frames, "--truths", truths)
 
 
 def _jump(context, flags):
@@ -46,8 +49,8 @@ def _guidelines(context, frames):
         for part, many in zip(PER_FRAME, WORDS):
             flags = replaced(replaced(PUBLISHED, "--map-photons", total), "--map-photons-per-frame", part)
             flags = (*flags, "--map-distribution", "random")
-            rest = _run(context, flags, "--light", "still", *frames)
-            circle, jump = _motion(context, flags, "circle", frames), _jump(context, flags)
+            rest = _motion(context, flags, "still", frames, "--repeats", "9")
+            circle, jump = _motion(context, flags, "circle", frames)["motion"], _jump(context, flags)
             entry = {"total": total, "per_frame": part, "shoot_ms": rest["stages"]["shoot_ms"],
                      "balance_ms": rest["stages"]["balance_ms"], "variance_at_rest": rest["motion"]["variance"],
                      "flicker": circle["flicker"], "relmse": circle["relmse_mean"], "lag": jump["lag_frames"],
@@ -65,7 +68,7 @@ def _distributions(context, frames):
     for direct in ("on", "off"):
         for name, text in DISTRIBUTIONS.items():
             flags = (*replaced(PUBLISHED, "--map-direct", direct), "--map-distribution", name)
-            rest, circle = (_motion(context, flags, light, frames) for light in ("still", "circle"))
+            rest, circle = (_motion(context, flags, light, frames)["motion"] for light in ("still", "circle"))
             entry = {"distribution": name, "direct": direct, "variance_at_rest": rest["variance"], "relmse_at_rest": rest["relmse_mean"],
                      "flicker": circle["flicker"], "error_variance": circle["error_variance"], "relmse": circle["relmse_mean"]}
             table.data.append(entry)
