@@ -2,7 +2,8 @@
 // lamp where it is in that frame. Random numbers stay, as in motion everywhere.
 //
 //   still, circle   The pool has gone on for P = total/per-frame frames before frame 0: nothing is
-//                   left of its beginning. L: luminance, T: that of the truth of the moment.
+//                   left of its beginning. Each n-th frame is measured. L: luminance, T: that of
+//                   the truth of the moment.
 //     variance       mean over pixels of Var_i L / m^2         m: mean luminance of T
 //     errorVariance  the same of L - T: what is left when the truth itself moves
 //     flicker        mean of (e_i - e_{i-1})^2 / (2 m^2), e = L - T: as `errorVariance` for noise
@@ -75,8 +76,8 @@ class MapMotion {
   MapMotion(const Scene& scene, const Settings& settings, const MapTruth& truth)
       : scene_(scene), settings_(settings), truth_(truth) {}
 
-  // moves: the lamp of the box goes round.
-  Fluctuation fluctuation(int frames, bool moves, const Seen& seen) const {
+  // `frames` of them, each `every`-th. moves: the lamp of the box goes round.
+  Fluctuation fluctuation(int frames, int every, bool moves, const Seen& seen) const {
     const auto place = [&](int i) { return moves ? std::optional(lampOnCircle(i)) : std::nullopt; };
     const int parts = settings_.mapPhotons / settings_.mapPerFrame;
     auto moment = std::make_unique<Moment>(scene_, place(-parts), settings_);
@@ -86,10 +87,10 @@ class MapMotion {
     OverTime light, error;
     double meanOfTruth = 0;
     RgbImage truth;
-    for (int i = 1 - parts; i < frames; ++i, ++unit) {
+    for (int i = 1 - parts; i <= (frames - 1) * every; ++i, ++unit) {
       if (moves) moment = std::make_unique<Moment>(scene_, place(i), settings_);
       moment->step(pages, unit);
-      if (i < 0) continue;
+      if (i < 0 || i % every != 0) continue;
       const RgbImage picture = moment->picture(pages);
       if (moves || i == 0) truth = truth_.at(i, place(i));
       meanOfTruth += meanLuminance(truth) / frames;

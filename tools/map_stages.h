@@ -9,7 +9,8 @@
 //   rest      light() and render() of the whole picture, less `estimate`: eye paths, direct light
 //             where that is not the pool's, caustic photons
 //
-// Medians of some repeats, processor time of the thread. In each repeat the pool goes on by a unit.
+// Medians of some repeats, processor time of the thread. In each repeat the pool goes on by a unit;
+// `estimate` and `rest`, which take far longer than the others, are of each fifth.
 //
 // Threads: one thread's.   Errors: none.
 #pragma once
@@ -49,10 +50,13 @@ class StageTimer {
     std::array<std::vector<double>, 6> times;
     MapStages all;
     for (int i = 0; i < repeats; ++i, ++unit_) {
-      const MapStages one = once();
+      MapStages one = renew();
+      const bool isSeen = i % 5 == 0;
+      if (isSeen) look(one);
       const std::array values{one.shoot,  one.balance,  one.build,
                               one.update, one.estimate, one.rest};
-      for (size_t stage = 0; stage < times.size(); ++stage) times[stage].push_back(values[stage]);
+      for (size_t stage = 0; stage < (isSeen ? 6 : 4); ++stage)
+        times[stage].push_back(values[stage]);
       all.hits = one.hits, all.perUnit += one.perUnit / repeats;
     }
     const std::array to{&all.shoot,  &all.balance,  &all.build,
@@ -91,7 +95,8 @@ class StageTimer {
     return all;
   }
 
-  MapStages once() {
+  // The pool after one more unit.
+  MapStages renew() {
     MapStages one;
     std::vector<MapPhoton> photons;
     one.shoot = timeOf([&] { photons = shot(unit_); });
@@ -107,6 +112,11 @@ class StageTimer {
     one.hits = all.size();
     one.build = timeOf([&] { const PhotonCells cells{all}; });
     one.balance = timeOf([&] { const PhotonTree tree{std::move(all)}; });
+    return one;
+  }
+
+  // The picture.
+  void look(MapStages& one) {
     StatePages pages;
     std::vector<MapPhoton> pool;
     for (uint32_t j = 0; j < layout_.parts(); ++j) {
@@ -119,7 +129,6 @@ class StageTimer {
     RgbImage picture;
     one.rest = timeOf([&] { renderPicture(renderer_, settings_, key, state.get(), picture); });
     one.rest = std::max(0.0, one.rest - one.estimate);
-    return one;
   }
 
   double estimateTime(const PhotonPool& pool) {

@@ -30,16 +30,17 @@ constexpr const char* kHelp =
     "fluctuate, how wrong they are and how late, as JSON. One thread.\n\n"
     "  --box N         no scene file: a room with two boxes and a point light, of N surfaces: 16,\n"
     "                  64, 256, 1024, ... 65536\n"
-    "  --repeats N     of timing each stage, medians are given (default 9; 0: no timing)\n"
+    "  --repeats N     of timing each stage, medians are given (default 25; 0: no timing)\n"
     "  --light HOW     frames, of which each has one unit shot anew: still, or circle or jump "
     "with\n"
     "                  --box (default: none)\n"
     "  --frames N      how many of them are measured (default 64); for jump it is all of the pool\n"
+    "  --every N       measure each N-th frame (default 1)\n"
     "  --truth N       paths of the pool that makes the truth of a moment (default 100000)\n"
     "  --truths DIR    keep truths there, and take those that are there: of the same scene and "
     "flags\n"
     "  --runs N        of unlike seeds, whose mean is the answer to a jump (default 4)\n"
-    "  --pictures DIR  write four of the frames there, and their truths, as .exr\n"
+    "  --pictures DIR  write the measured frames there, and their truths, as .exr\n"
     "  --help, -h      print this and end\n"
     "  --version       print the release and end\n"
     "  and the flags of ninefold-master, see there, that say what the picture is\n\n"
@@ -95,7 +96,7 @@ class Words {
 
 struct Wanted {
   int surfaces = 0;  // of the box; 0: a scene file
-  int repeats = 9, truth = 100'000, runs = 4;
+  int repeats = 25, every = 1, truth = 100'000, runs = 4;
   std::string light, pictures, truths;
   Options options;
 };
@@ -111,6 +112,7 @@ Wanted wantedOf(Words words) {
   Wanted w;
   w.surfaces = words.takeWhole("box", 0, kBoxSurfaces, 65536);
   w.repeats = words.takeWhole("repeats", w.repeats, 0, 100'000);
+  w.every = words.takeWhole("every", w.every, 1, 100'000);
   w.truth =
       words.takeWhole("truth", w.truth, 1, static_cast<int>(settingOf(&Settings::mapPhotons).high));
   w.runs = words.takeWhole("runs", w.runs, 1, 100'000);
@@ -174,23 +176,17 @@ Json jumpOf(const MapMotion& motion, const Settings& settings, int runs) {
 
 Json fluctuationOf(const MapMotion& motion, const Wanted& w) {
   const auto frames = static_cast<int>(*w.options.stop.frames);
-  const int apart = std::max(1, frames / 4);
   const auto write = [&](int frame, const RgbImage& picture, const RgbImage& truth) {
-    if (w.pictures.empty() || frame % apart != 0) return;
+    if (w.pictures.empty()) return;
     writeImage(fmt::format("{}/frame_{:04}.exr", w.pictures, frame), {picture, {}, {}});
     writeImage(fmt::format("{}/truth_{:04}.exr", w.pictures, frame), {truth, {}, {}});
   };
-  const Fluctuation f = motion.fluctuation(frames, w.light == "circle", write);
+  const Fluctuation f = motion.fluctuation(frames, w.every, w.light == "circle", write);
   double mean = 0;
   for (const double e : f.relMse) mean += e / frames;
-  return {{"light", w.light},
-          {"frames", frames},
-          {"truth_paths", w.truth},
-          {"variance", f.variance},
-          {"error_variance", f.errorVariance},
-          {"flicker", f.flicker},
-          {"relmse_mean", mean},
-          {"relmse", f.relMse}};
+  return {{"light", w.light},       {"frames", frames},       {"every", w.every},
+          {"truth_paths", w.truth}, {"variance", f.variance}, {"error_variance", f.errorVariance},
+          {"flicker", f.flicker},   {"relmse_mean", mean},    {"relmse", f.relMse}};
 }
 
 int run(int argc, char** argv) {

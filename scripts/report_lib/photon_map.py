@@ -8,7 +8,7 @@ TEXT = [
     "The scene 'box' is a room like his, with two boxes in it and a point light on a circle (tools/map_box.h); sizes are ours. "
     "Published settings: 2,000 paths, 100 of them shot anew each frame, 100 nearest, path length 3 (his max_level), direct light "
     "in the photons (--map-direct on), k-d tree.",
-    "Times: processor time of the stages of one frame of 512x512 pixels, medians. 'Shoot': one unit. 'Balance': the k-d tree anew, as "
+    "Times: processor time of the stages of one frame, medians. 'Shoot': one unit. 'Balance': the k-d tree anew, as "
     "published. 'Build': our grid anew; 'update': one unit out of it and one in, which is what he wished for. 'Estimate': at each "
     "pixel, not at vertices; eye paths are traced outside of it. 'Rest': eye paths and what else a picture needs. He has no such "
     "stage: his vertices are drawn by OpenGL. Dotted: where shooting takes as long as balancing, his rule of thumb. A photon "

@@ -7,7 +7,7 @@ from report_lib.photon_stages import PUBLISHED, replaced
 from report_lib.section import Picture
 from report_lib.tables import Table, figure
 
-BOX = ("--box", "256", "--size", "64x48")
+BOX, SIZE, JUMP_SIZE = ("--box", "256"), ("--size", "64x48"), ("--size", "32x24")
 WORDS = ("too small", "appropriate", "too large")
 TOTALS, PER_FRAME = (500, 2000, 8000), (20, 100, 500)
 # What he says of them.
@@ -26,19 +26,17 @@ def add_to(context, section):
     section.pictures += [_answers(context), _moments(context)]
 
 
-def _run(context, flags, *more):
-    return context.programs.photon_map(*BOX, *flags, *more)
-
-
 def _motion(context, flags, light, frames, *more):
     """Truths are the same for all of them: made once."""
     truths = os.path.join(context.folder, "truths")
     os.makedirs(truths, exist_ok=True)
-    return _run(context, flags, *(more or ("--repeats", "0")), "--light", light, *frames, "--truths", truths)
+    return context.programs.photon_map(*BOX, *SIZE, *flags, *(more or ("--repeats", "0")), "--light", light, *frames,
+                                       "--truths", truths)
 
 
 def _jump(context, flags):
-    return _run(context, flags, "--repeats", "0", "--light", "jump", "--runs", "2")["motion"]
+    flags = replaced(flags, "--map-index", "grid")
+    return context.programs.photon_map(*BOX, *JUMP_SIZE, *flags, "--repeats", "0", "--light", "jump", "--runs", "2")["motion"]
 
 
 def _guidelines(context, frames):
@@ -49,7 +47,7 @@ def _guidelines(context, frames):
         for part, many in zip(PER_FRAME, WORDS):
             flags = replaced(replaced(PUBLISHED, "--map-photons", total), "--map-photons-per-frame", part)
             flags = (*flags, "--map-distribution", "random")
-            rest = _motion(context, flags, "still", frames, "--repeats", "9")
+            rest = _motion(context, flags, "still", frames, "--repeats", "25")
             circle, jump = _motion(context, flags, "circle", frames)["motion"], _jump(context, flags)
             entry = {"total": total, "per_frame": part, "shoot_ms": rest["stages"]["shoot_ms"],
                      "balance_ms": rest["stages"]["balance_ms"], "variance_at_rest": rest["motion"]["variance"],
@@ -90,8 +88,8 @@ def _moments(context):
     """The box at four moments, above their truths."""
     folder = os.path.join(context.folder, "moments")
     os.makedirs(folder)
-    context.programs.photon_map("--box", "256", "--size", "192x144", *PUBLISHED, "--map-distribution", "random", "--repeats", "0",
-                                "--light", "circle", "--frames", "48" if context.options.quick else "100", "--pictures", folder)
+    context.programs.photon_map(*BOX, "--size", "192x144", *PUBLISHED, "--map-distribution", "random", "--repeats", "0",
+                                "--light", "circle", "--frames", "4", "--every", "25", "--pictures", folder)
     frames, truths = ([pictures.read(path) for path in sorted(glob.glob(os.path.join(folder, name + "_*.exr")))]
                       for name in ("frame", "truth"))
     exposure = pictures.good_exposure(truths[0])

@@ -9,7 +9,7 @@ from report_lib.tables import Table, figure
 
 PUBLISHED = ("--map-direct", "on", "--map-photons", "2000", "--map-photons-per-frame", "100", "--map-nearest", "100",
              "--map-index", "tree", "--path-length", "3")
-SIZE = ("--size", "512x512")
+SIZE, QUICK_SIZE = (512, 512), (256, 256)
 # Name, flag, values, label. 800, his last, does not divide 2,000.
 FIGURES = (("Figure 21", "--map-photons-per-frame", (25, 50, 100, 200, 400, 1000), "photons shot anew per frame"),
            ("Figure 22", "--map-photons", (500, 1000, 2000, 4000, 8000, 16000), "photons in all"),
@@ -20,7 +20,7 @@ STAGES = ("shoot", "balance", "build", "update", "estimate", "rest", "total")
 
 def add_to(context, section):
     table = Table("photon_map_stages", ["scene", "as", "", "hits"] + [stage + " [ms]" for stage in STAGES])
-    repeats = 3 if context.options.quick else 9
+    repeats = 5 if context.options.quick else 25
     for scene, files, figures in (("box", ("--box", "16"), FIGURES + (SURFACES,)), ("office", (shipped("office").file,), FIGURES)):
         series = {}
         for name, flag, values, label in figures:
@@ -29,16 +29,21 @@ def add_to(context, section):
             series[f"{name}: {scene}"] = (label, values, {stage: [m[stage + "_ms"] for m in made] for stage in STAGES},
                                           _meeting_of(values, made) if flag.startswith("--map") else None)
         _add_rule(section, scene, series)
-        file = f"stages_{scene}.png"
+        file, size = f"stages_{scene}.png", "%dx%d" % _size(context)
         plots.times(os.path.join(context.folder, file), series)
-        section.pictures.append(Picture(file, f"{scene}: ms of each stage of a frame, one thread, 512x512; 'total' is shoot, balance, "
+        section.pictures.append(Picture(file, f"{scene}: ms of each stage of a frame, one thread, {size} pixels; 'total' is shoot, balance, "
                                               "estimate and rest. Dotted: shooting time = balancing time", plot=True))
     section.tables.append(table)
 
 
 def _stages(context, files, flag, value, repeats):
     chosen = files if flag != "--box" else ()
-    return context.programs.photon_map(*chosen, *replaced(PUBLISHED, flag, value), *SIZE, "--repeats", str(repeats))["stages"]
+    return context.programs.photon_map(*chosen, *replaced(PUBLISHED, flag, value), "--size", "%dx%d" % _size(context),
+                                       "--repeats", str(repeats))["stages"]
+
+
+def _size(context):
+    return QUICK_SIZE if context.options.quick else SIZE
 
 
 def replaced(flags, flag, value):
