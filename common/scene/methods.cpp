@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "common/image/layers.h"
@@ -37,7 +38,7 @@ double mapRays(const Settings& s, double pixels) {
 }
 
 uint32_t partsOfMap(const Settings& s) {
-  return static_cast<uint32_t>(s.mapPhotons / s.mapPerFrame);
+  return static_cast<uint32_t>(std::max(s.mapPhotons / s.mapPerFrame, 1));
 }
 
 // What the pool's photons do not go by is taken from the other; all else must be the same.

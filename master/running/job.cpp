@@ -60,6 +60,8 @@ Job makeJob(const Options& options) {
   for (const std::string& line : describe(job.needs)) log("{}", line);
   tellSettings(options, job.settings);
   for (const std::string& line : leftOut(job.needs, job.settings)) warn("{}", line);
+  if (const MethodFacts& facts = factsOf(job.settings.method); facts.bias != nullptr)
+    log("{}: {}; the stated error is of noise alone", facts.name, facts.bias);
   const TileGrid grid(job.settings.width, job.settings.height, job.settings.interleave);
   job.delivery = deliveryOf(options);
   job.shape = job.delivery.wholeTiles()

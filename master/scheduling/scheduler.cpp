@@ -125,10 +125,10 @@ void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind k
   nextFrame_ = key.frame + 1;
 }
 
-void Scheduler::openStep(uint32_t number, int units, double rays) {
+void Scheduler::openStep(uint32_t number, uint32_t firstUnit, int units, double rays) {
   NINEFOLD_CHECK(number >= nextFrame_);
   NINEFOLD_CHECK(units > 0);
-  frames_.emplace(number, SchedulerFrame(number, units, rays));
+  frames_.emplace(number, SchedulerFrame(number, firstUnit, units, rays));
   nextFrame_ = number + 1;
 }
 

@@ -68,8 +68,8 @@ class Scheduler {
   // Tasks without pixels do not exist; whole tiles have phase 0 alone.
   void openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind = {});
   // A step of a method's state; one count of ids for frames and steps. Its tasks are
-  // (number, 0..units-1, 0), each of so many rays.
-  void openStep(uint32_t number, int units, double rays);
+  // (number, firstUnit.., 0), each of so many rays.
+  void openStep(uint32_t number, uint32_t firstUnit, int units, double rays);
   // All open frames before `firstWanted` are superseded; steps are not.
   void viewChanged(uint32_t firstWanted, Time now);
   // All open steps before `firstWanted` are void; frames are not.

@@ -28,8 +28,9 @@ SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameK
   }
 }
 
-SchedulerFrame::SchedulerFrame(uint32_t number, int units, double rays)
-    : isStep_(true),
+SchedulerFrame::SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays)
+    : firstUnit_(firstUnit),
+      isStep_(true),
       sharesSets_(true),
       wholeTiles_(false),
       rays_(std::max(1.0, rays)),
@@ -47,6 +48,11 @@ SchedulerFrame::SchedulerFrame(uint32_t number, int units, double rays)
 }
 
 int SchedulerFrame::indexOf(const TaskId& task) const {
+  if (isStep_) {
+    const uint32_t unit = static_cast<uint32_t>(task.tile) - firstUnit_;
+    const bool exists = task.frame == key_.frame && task.phase == 0 && unit < tasks_.size();
+    return exists ? static_cast<int>(unit) : -1;
+  }
   const int tiles = tasks() / sets_;
   if (task.frame != key_.frame || task.tile < 0 || task.tile >= tiles || task.phase < 0 ||
       task.phase >= sets_)
@@ -56,6 +62,7 @@ int SchedulerFrame::indexOf(const TaskId& task) const {
 }
 
 TaskId SchedulerFrame::idOf(int task) const {
+  if (isStep_) return {key_.frame, static_cast<int>(firstUnit_ + static_cast<uint32_t>(task)), 0};
   return {.frame = key_.frame, .tile = task / sets_, .phase = task % sets_};
 }
 

@@ -40,8 +40,8 @@ class SchedulerFrame {
 
   // `ordinal`: of pictures, without steps.
   SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind, int ordinal);
-  // A step of `units` units, each of so many rays.
-  SchedulerFrame(uint32_t number, int units, double rays);
+  // A step of `units` units from `firstUnit` on, each of so many rays.
+  SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays);
 
   const FrameKey& key() const { return key_; }
   bool isStep() const { return isStep_; }
@@ -113,6 +113,7 @@ class SchedulerFrame {
 
   FrameKey key_;
   int ordinal_ = 0;
+  uint32_t firstUnit_ = 0;
   bool isStep_, sharesSets_, wholeTiles_;
   double rays_;
   int sets_;  // = phases

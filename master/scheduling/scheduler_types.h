@@ -19,7 +19,7 @@ using ClientId = uint32_t;
 // unit of a step of a method's state.
 struct TaskId {
   uint32_t frame = 0;  // FrameKey::frame or StepKey::number
-  int tile = 0;        // 0..TileGrid::tiles()-1; of a step: units after its first
+  int tile = 0;        // 0..TileGrid::tiles()-1; of a step: the unit, as StepKey counts
   int phase = 0;       // 0..Interleave::sets()-1; of a step: 0
   bool operator==(const TaskId&) const = default;
 };

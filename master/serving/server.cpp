@@ -13,9 +13,8 @@ TaskId taskOf(const msg::Result& result) {
   return {result.frame, static_cast<int>(result.tile), static_cast<int>(result.phase)};
 }
 
-// `first`: unit of the step.
-TaskId unitOf(const msg::Stepped& result, uint32_t first) {
-  return {result.number, static_cast<int>(result.unit - first), 0};
+TaskId taskOf(const msg::Stepped& result) {
+  return {result.number, static_cast<int>(result.unit), 0};
 }
 
 TaskCost costOf(const msg::Result& result) {
@@ -138,9 +137,7 @@ void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
 void Server::on(Handle& peer, todo::TakeUnit&& a, Time now) {
   lastMove_ = now;
   const uint32_t number = a.result.number;
-  const auto step = openSteps_.find(number);
-  const uint32_t first = step == openSteps_.end() ? 0 : step->second.order.key.firstUnit;
-  const TaskId task = unitOf(a.result, first);
+  const TaskId task = taskOf(a.result);
   const TaskCost cost(std::chrono::nanoseconds(a.result.busyNs));
   if (isAccepted(scheduler_.verdictOn(peer.first, task))) {
     tally_.rays += a.result.rays;

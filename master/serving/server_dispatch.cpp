@@ -86,7 +86,7 @@ void Server::open(const StepOrder& order, Time now) {
   if (order.job != offer_.job()) announce(order);
   openSteps_[order.key.number] = {order, now};
   state_.open(order.key, order.units);
-  scheduler_.openStep(order.key.number, order.units,
+  scheduler_.openStep(order.key.number, order.key.firstUnit, order.units,
                       factsOf(order.settings.method).state->rays(order.settings));
   forgetStates();
 }
@@ -140,7 +140,7 @@ void Server::sendUnits(const std::vector<Assignment>& assignments) {
     msg::Steps& bundle = bundles[{a.client, a.task.frame}];
     bundle.jobVersion = step->second.order.job;
     bundle.step = step->second.order.key;
-    bundle.units.push_back(bundle.step.firstUnit + static_cast<uint32_t>(a.task.tile));
+    bundle.units.push_back(static_cast<uint32_t>(a.task.tile));
     bundle.allowed = a.allowed;
   }
   if (!bundles.empty()) noteDispatch();

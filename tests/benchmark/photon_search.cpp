@@ -5,14 +5,14 @@
 //   renew     a twentieth of them goes and comes: the cells by erase and insert, the tree anew [ms]
 //   find      the 100 nearest of a point on a wall, mean of 20,000 [us]
 //
-// Median of five. usage: photon-search-benchmark [N...]
+// Processor time, median of five. usage: photon-search-benchmark [N...]
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <random>
 
-#include "common/base/clock.h"
+#include "common/base/cpu_time.h"
 #include "common/gi/photon_map/photon_cells.h"
 #include "common/gi/photon_map/photon_tree.h"
 
@@ -30,9 +30,9 @@ template <typename Work>
 double timeOf(const Work& work) {
   std::vector<double> times;
   for (int run = 0; run < kRuns; ++run) {
-    const auto start = Clock::now();
+    const Duration start = threadCpuTime();
     work(run);
-    times.push_back(inMs(Clock::now() - start));
+    times.push_back(inMs(threadCpuTime() - start));
   }
   std::nth_element(times.begin(), times.begin() + kRuns / 2, times.end());
   return times[kRuns / 2];

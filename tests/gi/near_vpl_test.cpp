@@ -11,7 +11,7 @@ using testing::SceneBuilder;
 
 // A furnace of albedo a and emission 1 shows 1/(1-a) everywhere, at any distance from its corner:
 // also at 1 nm, where nearly all light comes by compensation. b is so low that virtual lights, rare
-// near a given corner, carry next to nothing.
+// near a given corner, carry next to nothing. A pool's disks are known to 3 % there.
 TEST(NearVpl, CornersOfAFurnaceAreRightDownToANanometre) {
   for (const float distance : {1e-2f, 1e-5f, 1e-9f}) {
     SceneBuilder b;
@@ -19,7 +19,7 @@ TEST(NearVpl, CornersOfAFurnaceAreRightDownToANanometre) {
     b.camera(Vec3(distance), Vec3(0), 0.7f);
     auto all = testing::estimators();
     for (auto& e : all) e.settings.bound = 0.01f;
-    testing::expectRadiance(b.build(), all, 2, {}, number(distance) + " m");
+    testing::expectRadiance(b.build(), all, 2, {.blur = 0.03}, number(distance) + " m");
   }
 }
 
@@ -32,7 +32,7 @@ TEST(NearVpl, SlitsTakeAsManyBouncesAsThereAre) {
     b.camera(Vec3(0, 0.5f * h, 0), Vec3(0.3f, 0, 0.2f), 0.7f);
     auto all = testing::estimators();
     for (auto& e : all) e.settings.bound = 0.01f;
-    testing::expectRadiance(b.build(), all, 10, {.error = 0.02}, number(h) + " m");
+    testing::expectRadiance(b.build(), all, 10, {.error = 0.02, .blur = 0.02}, number(h) + " m");
   }
 }
 

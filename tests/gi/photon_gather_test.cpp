@@ -158,7 +158,7 @@ TEST(SurfaceCover, IsThePartOfADiskThatThereIs) {
 }
 
 // Walls that stand on the floor, a table far above it, a cellar far below and glass on it do not
-// count; a sheet of paper on it does: both surfaces are within D/8, as their photons are.
+// count. Paper on half of it takes the place of the floor below.
 TEST(SurfaceCover, CountsWhatAcceptsPhotons) {
   SceneBuilder b = floorOf();
   const int grey = b.material(testing::matte(Vec3(0.5f)));
@@ -168,9 +168,15 @@ TEST(SurfaceCover, CountsWhatAcceptsPhotons) {
   b.box(b.material(testing::glass(1.5f)), Vec3(-0.5f, 0.001f, -0.5f), Vec3(-0.1f, 0.02f, 0.5f),
         false);
   EXPECT_EQ(cover(World(b), Vec3(0), 0.4f), 1);
-  b.quad(grey, Vec3(-1, 0.01f, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
-  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f), 2);
-  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f, 0.005f), 1);
+  b.quad(grey, Vec3(0, 0.01f, 1), Vec3(1, 0, 0), Vec3(0, 0, -2));
+  EXPECT_EQ(cover(World(b), Vec3(-0.1f, 0, 0), 0.3f), 1);
+}
+
+// A ceiling that hangs within D/8 over the floor looks down.
+TEST(SurfaceCover, ALowCeilingDoesNotCount) {
+  SceneBuilder b = floorOf();
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-1, 0.02f, -1), Vec3(2, 0, 0), Vec3(0, 0, 2));
+  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f), 1);
 }
 
 // A sheet that is wound the wrong way is surface to those who see it.

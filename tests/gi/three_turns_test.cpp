@@ -19,7 +19,8 @@ TEST(ThreeTurns, IsBlackUntilLightMayBounceThreeTimes) {
   const Scene scene = readScene(NINEFOLD_SCENES "/three_turns.glb");
   const Tracer tracer(scene, Isa::automatic);
   for (const MethodFacts& facts : allMethods())
-    EXPECT_EQ(testing::render(tracer, ofLength(facts.method, 3), 20).grey(), 0) << facts.name;
+    if (facts.bias == nullptr)  // a pool's light leaks under walls, as wide as its disks
+      EXPECT_EQ(testing::render(tracer, ofLength(facts.method, 3), 20).grey(), 0) << facts.name;
   EXPECT_GT(testing::render(tracer, ofLength(Method::bidirectional, 4), 100).grey(), 0);
 }
 

@@ -6,8 +6,10 @@ namespace {
 
 class SchedulerStep : public testing::Test {
  protected:
+  static constexpr uint32_t kFirst = 40;  // unit
+
   void openStep(uint32_t number, int units) {
-    bench.scheduler.openStep(number, units, 100);
+    bench.scheduler.openStep(number, kFirst, units, 100);
     bench.pass(Duration(0));
   }
   SchedulerBench bench;
@@ -57,7 +59,7 @@ TEST_F(SchedulerStep, AStepThatIsVoidLeavesFrames) {
   bench.pass(Duration(0));
   EXPECT_EQ(bench.scheduler.tasksLeft(1), 0);
   EXPECT_EQ(bench.scheduler.tasksLeft(0), left);
-  EXPECT_EQ(bench.scheduler.verdictOn(1, {1, 0, 0}), Verdict::stale);
+  EXPECT_EQ(bench.scheduler.verdictOn(1, {1, kFirst, 0}), Verdict::stale);
   bench.drain();
   EXPECT_EQ(bench.scheduler.counts().completedFrames, 1u);
   EXPECT_EQ(bench.scheduler.counts().completedSteps, 0u);
@@ -84,6 +86,21 @@ TEST_F(SchedulerStep, UnitsOfASilentClientAreCopiedAndTheSecondResultIsADuplicat
   ASSERT_FALSE(bench.sent[2].empty());
   EXPECT_EQ(bench.answer(2, unit), Verdict::completedFrame);
   EXPECT_EQ(bench.answer(1, unit), Verdict::duplicate);
+}
+
+// Else the credit of who was slower would stay spent for good.
+TEST_F(SchedulerStep, TheSecondResultOfAUnitGivesItsCreditBackAfterTheStepIsDone) {
+  bench.join(1);
+  openStep(0, 1);
+  const TaskId unit = bench.sent[1].at(0);
+  EXPECT_EQ(unit.tile, static_cast<int>(kFirst));
+  bench.join(2);
+  bench.pass(std::chrono::seconds(6));
+  EXPECT_EQ(bench.answer(2, unit), Verdict::completedFrame);
+  EXPECT_EQ(bench.scheduler.openFrames(), 0);
+  EXPECT_EQ(bench.answer(1, unit), Verdict::duplicate);
+  for (const ClientReport& report : bench.scheduler.report(bench.now))
+    EXPECT_EQ(report.inFlight, 0) << report.client;
 }
 
 TEST_F(SchedulerStep, ClientsWhoWaitForAStepAskForNoFrameTwice) {

@@ -165,19 +165,27 @@ TEST_F(StateTravel, PartsMustFollowEachOther) {
 }
 
 TEST_F(StateTravel, ASumThatOverflowsIsAnError) {
-  const int64_t much = std::numeric_limits<int64_t>::max();
-  for (uint32_t version : {1u, 2u}) {
-    step = {.number = version, .from = version - 1, .to = version};
-    keeper.open(step, 1);
+  step = {.number = 1, .from = 0, .to = 1};
+  keeper.open(step, 3);
+  const auto add = [&](uint32_t unit, int64_t amount) {
     msg::Stepped result;
-    result.number = version, result.stateHash = hashes[version - 1];
-    result.deltas = encodeDeltas({{{1, 0}, std::vector<SumChange>{{5, much}}}});
+    result.number = 1, result.unit = unit;
+    result.deltas = encodeDeltas({{{1, 0}, std::vector<SumChange>{{5, amount}}}});
     keeper.take(std::move(result));
-    if (version == 1)
-      hashes[1] = keeper.complete(1).front().hash;
-    else
-      EXPECT_THROW(keeper.complete(2), Error);
-  }
+  };
+  constexpr int64_t kMost = std::numeric_limits<int64_t>::max();
+  add(0, kMost / 2), add(1, kMost / 2), add(2, 2);
+  EXPECT_THROW(keeper.complete(1), Error);
+}
+
+TEST_F(StateTravel, AUnitThatTheStateCannotTakeIsItsClientsFault) {
+  begin(0, 1), end();
+  begin(1, 2);
+  msg::Stepped wrong = results[0];  // sums where there are records
+  wrong.deltas = encodeDeltas({{{0, 0}, std::vector<SumChange>{{5, 1}}}});
+  EXPECT_THROW(keeper.take(std::move(wrong)), Error);
+  end();
+  EXPECT_NE(hashes[2], hashes[1]);
 }
 
 TEST_F(StateTravel, StepsThatAreVoidLeaveNoTrace) {

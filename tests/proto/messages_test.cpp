@@ -29,6 +29,9 @@ Settings oddSettings() {
   s.directVpls = 0, s.indirectVpls = 65536, s.photons = 16777216;
   s.resampling = 3, s.cameraPoints = 4096;
   s.partition = PartitionRule::equal;
+  s.mapPhotons = 4194304, s.mapPerFrame = 1, s.mapNearest = 65536, s.mapDistance = 1.5f;
+  s.mapDirect = MapDirect::on, s.mapDistribution = MapDistribution::turn;
+  s.mapIndex = MapIndex::tree;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;

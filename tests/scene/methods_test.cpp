@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <set>
 #include <string>
 
@@ -82,6 +83,51 @@ TEST(Methods, LightIsSharedByViewsUnlessItIsMadeForOne) {
     other = s, other.seed += 1;
     EXPECT_FALSE(haveSameLight(s, other)) << facts.name;
   }
+}
+
+// A state is kept while what it is made of stays: the camera, what is asked of it, and light that it
+// has no part in may change.
+TEST(Methods, AStateIsKeptUnderOtherViewsAndBegunAnewForOtherSeeds) {
+  for (const MethodFacts& facts : allMethods()) {
+    if (facts.state == nullptr) continue;
+    const Settings s = settingsOf(facts);
+    EXPECT_GE(facts.state->unitsOfAll(s), facts.state->unitsInMotion(s)) << facts.name;
+    EXPECT_GE(facts.state->unitsInMotion(s), 1u) << facts.name;
+    EXPECT_GT(facts.state->rays(s), 0) << facts.name;
+    Settings other = s;
+    other.camera.eye.x += 1, other.width = 7, other.height = 5, other.jitter = false;
+    other.interleave = {1, 1}, other.photons += 1, other.caustics = Caustics::off;
+    EXPECT_TRUE(facts.state->isKept(s, other)) << facts.name;
+    for (const auto& change : std::vector<std::function<void(Settings&)>>{
+             [](Settings& o) { o.seed += 1; }, [](Settings& o) { o.pathLength = 3; },
+             [](Settings& o) { o.environment = Radiance(1); },
+             [](Settings& o) { o.method = Method::instantRadiosity; }}) {
+      other = s;
+      change(other);
+      EXPECT_FALSE(facts.state->isKept(s, other)) << facts.name;
+    }
+  }
+}
+
+TEST(Methods, ThePoolGoesByTheSettingsOfItsPhotons) {
+  const MethodFacts& facts = factsOf(Method::photonMap);
+  const Settings s = settingsOf(facts);
+  EXPECT_EQ(facts.state->unitsOfAll(s), 20u);
+  const auto isKept = [&](const std::function<void(Settings&)>& change, Settings before) {
+    Settings after = before;
+    change(after);
+    return facts.state->isKept(before, after);
+  };
+  EXPECT_TRUE(isKept([](Settings& o) { o.mapNearest = 50, o.mapDistance = 0.1f; }, s));
+  EXPECT_TRUE(isKept([](Settings& o) { o.mapIndex = MapIndex::tree, o.directVpls = 0; }, s));
+  EXPECT_FALSE(isKept([](Settings& o) { o.mapPhotons = 4000; }, s));
+  EXPECT_FALSE(isKept([](Settings& o) { o.mapPerFrame = 200; }, s));
+  EXPECT_FALSE(isKept([](Settings& o) { o.mapDistribution = MapDistribution::turn; }, s));
+  EXPECT_FALSE(isKept([](Settings& o) { o.mapDirect = MapDirect::on; }, s));
+  Settings direct = s;
+  direct.mapDirect = MapDirect::on;  // no direct VPLs means no direct light
+  EXPECT_FALSE(isKept([](Settings& o) { o.directVpls = 0; }, direct));
+  EXPECT_TRUE(isKept([](Settings& o) { o.directVpls = 5; }, direct));
 }
 
 // Without photons no eye path meets a point by chance: what comes from one by a smooth surface is

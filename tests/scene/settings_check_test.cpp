@@ -1,9 +1,11 @@
-// Settings that are each within range, and too much together for a method with reverse VPLs.
+// Settings that are each within range, and too much together for a method with reverse VPLs, or of
+// no use for one with a rolling pool of photons.
 #include "common/scene/settings_check.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <tuple>
 
 #include "common/base/error.h"
 #include "common/scene/methods.h"
@@ -37,6 +39,27 @@ TEST(SettingsCheck, SaysWhatIsTooMuchAndWhatToLower) {
         EXPECT_NE(said.find(text), std::string::npos) << facts.name << ": " << said;
       else
         EXPECT_EQ(said, "") << facts.name;
+    }
+}
+
+TEST(SettingsCheck, APoolIsRenewedInEqualParts) {
+  const std::tuple<int, int, const char*> cases[] = {
+      {2000, 3000,
+       "map-photons-per-frame is 3000, more than all 2000 of the pool: lower it, or "
+       "raise --map-photons"},
+      {2000, 90,
+       "map-photons-per-frame is 90 and does not divide the 2000 of the pool: 80 would "
+       "do"},
+      {200000, 2,
+       "the pool has 100000 parts of 2 photons, at most are 65536: raise "
+       "--map-photons-per-frame"},
+      {2000, 2000, ""},
+      {7, 1, ""}};
+  for (const MethodFacts& facts : allMethods())
+    for (const auto& [photons, perFrame, text] : cases) {
+      const std::string said =
+          refusal(facts, [&](Settings& s) { s.mapPhotons = photons, s.mapPerFrame = perFrame; });
+      EXPECT_EQ(said, facts.has(kMapPhotons) ? text : "") << facts.name;
     }
 }
 

@@ -1,5 +1,8 @@
 #include "common/gi/photon_map/map_gather.h"
 
+#include <numeric>
+#include <span>
+
 #include "common/sampling/sampler.h"
 
 namespace ninefold {
@@ -33,36 +36,64 @@ class Gathering {
         height_(farthest_ / 8),
         m_(static_cast<size_t>(t.settings.mapNearest)) {}
 
-  // The receivers first ... first + count - 1.
-  void group(size_t first, size_t count) {
-    const size_t middle = first + count / 2;
+  // Receivers by index; put into another order.
+  void group(std::span<uint32_t> some) {
+    if (some.size() > kGroup) return halves(some);
+    const uint32_t middle = middleOf(some);
     const Vec3 centre = x_.position(middle), n = x_.ng(middle);
     float spread = 0;
     bool together = true;
-    for (size_t i = first; i < first + count; ++i) {
+    for (const uint32_t i : some) {
       spread = std::max(spread, glm::length(x_.position(i) - centre));
       together &= glm::dot(x_.ng(i), n) >= kAligned;
     }
-    if (count > 1 && (!together || spread > farthest_ / 4)) return halves(first, count);
+    const bool isOne = some.size() == 1;
+    if (!isOne && (!together || spread > farthest_ / 4)) return halves(some);
     const float r = searchFrom(centre, n);
-    if (count > 1 && spread > r / 2) return halves(first, count);
+    if (!isOne && spread > r / 2) return halves(some);
     const float reach = kRounding * std::min(r + 2 * spread, farthest_ + spread);
     collect(centre, n, reach);
     Found found[kGroup];
-    for (size_t i = 0; i < count; ++i) {
-      const float room =
-          count == 1 ? kInfinity : reach - kRounding * glm::length(x_.position(first + i) - centre);
-      found[i] = select(first + i, room);
+    for (size_t j = 0; j < some.size(); ++j) {
+      const float away = kRounding * glm::length(x_.position(some[j]) - centre);
+      found[j] = select(some[j], isOne ? kInfinity : reach - away);
     }
-    add(first, count, middle, spread, found);
-    for (size_t i = 0; i < count; ++i)
-      if (found[i].r < 0) group(first + i, 1);
+    add(some, middle, spread, found);
+    for (size_t j = 0; j < some.size(); ++j)
+      if (found[j].r < 0) group(some.subspan(j, 1));
   }
 
  private:
-  void halves(size_t first, size_t count) {
-    group(first, count / 2);
-    group(first + count / 2, count - count / 2);
+  // The receiver nearest to the middle of their box.
+  uint32_t middleOf(std::span<const uint32_t> some) const {
+    const auto [low, high] = boxOf(some);
+    const Vec3 middle = 0.5f * (low + high);
+    return *std::min_element(some.begin(), some.end(), [&](uint32_t a, uint32_t b) {
+      return squaredDistance(x_.position(a), middle) < squaredDistance(x_.position(b), middle);
+    });
+  }
+
+  std::pair<Vec3, Vec3> boxOf(std::span<const uint32_t> some) const {
+    Vec3 low = x_.position(some[0]), high = low;
+    for (const uint32_t i : some) {
+      low = glm::min(low, x_.position(i));
+      high = glm::max(high, x_.position(i));
+    }
+    return {low, high};
+  }
+
+  // One after the other, cut across the longest side.
+  void halves(std::span<uint32_t> some) {
+    const auto [low, high] = boxOf(some);
+    const Vec3 size = high - low;
+    const std::vector<float>& along =
+        size.x >= size.y ? (size.x >= size.z ? x_.px : x_.pz) : (size.y >= size.z ? x_.py : x_.pz);
+    const auto half = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+    std::nth_element(some.begin(), half, some.end(), [&](uint32_t a, uint32_t b) {
+      return along[a] < along[b] || (along[a] == along[b] && a < b);
+    });
+    group(some.first(some.size() / 2));
+    group(some.subspan(some.size() / 2));
   }
 
   bool isAllowed(const MapPhoton& p) const {
@@ -140,27 +171,27 @@ class Gathering {
     return found;
   }
 
-  void add(size_t first, size_t count, size_t middle, float spread, Found* found) {
+  void add(std::span<const uint32_t> some, uint32_t middle, float spread, Found* found) {
     SurfaceCover::Disks disks;
     disks.centre = x_.position(middle), disks.normal = x_.ng(middle);
     disks.spread = spread, disks.height = height_, disks.least = farthest_;
     disks.turn = unitFloat(static_cast<uint32_t>(mixWord(turnKey_ + x_.pixel[middle])));
     const float smallest = 1e-6f * farthest_;  // of r: hits in one point are no infinite light
     bool any = false;
-    for (size_t i = 0; i < count; ++i) {
-      if (found[i].r < 0 || isBlack(found[i].flux)) continue;
+    for (size_t j = 0; j < some.size(); ++j) {
+      if (found[j].r < 0 || isBlack(found[j].flux)) continue;
       any = true;
-      found[i].r = std::max(found[i].r, smallest);
-      disks.least = std::min(disks.least, found[i].r);
-      disks.most = std::max(disks.most, found[i].r);
+      found[j].r = std::max(found[j].r, smallest);
+      disks.least = std::min(disks.least, found[j].r);
+      disks.most = std::max(disks.most, found[j].r);
     }
     if (!any) return;
     s_.cover.shoot(t_, disks, rays_);
-    for (size_t i = 0; i < count; ++i) {
-      const Found& f = found[i];
+    for (size_t j = 0; j < some.size(); ++j) {
+      const Found& f = found[j];
       if (f.r < 0 || isBlack(f.flux)) continue;
-      const float share = s_.cover.share(x_.position(first + i), x_.ng(first + i), f.r);
-      x_.addIrradiance(first + i, 1 / (kPi * f.r * f.r * share) * f.flux);
+      const float share = s_.cover.share(x_.position(some[j]), x_.ng(some[j]), f.r);
+      x_.addIrradiance(some[j], 1 / (kPi * f.r * f.r * share) * f.flux);
     }
   }
 
@@ -181,9 +212,11 @@ void gatherPool(const Transport& t, const PhotonPool& pool, int pathVertices,
                 uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
                 RayCounts& rays) {
   if (pool.photons().empty()) return;
-  Gathering gathering(t, pool, pathVertices, randomization, scratch, receivers, rays);
-  for (size_t first = 0; first < receivers.size(); first += kGroup)
-    gathering.group(first, std::min(kGroup, receivers.size() - first));
+  std::vector<uint32_t>& order = scratch.order;
+  order.resize(receivers.size());
+  std::iota(order.begin(), order.end(), 0u);
+  if (!order.empty())
+    Gathering(t, pool, pathVertices, randomization, scratch, receivers, rays).group(order);
 }
 
 }  // namespace ninefold

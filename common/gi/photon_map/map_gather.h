@@ -15,14 +15,15 @@
 // (m-1)/(pi r^2) is their density, that of m/(pi r^2) m/(m-1) times it. With fewer than m within D
 // all of them count; both cases together are right in the mean, too.
 //
-// Receivers of a task lie together. Those of a group of up to 32 share one search: for the nearest
-// of one in its middle, and then for all hits within reach of any. Whose m nearest might lie further
+// Receivers of a task lie together. They are halved by place until groups of up to 32 are left that
+// are small beside r. A group shares one search: for the nearest of the one in its middle, and then for all hits within reach of any. Whose m nearest might lie further
 // away searches alone. So what a receiver finds does not depend on its group.
 //
 // Source:  Jensen 2001, 7; Jozwowski 2002, 3.3 (m nearest within a distance). Moore and Yackel 1977
 //          (m - 1). Groups: made for this project.
 // Proved:  tests/gi/photon_map_test.cpp (closed forms; groups find what single searches find).
-// Fails:   light is blurred over r.
+// Fails:   light is blurred over r. It leaks under walls that are thinner than that, and to floors
+//          up to D/8 below a lit one.
 // Threads: reentrant with one scratch a thread.   Errors: none.
 #pragma once
 
@@ -34,6 +35,7 @@
 namespace ninefold {
 
 struct MapGatherScratch {
+  std::vector<uint32_t> order;  // of the receivers: those near each other together
   Nearest nearest;
   std::vector<uint32_t> names;    // hits within reach of the group, in their order
   std::vector<float> px, py, pz;  // their positions ...

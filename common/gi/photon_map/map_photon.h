@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "common/math/units.h"
-#include "common/scene/settings.h"
+#include "common/scene/methods.h"
 #include "common/state/state_pages.h"
 
 namespace ninefold {
@@ -39,7 +39,7 @@ class MapLayout {
   static constexpr size_t kMostPages = 30;    // ... in pages that can be sent at once, 2 MiB
 
   explicit MapLayout(const Settings& s)
-      : parts_(static_cast<uint32_t>(s.mapPhotons / s.mapPerFrame)),
+      : parts_(factsOf(Method::photonMap).state->unitsOfAll(s)),
         pages_(std::min(
             kMostPages,
             (static_cast<size_t>(s.mapPerFrame) * kMostPerPath + kPerPage - 1) / kPerPage)) {}

@@ -3,7 +3,8 @@
 namespace ninefold {
 namespace {
 
-constexpr int kTrials = 4;       // of a cell size
+constexpr size_t kSample = 4096;  // points that tell the cell size
+constexpr int kTrials = 4;
 constexpr float kNearly = 1.6f;  // a factor by which cells may miss what is wanted of them
 
 }  // namespace
@@ -17,16 +18,22 @@ PhotonCells::PhotonCells(std::span<const NamedPoint> points) {
   }
   const Vec3 size = high - low;
   const float longest = std::max(std::max(size.x, size.y), size.z);
-  // As if they lay on the faces of a cube. Then by what that gave: they lie on surfaces.
-  float h = longest * std::sqrt(6 * kWanted / static_cast<float>(points.size()));
   const float least = longest > 0 ? 2 * longest / kMostCells : 1.0f;
+  // Of a sample, first as if it lay on the faces of a cube, then by what that gave.
+  const size_t stride = (points.size() + kSample - 1) / kSample;
+  std::vector<NamedPoint> sample;
+  for (size_t i = 0; i < points.size(); i += stride) sample.push_back(points[i]);
+  const auto count = static_cast<float>(sample.size());
+  float h = std::max(longest * std::sqrt(6 * kWanted / count), least);
   for (int trial = 0; trial < kTrials; ++trial) {
-    place(points, low, high, std::max(h, least));
-    const float mean = static_cast<float>(points.size()) / static_cast<float>(used_);
-    if (mean < kNearly * kWanted && mean * kNearly > kWanted) return;
-    h = h_ * std::sqrt(kWanted / mean);
-    if (h < least) return;
+    place(sample, low, high, h);
+    const float mean = count / static_cast<float>(used_);
+    if (mean < kNearly * kWanted && mean * kNearly > kWanted) break;
+    h = std::max(h * std::sqrt(kWanted / mean), least);
   }
+  // Photons lie on surfaces.
+  if (stride > 1) h *= std::sqrt(count / static_cast<float>(points.size()));
+  place(points, low, high, std::max(h, least));
 }
 
 void PhotonCells::place(std::span<const NamedPoint> points, Vec3 low, Vec3 high, float h) {
@@ -35,6 +42,7 @@ void PhotonCells::place(std::span<const NamedPoint> points, Vec3 low, Vec3 high,
   cells_.assign(std::bit_ceil(4 * expected + 16), Cell{});
   mask_ = cells_.size() - 1, used_ = size_ = 0;
   blocks_.clear(), spare_.clear();
+  blocks_.reserve(points.size() / 6);
   for (int a = 0; a < 3; ++a) {
     const auto axis = static_cast<size_t>(a);
     from_[axis] = cell(low, a), to_[axis] = cell(high, a);

@@ -6,11 +6,11 @@ namespace ninefold {
 namespace {
 
 constexpr float kGoldenAngle = 2.39996323f;  // turns rings against each other: even coverage
-constexpr float kRaysThroughDisk = 48;
+constexpr float kRaysThroughDisk = 32;
 constexpr size_t kMostRays = 512;
 constexpr int kMostLayers = 4;
-constexpr float kLayerGap = 1e-3f;   // [height] behind a hit the search goes on
-constexpr float kLeast = 1.0f / 16;  // of f: disks that lie nowhere are no bright spots
+constexpr float kLayerGap = 1e-3f;     // [height] behind a hit the search goes on
+constexpr float kLeastCosine = 0.25f;  // no point of the group accepts what landed on steeper ones
 
 size_t raysFor(float radius, float least) {
   const float wanted = kRaysThroughDisk * (radius / least) * (radius / least);
@@ -33,7 +33,27 @@ void SurfaceCover::shoot(const Transport& t, const Disks& disks, RayCounts& coun
     through_.push_back(disks.centre + at * std::cos(angle) * basis.tangent +
                        at * std::sin(angle) * basis.bitangent);
   }
+  findOwn(t, counts);
   for (size_t first = 0; first < count; first += kPacket) tracePacket(t, first, counts);
+}
+
+void SurfaceCover::findOwn(const Transport& t, RayCounts& counts) {
+  const float height = disks_.height + disks_.spread;
+  const Vec3 top = disks_.centre + height * disks_.normal;
+  float nearest = height, begin = 0;
+  for (int layer = 0; layer < kMostLayers; ++layer) {
+    ++counts.photon;
+    const Hit hit =
+        t.tracer.closest(top - begin * disks_.normal, -disks_.normal, 2 * height - begin);
+    if (!hit) return;
+    const float off = std::abs(begin + hit.t - height);
+    if (off < nearest) {
+      nearest = off, own_ = hit.instance;
+      turned_ = glm::dot(t.tracer.frontNormal(own_, hit.triangle), disks_.normal) < 0;
+    }
+    begin += hit.t + kLayerGap * height;
+    if (!(begin < 2 * height)) return;
+  }
 }
 
 // From above the plane to as far below.
@@ -44,40 +64,33 @@ void SurfaceCover::tracePacket(const Transport& t, size_t first, RayCounts& coun
     rays.set(lane, through_[first + lane] + height * disks_.normal, -disks_.normal, 0, 2 * height);
   Hit hits[kPacket];
   uint32_t active = 0xffff;
-  float nearest = height;  // of the first ray's hits, to the plane
   for (int layer = 0; layer < kMostLayers && active != 0; ++layer) {
     counts.photon += static_cast<uint64_t>(std::popcount(active));
     t.tracer.closest16(rays, active, hits);
-    if (first == 0 && (active & 1u) != 0 && hits[0]) {
-      const float off = std::abs(hits[0].t - height);
-      if (off < nearest) {
-        nearest = off, own_ = hits[0].instance;
-        turned_ = glm::dot(t.tracer.frontNormal(own_, hits[0].triangle), disks_.normal) < 0;
-      }
-    }
     for (size_t lane = 0; lane < kPacket; ++lane) {
       if ((active >> lane & 1u) == 0) continue;
-      if (!hits[lane]) {
+      if (!hits[lane] || meet(t, first + lane, hits[lane])) {
         active &= ~(1u << lane);
         continue;
       }
-      meet(t, first + lane, hits[lane]);
       rays.nearT[lane] = hits[lane].t + kLayerGap * height, rays.farT[lane] = 2 * height;
     }
   }
 }
 
-void SurfaceCover::meet(const Transport& t, size_t ray, const Hit& hit) {
+bool SurfaceCover::meet(const Transport& t, size_t ray, const Hit& hit) {
   const Instance& instance = t.scene.instances[hit.instance];
-  if (!t.shader.mayBeDiffuse(t.scene.meshes[static_cast<size_t>(instance.mesh)].material)) return;
+  if (!t.shader.mayBeDiffuse(t.scene.meshes[static_cast<size_t>(instance.mesh)].material))
+    return false;
   // The points' own mesh is wound as it is there; of all others the fronts are seen.
   const bool turned = turned_ && hit.instance == own_;
   const Vec3 front = t.tracer.frontNormal(hit.instance, hit.triangle);
   const Vec3 normal = turned ? -front : front;
   const float cosine = glm::dot(normal, disks_.normal);
-  if (cosine < 0.25f) return;  // no point of the group accepts what landed there
+  if (cosine < kLeastCosine) return false;
   const float height = disks_.height + disks_.spread;
   met_.push_back({through_[ray] + (height - hit.t) * disks_.normal, normal, 1 / cosine});
+  return true;
 }
 
 float SurfaceCover::share(Vec3 x, Vec3 n, Metres r) const {
@@ -94,7 +107,7 @@ float SurfaceCover::share(Vec3 x, Vec3 n, Metres r) const {
                         std::abs(glm::dot(off, n)) <= disks_.height;
     covered += counts ? met.area : 0.0f;
   }
-  return rays > 0 ? std::max(covered / rays, kLeast) : 1.0f;
+  return rays > 0 ? std::max(covered, 1.0f) / rays : 1.0f;
 }
 
 }  // namespace ninefold

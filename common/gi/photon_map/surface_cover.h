@@ -4,15 +4,17 @@
 //
 //   f(x, r) = sum 1/cos_j over what rays met within r of x / number of rays through x's disk
 //
-// The rays go along -n through a pattern on one disk that covers those of all the points: 48 through
-// the smallest. They go on behind what they meet, as far as photons may be off x's tangent plane;
-// what does not accept photons does not count. cos_j: between n and the normal that was met. So f is
-// exactly 1 in the middle of a plane.
+// The rays go along -n through a pattern on one disk that covers those of all the points: 32 through
+// the smallest. Each counts where it first meets a surface that accepts photons, as far off x's
+// tangent plane as photons may be: what lies below that (a floor under a carpet, a wall behind a
+// picture) gets no light. cos_j: between n and the normal that was met. So f is exactly 1 in the
+// middle of a plane.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; shared rays were made for this
 //          project (one set of rays for each x took a third of the time of a picture).
 // Proved:  tests/gi/photon_map_test.cpp (a wall's edges, a narrow board, a picture on a wall).
-// Fails:   f is known to some percent where a disk is not whole.
+// Fails:   f is known to some percent where a disk is not whole. A thing alone in its disk that is
+//          smaller than a sixth of r counts as one ray: it is too dark.
 // Threads: one thread's.   Errors: none.
 #pragma once
 
@@ -37,7 +39,7 @@ class SurfaceCover {
   };
   void shoot(const Transport& transport, const Disks& disks, RayCounts& counts);
 
-  // f >= 1/16 for x with geometric normal n.
+  // f for x with geometric normal n; at least what one ray counts.
   float share(Vec3 x, Vec3 n, Metres r) const;
 
  private:
@@ -46,7 +48,9 @@ class SurfaceCover {
     float area = 0;  // 1/cos
   };
   void tracePacket(const Transport& t, size_t first, RayCounts& counts);
-  void meet(const Transport& t, size_t ray, const Hit& hit);
+  void findOwn(const Transport& t, RayCounts& counts);
+  // Whether it accepts photons.
+  bool meet(const Transport& t, size_t ray, const Hit& hit);
 
   Disks disks_;
   std::vector<Vec3> through_;  // the pattern
