@@ -6,7 +6,7 @@
 //   update    the grid as it was: the hits of the oldest unit out, those of the new one in
 //   estimate  E of all receivers of the picture from the pool, map_gather.h. Eye paths are traced
 //             outside of the time.
-//   rest      light() and render() of the whole picture, less `estimate`: eye paths, direct light
+//   rest      light() and render() of the whole picture with an empty pool: eye paths, direct light
 //             where that is not the pool's, caustic photons
 //
 // Medians of some repeats, processor time of the thread. In each repeat the pool goes on by a unit;
@@ -117,18 +117,13 @@ class StageTimer {
 
   // The picture.
   void look(MapStages& one) {
-    StatePages pages;
     std::vector<MapPhoton> pool;
-    for (uint32_t j = 0; j < layout_.parts(); ++j) {
-      pages.apply(layout_.replace(pages, j, parts_[j].photons));
-      pool.insert(pool.end(), parts_[j].photons.begin(), parts_[j].photons.end());
-    }
+    for (const Part& part : parts_)
+      pool.insert(pool.end(), part.photons.begin(), part.photons.end());
     one.estimate = estimateTime(PhotonPool(std::move(pool), settings_.mapIndex));
-    const auto state = renderer_.digest(pages);
     const FrameKey key = pictureKey(settings_, transport_.scene);
     RgbImage picture;
-    one.rest = timeOf([&] { renderPicture(renderer_, settings_, key, state.get(), picture); });
-    one.rest = std::max(0.0, one.rest - one.estimate);
+    one.rest = timeOf([&] { renderPicture(renderer_, settings_, key, nullptr, picture); });
   }
 
   double estimateTime(const PhotonPool& pool) {

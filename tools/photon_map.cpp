@@ -46,7 +46,7 @@ constexpr const char* kHelp =
     "  and the flags of ninefold-master, see there, that say what the picture is\n\n"
     "stages [ms of processor time]: shoot one unit; balance the k-d tree; build the grid; update\n"
     "the grid by one unit; estimate E of the whole picture, eye paths not included; rest: of the\n"
-    "picture without the estimate. total: shoot, the index that --map-index names, estimate, "
+    "picture, with an empty pool. total: shoot, the index that --map-index names, estimate, "
     "rest.\n"
     "Exit status: 0 done, 1 a failure (one line on stderr), 2 wrong usage.\n";
 

@@ -33,6 +33,7 @@ def _scene(context, scene, table):
     reference = context.references.get(scene, size)
     truth, points = pictures.read(reference.picture), []
     for paths, unit, frames in POOLS:
+        frames = frames // 2 if context.options.quick else frames
         job = Job(scene, size, ("--method", "photon-map", "--filter", "none", "--map-photons", str(paths),
                                 "--map-photons-per-frame", str(unit)))
         files = [path(context, f"{scene.name}_{paths}", seed) for seed in (1, 2)]
