@@ -31,7 +31,8 @@ def add_to(context, section):
 def _scene(context, scene, table):
     size = scene.size(context.options.width)
     reference = context.references.get(scene, size)
-    truth, points = pictures.read(reference.picture), []
+    halves = pictures.mean(reference.batches[0::2]), pictures.mean(reference.batches[1::2])
+    points = []
     for paths, unit, frames in POOLS:
         frames = frames // 2 if context.options.quick else frames
         job = Job(scene, size, ("--method", "photon-map", "--filter", "none", "--map-photons", str(paths),
@@ -40,21 +41,23 @@ def _scene(context, scene, table):
         for seed, file in enumerate(files, 1):
             context.programs.render(job, seed, ("--frames", frames), file)
         made = [pictures.read(file) for file in files]
-        bias = common_error(*made, truth) - reference.noise["relmse"]
-        entry = {"scene": scene.name, "paths": paths, "frames": frames, "relmse": common_error(made[0], made[0], truth),
-                 "bias": bias, "noise": reference.noise["relmse"]}
+        bias = common_error(*made, *halves)
+        entry = {"scene": scene.name, "paths": paths, "frames": frames,
+                 "relmse": context.programs.compare(files[0], reference.picture)["relmse"], "bias": bias,
+                 "noise": reference.noise["relmse"]}
         table.data.append(entry)
         table.rows.append([scene.name, str(paths), str(frames)] + [figure(entry[key]) for key in ("relmse", "bias", "noise")])
         points.append((paths, bias))
     return points
 
 
-def common_error(first, second, truth):
-    """relMSE of common/image/metrics.h with the product of two pictures' errors in place of a square: independent noise has
-    no part in its mean."""
+def common_error(x1, x2, r1, r2):
+    """relMSE of common/image/metrics.h with the product (x1 - r1)(x2 - r2) in place of a square: noise, which is independent in
+    all four pictures, has no part in its mean."""
+    truth = 0.5 * (r1.astype(numpy.float64) + r2)
     scale = 1 / pictures.luminance(truth).mean()
-    x, y, r = (scale * picture.astype(numpy.float64) for picture in (first, second, truth))
-    return float(((x - r) * (y - r) / (r * r + 0.01)).mean())
+    first, second = (scale * (x.astype(numpy.float64) - r) for x, r in ((x1, r1), (x2, r2)))
+    return float((first * second / ((scale * truth) ** 2 + 0.01)).mean())
 
 
 def slope(points):

@@ -18,8 +18,8 @@ TEXT = [
     "frame of the difference from the truth, halved, over the same: noise that is new in each frame has as much of it as of "
     "variance; what is only late has none. relMSE: mean of all frames on the circle, each against the truth of its moment, a pool "
     "of many more photons (tools/map_motion.h). Lag: frames until 95 % of a jump of the lamp is seen, beside 0.95 total/per-frame.",
-    "Bias: relMSE that stays when frames are averaged, against the path tracer at the same path length (none). Two runs of unlike seeds "
-    "are multiplied, (x1 - r)(x2 - r), so that their noise cancels; the reference's is taken off.",
+    "Bias: relMSE that stays when frames are averaged, against the path tracer at the same path length (none). Of two runs of unlike "
+    "seeds and two halves of the reference, (x1 - r1)(x2 - r2): noise cancels in the mean, and what is left of it may be below 0.",
     "Not here, as the program has no such things: estimates at the vertices of a subdivided mesh, and with them culling and corners "
     "(his Figures 26 and 27), and a simpler scene for the photons (Figure 25)."]
 

@@ -36,7 +36,8 @@ def _motion(context, flags, light, frames, *more):
 
 def _jump(context, flags):
     flags = replaced(flags, "--map-index", "grid")
-    return context.programs.photon_map(*BOX, *JUMP_SIZE, *flags, "--repeats", "0", "--light", "jump", "--runs", "1" if context.options.quick else "4")["motion"]
+    runs = "1" if context.options.quick else "4"
+    return context.programs.photon_map(*BOX, *JUMP_SIZE, *flags, "--repeats", "0", "--light", "jump", "--runs", runs)["motion"]
 
 
 def _guidelines(context, frames):

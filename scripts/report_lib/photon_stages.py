@@ -31,8 +31,8 @@ def add_to(context, section):
         _add_rule(section, scene, series)
         file, size = f"stages_{scene}.png", "%dx%d" % _size(context)
         plots.times(os.path.join(context.folder, file), series)
-        section.pictures.append(Picture(file, f"{scene}: ms of each stage of a frame, one thread, {size} pixels; 'total' is shoot, balance, "
-                                              "estimate and rest. Dotted: shooting time = balancing time", plot=True))
+        section.pictures.append(Picture(file, f"{scene}: ms of each stage of a frame, one thread, {size} pixels; 'total' is shoot, "
+                                              "balance, estimate and rest. Dotted: shooting time = balancing time", plot=True))
     section.tables.append(table)
 
 

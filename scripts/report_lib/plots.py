@@ -87,7 +87,7 @@ def times(path, series):
         axis.tick_params(labelsize=7)
         axis.title.set_fontsize(9)
         axis.grid(True, which="major", color="0.92")
-    axes.flat[0].legend(fontsize=7)
+    axes.flat[-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.02, 0.5))
     _finish(figure, path)
 
 
