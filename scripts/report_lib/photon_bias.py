@@ -53,11 +53,11 @@ def _scene(context, scene, table):
 
 def common_error(x1, x2, r1, r2):
     """relMSE of common/image/metrics.h with the product (x1 - r1)(x2 - r2) in place of a square: noise, which is independent in
-    all four pictures, has no part in its mean."""
+    all four pictures, has no part in its mean. Mean of that and of the same with r1 and r2 exchanged."""
     truth = 0.5 * (r1.astype(numpy.float64) + r2)
     scale = 1 / pictures.luminance(truth).mean()
-    first, second = (scale * (x.astype(numpy.float64) - r) for x, r in ((x1, r1), (x2, r2)))
-    return float((first * second / ((scale * truth) ** 2 + 0.01)).mean())
+    products = sum((x1.astype(numpy.float64) - a) * (x2.astype(numpy.float64) - b) for a, b in ((r1, r2), (r2, r1)))
+    return float((0.5 * scale ** 2 * products / ((scale * truth) ** 2 + 0.01)).mean())
 
 
 def slope(points):
