@@ -1,6 +1,5 @@
 """scripts/report: runs the sections that are asked for and writes the page."""
 import datetime
-import importlib
 import os
 import platform
 import subprocess
@@ -48,7 +47,7 @@ def run_sections(context, section):
     for name in context.options.sections:
         context.folder = section.fresh_folder(context.options.out, name)
         try:
-            made = importlib.import_module("report_lib." + name).run(context)
+            made = section.module_of(name).run(context)
         except Failure as failure:
             print(f"report: section {name}: {failure}", file=sys.stderr)
             well = False

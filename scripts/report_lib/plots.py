@@ -1,4 +1,5 @@
-"""Plots: error over time, one small log-log plot for each scene; virtual lights from above."""
+"""Plots: error over time, one small log-log plot for each scene; virtual lights from above; times of stages; what is there
+of a change; bias."""
 import math
 
 import matplotlib
@@ -23,9 +24,7 @@ def error_over_time(path, series, label, slope, floors):
     for axis, (scene, methods) in zip(axes.flat, series.items()):
         _one_scene(axis, scene, methods, label, slope, floors[scene])
     axes.flat[0].legend(fontsize=7)
-    with open(path, "wb") as file:
-        file.write(pictures.png_of_plot(figure))
-    plot.close(figure)
+    _finish(figure, path)
 
 
 def _one_scene(axis, scene, methods, label, slope, floor):
@@ -67,6 +66,60 @@ def plans(path, plans_of, camera):
         axis.set(title=title, aspect="equal", xlabel="x [m]", ylabel="z [m]")
         axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.2), ncols=3)
     axes.flat[0].invert_yaxis()
+    _finish(figure, path)
+
+
+STAGE_COLOURS = dict(zip(("shoot", "balance", "build", "update", "estimate", "rest"), COLOURS), total="black")
+
+
+def times(path, series):
+    """series: {title: (label, x, {stage: ms}, x where shooting takes as long as balancing or None)}."""
+    figure, axes = plot.subplots(1, len(series), figsize=(3.9 * len(series), 3.4), squeeze=False, layout="constrained")
+    for axis, (title, (label, x, stages, meets)) in zip(axes.flat, series.items()):
+        for stage, values in stages.items():
+            axis.plot(x, values, "o-", color=STAGE_COLOURS[stage], markersize=3, linewidth=1, label=stage)
+        if meets:
+            axis.axvline(meets, color="0.4", linewidth=0.8, linestyle=":")
+        axis.set(xscale="log", yscale="log", title=title, xlabel=label, ylabel="ms")
+        axis.set_xticks(x, [f"{value:g}" for value in x])
+        axis.xaxis.set_minor_formatter(NullFormatter())
+        axis.yaxis.set_major_formatter("{x:g}")
+        axis.tick_params(labelsize=7)
+        axis.title.set_fontsize(9)
+        axis.grid(True, which="major", color="0.92")
+    axes.flat[-1].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.02, 0.5))
+    _finish(figure, path)
+
+
+def answers(path, responses):
+    """responses: {label: what part of a change is there after 0, 1, ... frames}."""
+    figure, axis = plot.subplots(figsize=(5.2, 3.4), layout="constrained")
+    for colour, (label, response) in zip(COLOURS, responses.items()):
+        axis.plot(range(len(response)), response, "o-", color=colour, markersize=3, linewidth=1, label=label)
+    last = max(len(response) for response in responses.values()) - 1
+    axis.plot([0, last], [0, 1], color="0.7", linewidth=1, label="theory")
+    axis.axhline(0.95, color="0.4", linewidth=0.8, linestyle=":")
+    axis.set(xlabel="frames after the jump", ylabel="part of the change in mean luminance")
+    axis.legend(fontsize=7)
+    axis.grid(True, color="0.92")
+    _finish(figure, path)
+
+
+def bias(path, series, slopes):
+    """series: {scene: [(paths, bias)]}; slopes: of the line through each, or None."""
+    figure, axis = plot.subplots(figsize=(4.6, 3.4), layout="constrained")
+    for colour, (scene, points) in zip(COLOURS, series.items()):
+        seen = [(x, y) for x, y in points if y > 0]
+        text = f"{scene}, slope {slopes[scene]:.2f}" if slopes[scene] is not None else scene
+        if seen:
+            axis.plot(*zip(*seen), "o-", color=colour, markersize=3, linewidth=1, label=text)
+    axis.set(xscale="log", yscale="log", xlabel="paths of the pool", ylabel="relMSE of the mean")
+    axis.legend(fontsize=7)
+    axis.grid(True, color="0.92")
+    _finish(figure, path)
+
+
+def _finish(figure, path):
     with open(path, "wb") as file:
         file.write(pictures.png_of_plot(figure))
     plot.close(figure)

@@ -1,4 +1,4 @@
-"""Runs ninefold-master, ninefold-compare and ninefold-virtual-lights and gives back what they say. No figure is computed here."""
+"""Runs ninefold-master and the tools that measure, and gives back what they say. No figure is computed here."""
 import dataclasses
 import json
 import os
@@ -24,7 +24,7 @@ class Job:
 class Programs:
     def __init__(self, folder, clients, progress):
         self.folder, self.clients, self.progress = folder, clients, progress
-        for name in ("ninefold-master", "ninefold-client", "ninefold-compare", "ninefold-virtual-lights"):
+        for name in ("ninefold-master", "ninefold-client", "ninefold-compare", "ninefold-virtual-lights", "ninefold-photon-map"):
             if not os.access(os.path.join(folder, name), os.X_OK):
                 raise Failure(f"{folder} has no program {name}; build it, or name its folder by --programs")
 
@@ -47,6 +47,11 @@ class Programs:
         """The object of ninefold-virtual-lights."""
         self.progress(f"{job.scene.name} {' '.join(job.flags)} virtual lights of {frames} frames")
         return json.loads(self._call("ninefold-virtual-lights", *job.arguments(), "--frames", str(frames)))
+
+    def photon_map(self, *arguments):
+        """The object of ninefold-photon-map."""
+        self.progress(f"photon map: {' '.join(arguments)}")
+        return json.loads(self._call("ninefold-photon-map", *arguments))
 
     def _call(self, name, *arguments):
         command = [os.path.join(self.folder, name), *arguments]

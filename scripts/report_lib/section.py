@@ -1,6 +1,7 @@
 """A section of the report: what it says, its tables and its pictures. Kept as files, so that the page can be built of
 sections that were run on different days; each says when and of which commit it is."""
 import dataclasses
+import importlib
 import json
 import os
 import shutil
@@ -23,6 +24,11 @@ class Section:
     tables: list = dataclasses.field(default_factory=list)
     pictures: list = dataclasses.field(default_factory=list)
     made: dict = dataclasses.field(default_factory=dict)  # date, commit, machine, options
+
+
+def module_of(name):
+    """What makes the section: "photon-map" is made by photon_map.py."""
+    return importlib.import_module("report_lib." + name.replace("-", "_"))
 
 
 def fresh_folder(out, name):

@@ -3,7 +3,6 @@
 
 Run it from anywhere: tests/report/report_test.py
 """
-import importlib
 import os
 import pathlib
 import sys
@@ -15,7 +14,7 @@ import numpy
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from report_lib import blocks, crops, keep, measure, options, pictures, scenes, section, seconds_to_error, tables  # noqa: E402
+from report_lib import blocks, crops, keep, measure, options, photon_bias, photon_stages, pictures, scenes, section, seconds_to_error, tables  # noqa: E402
 from report_lib.references import Reference  # noqa: E402
 
 
@@ -92,7 +91,7 @@ def entry(seconds, relmse, noise=0.0):
 class EverySection(unittest.TestCase):
     def test_can_be_loaded(self):
         for name in options.SECTIONS:
-            self.assertTrue(callable(importlib.import_module("report_lib." + name).run), name)
+            self.assertTrue(callable(section.module_of(name).run), name)
 
 
 class SecondsToError(unittest.TestCase):
@@ -118,6 +117,34 @@ class SecondsToError(unittest.TestCase):
     def test_the_references_noise_is_taken_off(self):
         self.assertAlmostEqual(measure.net(entry(1, 0.3, noise=0.1), "relmse"), 0.3)
         self.assertIsNone(measure.net(entry(1, 0.02, noise=0.1), "relmse"))
+
+
+class PhotonMap(unittest.TestCase):
+    def test_curves_meet_where_they_must(self):
+        x = (25, 50, 100, 200, 400)
+        # a x and the constant b meet at b/a.
+        self.assertAlmostEqual(photon_stages.meeting(x, [0.01 * v for v in x], [0.7] * 5), 70)
+        self.assertAlmostEqual(photon_stages.meeting(x, [0.7] * 5, [0.01 * v for v in x]), 70)
+        self.assertAlmostEqual(photon_stages.meeting(x, [0.01 * v for v in x], [4.0] * 5), 400)
+        self.assertIsNone(photon_stages.meeting(x, [0.01 * v for v in x], [7.0] * 5))
+
+    def test_a_flag_is_replaced_or_added(self):
+        self.assertEqual(photon_stages.replaced(("--a", "1", "--b", "2"), "--a", 3), ("--b", "2", "--a", "3"))
+        self.assertEqual(photon_stages.replaced(("--a", "1"), "--c", 3), ("--a", "1", "--c", "3"))
+
+    def test_the_slope_is_that_of_the_power(self):
+        points = [(n, 7 * n ** -0.75) for n in (1e3, 1e4, 1e5)]
+        self.assertAlmostEqual(photon_bias.slope(points + [(1e6, -1e-9)]), -0.75)
+        self.assertIsNone(photon_bias.slope([(1e3, 1.0), (1e4, 0.0)]))
+
+    def test_noise_has_no_part_in_the_error_that_is_common(self):
+        random = numpy.random.default_rng(3)
+        noise = [random.standard_normal((200, 200, 3)) for _ in range(4)]
+        pictures_ = [2.2 + 0.4 * noise[0], 2.2 + 0.4 * noise[1], 2.0 + 0.02 * noise[2], 2.0 + 0.02 * noise[3]]
+        # Over the mean, 2: bias 0.1, noise 0.2. Standard error of the product's mean: 0.2^2/sqrt(120000) and sqrt(2) 0.1 x 0.2/...
+        self.assertAlmostEqual(photon_bias.common_error(*pictures_), 0.01 / 1.01, delta=6e-4)
+        pictures_[1] = pictures_[0]
+        self.assertAlmostEqual(photon_bias.common_error(*pictures_), (0.01 + 0.04) / 1.01, delta=2e-3)
 
 
 class Pictures(unittest.TestCase):
