@@ -3,6 +3,7 @@ each step depends on all before it (common/gi/state_check). Builds for tests hav
 """
 import json
 import re
+import subprocess
 import unittest
 
 from programs import BIN, SCENES, ClusterTest, signal
@@ -95,10 +96,27 @@ class State(ClusterTest):
         self.assertEqual(master.ends(), 1, master.text)
         self.assertRegex(master.text, "sum 7 of page 1.0 of a method's state overflows")
 
-    def test_releases_lack_it(self):
-        said = self.start(BIN / "ninefold-master", "--help")
-        self.assertEqual(said.ends(), 0)
-        self.assertFalse(re.search("state-check", said.text))
+    def test_a_task_is_done_again_by_the_same_state(self):
+        """By the flags of a headless run the state is made anew, step by step."""
+        hashes = set()
+        for frame in (0, 3):
+            hashes.add(self.replayed("--size", self.SIZE, *self.METHOD, "--frame", frame))
+        self.assertEqual(len(hashes), 2)
+        self.new_key()
+        master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=4)
+        recorder = self.start(BIN / "ninefold-client", "--master", self.address_of(master), "--key-file", "cluster.key",
+                              "--threads", 1, "--cache", "none", "--record", "run.bin")
+        self.finish(master)
+        self.assertEqual(recorder.ends(), 0, recorder.text)
+        last = 7  # number of the last frame: each has a step before it
+        self.assertIn(self.replayed("--recording", "run.bin", "--frame", last), hashes)
+
+    def replayed(self, *options):
+        """The hash of a task's tile, done again."""
+        done = subprocess.run([BIN / "ninefold-replay-task", SCENES / "cornell.glb", *map(str, options), "--tile", "0",
+                               "--phase", "0"], cwd=self.folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return re.search(r"hash (\w+)", done.stdout).group(1)
 
 
 if __name__ == "__main__":
