@@ -215,6 +215,7 @@ void Program::runUnit(const RenderJob& job, const act::StartSteps& action, uint3
   try {
     msg::Stepped done = job.step(steps.step, unit, *action.state, now);
     watchdog_.end(thread);
+    if (recorder_) recorder_->add(done);
     later([this, line = action.line, done = std::move(done)]() mutable {
       session_.unitFinished(line, std::move(done));
     });

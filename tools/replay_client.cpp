@@ -126,6 +126,9 @@ class ReplayClient {
     for (const msg::TaskItem& item : m.items) take(m.frame, item, m.urgent);
     answerDue();
   }
+  void on(msg::Steps&) {
+    stop("the master's method has a state, whose steps no recording can answer; choose another");
+  }
   template <typename Other>
   void on(Other&) {}
 

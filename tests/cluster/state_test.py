@@ -111,6 +111,19 @@ class State(ClusterTest):
         last = 7  # number of the last frame: each has a step before it
         self.assertIn(self.replayed("--recording", "run.bin", "--frame", last), hashes)
 
+    def test_replay_clients_say_that_they_cannot_answer_steps(self):
+        self.new_key()
+        master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=2)
+        recorder = self.start(BIN / "ninefold-client", "--master", self.address_of(master), "--key-file", "cluster.key",
+                              "--threads", 1, "--cache", "none", "--record", "run.bin")
+        self.finish(master)
+        self.assertEqual(recorder.ends(), 0, recorder.text)
+        master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=2)
+        replay = self.start(BIN / "ninefold-replay-client", "--master", self.address_of(master), "--key-file",
+                            "cluster.key", "--recording", "run.bin")
+        self.assertEqual(replay.ends(), 1, replay.text)
+        self.assertRegex(replay.text, "has a state, whose steps no recording can answer")
+
     def replayed(self, *options):
         """The hash of a task's tile, done again."""
         done = subprocess.run([BIN / "ninefold-replay-task", SCENES / "cornell.glb", *map(str, options), "--tile", "0",
