@@ -43,7 +43,7 @@ struct Settings {
   int mapPhotons = 2000;                             // paths of the rolling pool
   int mapPerFrame = 100;                             // of them shot anew by one unit; divides them
   int mapNearest = 100;                              // m: hits that tell the light at a point
-  float mapDistance = 0.25f;             // D: how far away they may be, as a fraction of R
+  float mapDistance = 0.125f;            // D: how far away they may be, as a fraction of R
   MapDirect mapDirect = MapDirect::off;  // whether the light straight from lamps is the pool's
   MapDistribution mapDistribution = MapDistribution::nets;
   MapIndex mapIndex = MapIndex::grid;

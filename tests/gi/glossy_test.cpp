@@ -119,7 +119,7 @@ TEST(Glossy, StepsOnMetalAgreeWithThePathTracer) {
   const auto reference = testing::render(tracer, testing::reference().settings, 256);
   for (testing::Estimator& e : testing::othersThanReference()) {
     e.settings.photonRadius = Settings{}.photonRadius;
-    const auto image = testing::render(tracer, e.settings, 256);
+    const auto image = testing::render(tracer, e.settings, 512);
     const double bias = e.facts().bias != nullptr ? 0.07 : 2e-3;
     EXPECT_NEAR(image.grey(), reference.grey(),
                 4 * std::hypot(image.error(), reference.error()) + bias * reference.grey())
