@@ -1,5 +1,5 @@
-// settings_wire.h: Settings, FrameKey and StepKey as protobuf messages. Internal to messages_decode and
-// messages_encode.
+// settings_wire.h: Settings, FrameKey and StepKey as protobuf messages. Internal to messages_decode
+// and messages_encode.
 // Errors: fromWire throws Error that names what is out of range, unknown, missing or there twice.
 // Threads: pure functions.
 #pragma once

@@ -1,7 +1,8 @@
 // fixed_point.h: light as whole numbers, so that sums of it are exact in any order.
 //
-//   u = 2^(16 j - 40) W   with 2^(16 j) <= Phi < 2^(16 j + 16)       quantum; Phi: all lamps' flux [W]
-//   n = round(x / u)                                                 a deposit x [W]
+//   u = 2^(16 j - 40) W   with 2^(16 j) <= Phi < 2^(16 j + 16)    quantum
+//   n = round(x / u)                                              a deposit x [W]
+//   Phi                                                           flux of all lamps [W]
 //
 // A photon of Phi / 2^20 has at least 2^20 u, and a sum that has all of Phi at most 2^56 u. So a
 // deposit errs by less than a millionth, and a sum has room for 2^7 times Phi. A scene whose Phi

@@ -60,44 +60,25 @@ Page added(const PageDelta& delta, const Page* before) {
 }  // namespace
 
 void StatePages::apply(const PageDeltas& deltas) {
-  StatePages next = *this;
+  std::map<PageId, Shared> changed;
   for (const PageDelta& delta : deltas) {
-    Shared& page = next.pages_[delta.page];
-    if (page) next.hash_ -= hashOf(delta.page, *page);
-    page = std::make_shared<const Page>(std::holds_alternative<Records>(delta.change)
-                                            ? replaced(delta, page.get())
-                                            : added(delta, page.get()));
-    next.hash_ += hashOf(delta.page, *page);
+    const auto again = changed.find(delta.page);
+    const Page* before = again != changed.end() ? again->second.get() : find(delta.page);
+    changed[delta.page] = std::make_shared<const Page>(std::holds_alternative<Records>(delta.change)
+                                                           ? replaced(delta, before)
+                                                           : added(delta, before));
   }
-  *this = std::move(next);
+  for (auto& [id, page] : changed) {
+    Shared& mine = pages_[id];
+    if (mine) hash_ -= hashOf(id, *mine);
+    hash_ += hashOf(id, *page);
+    mine = std::move(page);
+  }
 }
 
 const Page* StatePages::find(PageId page) const {
   const auto found = pages_.find(page);
   return found == pages_.end() ? nullptr : found->second.get();
-}
-
-size_t StatePages::bytes() const {
-  size_t sum = 0;
-  for (const auto& [id, page] : pages_)
-    sum += std::holds_alternative<Sums>(*page) ? kPageBytes : std::get<Records>(*page).size();
-  return sum;
-}
-
-PageDeltas deltasTo(const StatePages& pages) {
-  PageDeltas deltas;
-  for (const auto& [id, page] : pages.all()) {
-    if (const auto* records = std::get_if<Records>(page.get())) {
-      deltas.push_back({id, *records});
-      continue;
-    }
-    std::vector<SumChange> changes;
-    const Sums& sums = std::get<Sums>(*page);
-    for (size_t place = 0; place < sums.size(); ++place)
-      if (sums[place] != 0) changes.push_back({static_cast<uint16_t>(place), sums[place]});
-    deltas.push_back({id, std::move(changes)});
-  }
-  return deltas;
 }
 
 }  // namespace ninefold

@@ -26,7 +26,6 @@ class StatePages {
   // Null: nobody has written it.
   const Page* find(PageId page) const;
   const std::map<PageId, Shared>& all() const { return pages_; }
-  size_t bytes() const;
 
   // Of all pages; equal for equal states, whatever led to them.
   uint64_t hash() const { return hash_; }
@@ -35,8 +34,5 @@ class StatePages {
   std::map<PageId, Shared> pages_;
   uint64_t hash_ = 0;  // sum of the pages' own, so that the order of changes does not count
 };
-
-// `deltas` that make the empty state these pages.
-PageDeltas deltasTo(const StatePages& pages);
 
 }  // namespace ninefold

@@ -62,9 +62,9 @@ struct Cancellation {
   bool operator==(const Cancellation&) const = default;
 };
 
-// "frame 3, tile 5, set 2", "step 4, unit 7 of it"
+// "frame 3, tile 5, set 2", "step 4, unit 7"
 inline std::string nameOf(const HeldTask& held) {
-  if (held.isStep) return fmt::format("step {}, unit {} of it", held.task.frame, held.task.tile);
+  if (held.isStep) return fmt::format("step {}, unit {}", held.task.frame, held.task.tile);
   return fmt::format("frame {}, tile {}, set {}", held.task.frame, held.task.tile, held.set);
 }
 

@@ -68,8 +68,11 @@ void Server::withPeer(ClientId id, Event event) {
 }
 
 void Server::carryOut(Handle& peer, Time now) {
-  for (todo::Action& action : peer.second.session->takeActions())
-    std::visit([&](auto& a) { on(peer, std::move(a), now); }, action);
+  ClientSession& session = *peer.second.session;
+  // Carrying one out may expel the client, which gives more of them.
+  for (auto actions = session.takeActions(); !actions.empty(); actions = session.takeActions())
+    for (todo::Action& action : actions)
+      std::visit([&](auto& a) { on(peer, std::move(a), now); }, action);
 }
 
 void Server::on(Handle& peer, todo::Send&& a, Time) {

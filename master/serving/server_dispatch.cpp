@@ -91,7 +91,8 @@ void Server::open(const StepOrder& order, Time now) {
   forgetStates();
 }
 
-// Versions that nothing open names, and that nothing new will: the latest may be.
+// Versions that nothing open names. The latest may be named yet: frames are opened in the order of
+// versions, and a step only while one version at most waits for its frame (StatePlan).
 void Server::forgetStates() {
   uint32_t oldest = state_.version();
   for (const auto& [number, frame] : open_) oldest = std::min(oldest, frame.key.state);

@@ -89,6 +89,7 @@ class ServerTest : public testing::Test {
       return order;
     };
     duty.take = [this](ReceivedTile& tile) {  // "decodes" later, as an assembly would
+      if (!hasRoom) return false;
       loop.post([this, tile] { server->decoded(tile, judge(tile), Clock::now()); });
       return true;
     };
@@ -142,6 +143,7 @@ class ServerTest : public testing::Test {
     return std::nullopt;
   };
   uint32_t frames = 3, opened = 0, firstUrgent = ~0u, givenUp = 0;
+  bool hasRoom = true;
   std::unique_ptr<Server> server;
   std::vector<std::unique_ptr<PlayedClient>> played;
 };
@@ -168,6 +170,20 @@ TEST_F(ServerTest, AMalformedResultIsCountedItsSenderExpelledAndTheWorkDoneByAno
   until([this] { return server->tally().tasks.completedFrames == frames; });
   EXPECT_GE(server->tally().malformed, 1u);
   EXPECT_GE(server->tally().tasks.reissued, 1u);
+}
+
+// It says nothing more, so that nothing else would remind the master of it.
+TEST_F(ServerTest, WhoIsExpelledWhileItsResultIsTakenIsToldAtOnce) {
+  hasRoom = false;
+  bool answered = false;
+  PlayedClient& bad = play([&](PlayedClient& c, const msg::Tasks& tasks) {
+    if (!std::exchange(answered, true)) c.answer(tasks, 0);
+  });
+  until([&] { return bad.closed; });
+  EXPECT_NE(bad.refusal.find("more results than were asked for"), std::string::npos);
+  hasRoom = true;
+  play([](PlayedClient& c, const msg::Tasks& tasks) { c.answerAll(tasks); });
+  until([this] { return server->tally().tasks.completedFrames == frames; });
 }
 
 TEST_F(ServerTest, AClientThatLeavesInTheMiddleIsReplacedAtOnce) {

@@ -6,18 +6,23 @@
 //
 //   m    --map-nearest          D    --map-distance times R [m]
 //
-// x accepts a hit within D if it landed on x's side, its normal is within 60 degrees of x's, it lies
-// within D/8 of x's tangent plane, and its path together with the eye path has no more D vertices
-// than allowed. (Without the bound on height a surface behind a picture on the wall counts as
-// surface, and darkens the picture.) Of equally far ones the first in page order is nearer.
+// x accepts a hit within D if
+//   - it landed on x's side,
+//   - its normal is within 60 degrees of x's,
+//   - it lies within D/8 of x's tangent plane. Without this the wall behind a picture would count
+//     as surface, and the picture would be too dark.
+//   - its path and the eye path together have no more D vertices than allowed.
+// Of equally far hits the first in page order is nearer.
 //
 // The m-th tells r and is not counted: if hits are spread evenly and by chance, the mean of
 // (m-1)/(pi r^2) is their density, that of m/(pi r^2) m/(m-1) times it. With fewer than m within D
 // all of them count; both cases together are right in the mean, too.
 //
 // Receivers of a task lie together. They are halved by place until groups of up to 32 are left that
-// are small beside r. A group shares one search: for the nearest of the one in its middle, and then for all hits within reach of any. Whose m nearest might lie further
-// away searches alone. So what a receiver finds does not depend on its group.
+// are small beside r. A group shares one search: first for the m nearest of the receiver in its
+// middle, then for all hits within reach of any receiver. A receiver whose m nearest might lie
+// further away searches alone. So what a receiver finds does not depend on its group. The rays that
+// tell f are the group's, so that f does depend on it, by its noise.
 //
 // Source:  Jensen 2001, 7; Jozwowski 2002, 3.3 (m nearest within a distance). Moore and Yackel 1977
 //          (m - 1). Groups: made for this project.
@@ -46,7 +51,7 @@ struct MapGatherScratch {
   SurfaceCover cover;
 };
 
-// Adds E of the pool to receivers. pathVertices as in layered_method.h; randomization: of the frame.
+// Adds E of the pool to receivers. pathVertices: as in layered_method.h. randomization: the frame's.
 void gatherPool(const Transport& transport, const PhotonPool& pool, int pathVertices,
                 uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
                 RayCounts& rays);

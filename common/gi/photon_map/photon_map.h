@@ -1,16 +1,16 @@
-// photon_map.h: photon mapping with a rolling pool. The state is a ring of photon paths of which the
-// oldest are shot anew, frame by frame (shooting.h). The light at x:
+// photon_map.h: photon mapping with a rolling pool. The state is a ring of photon paths. The oldest
+// of them are shot anew, frame by frame (shooting.h). The light at x:
 //
 //   last turn before x          who brings it
 //   none: straight from a lamp  direct VPLs, and compensation of their bound: L_e alone;
-//                               with --map-direct the pool, and neither of them
+//                               with --map-direct on the pool, and neither of them
 //   D, or a glossy lobe         the pool: the m nearest hits (map_gather.h)
 //   any other S lobe            caustic photons (caustic_photons.h)
 //
-// ...D S+ D starts at light-path vertices that are traced for that alone.
+// Photons of ...D S+ D start at light-path vertices that are traced for that alone.
 //
-// The pool keeps light while lamps and things move: light of P = total/per-frame frames ago goes
-// out with the last photon of that time.
+// The pool lags while lamps and things move: old light is gone after P = total/per-frame frames,
+// with the last photon that brought it.
 //
 // Source:  Jozwowski, "Real Time Photon Mapping", 2002; Jensen 2001.
 // Proved:  tests/gi (all tests over the table of methods; photon_map_test.cpp).
