@@ -10,8 +10,8 @@
 namespace ninefold {
 
 // The pages that light frame `frame` of a run at rest, counted from 0, which is also its
-// randomization; none for methods without a state. settings: those of the renderer. Adds the rays to
-// `rays` if not null.
+// randomization; none for methods without a state. settings: those of the renderer. Adds the rays
+// to `rays` if not null.
 StatePages stateAtRest(const Renderer& renderer, const Settings& settings, uint32_t frame,
                        RayCounts* rays = nullptr);
 

@@ -1,8 +1,8 @@
 // settings_check.h: settings that are each within range and yet too much together. Ranges of their
 // own: settings_table.h.
 //
-// Candidates of a light set of a method with reverse VPLs, their worth for M camera points, and sums
-// kept apart by path length take memory (gi/bidirectional):
+// Candidates of a light set of a method with reverse VPLs, their worth for M camera points, and
+// sums kept apart by path length take memory (gi/bidirectional):
 //
 //   n = r (direct + 2 indirect VPLs) <= 2^20,   n M <= 2^26,   path length <= 64, or 0 for no limit
 //

@@ -3,8 +3,8 @@
 //
 //   duty.nextWork -> cluster -> tiles -> assembly -> duty.finishTile -> next
 //
-// Threads: nextWork, tileCame, giveUp and stepDone are called on the network thread, finishTile on a
-// worker's; everything else from any thread.
+// Threads: nextWork, tileCame, giveUp and stepDone are called on the network thread, finishTile on
+// a worker's; everything else from any thread.
 // Owner: the run; ends all its threads when destroyed.
 // Errors: the constructor throws Error (cannot listen, bad key); cluster().failure() tells what
 // ends the run later.

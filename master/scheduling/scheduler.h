@@ -19,8 +19,8 @@
 //   lost        Its tasks go back to the front of their queues at once.
 //   suspect     It holds tasks and gives no result for too long. As lost, but its results stay
 //               welcome, and it gets one task on trial when it is heard of again.
-//   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A change
-//               of the view leaves them.
+//   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A
+//               change of the view leaves them.
 //   stuck       It is at work on a task past its deadline. As a suspect, but heartbeats do not
 //               help: it gets nothing until it gives a result. Actions::notes tell.
 //

@@ -52,8 +52,8 @@ struct Assignment {
   bool operator==(const Assignment&) const = default;
 };
 
-// Tell this client to forget its tasks of all frames, or units of all steps, before firstWanted. Its
-// credit is given back at once, so it need not answer; what it sends all the same is dropped as
+// Tell this client to forget its tasks of all frames, or units of all steps, before firstWanted.
+// Its credit is given back at once, so it need not answer; what it sends all the same is dropped as
 // stale.
 struct Cancellation {
   ClientId client = 0;

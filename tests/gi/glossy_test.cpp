@@ -68,9 +68,9 @@ SceneBuilder plateOverFloor(Vec3 x, const PunctualLight& spot) {
 
 constexpr testing::Tolerance kTolerance{.frames = 128, .bias = 5e-3, .error = 0.03};
 
-// At some distance, and so near that G is bounded. The plate is a thousandth of the disks over which
-// a pool's photons are counted, and only one ray in 32 tells how much of a disk there is: biased
-// methods show it too dark.
+// At some distance, and so near that G is bounded. The plate is a thousandth of the disks over
+// which a pool's photons are counted, and only one ray in 32 tells how much of a disk there is:
+// biased methods show it too dark.
 TEST(Glossy, FloorLightsWhatIsAboveIt) {
   for (const float height : {0.3f, 0.05f}) {
     const PunctualLight spot = spotAt(Vec3(-0.2f, 0.5f, 0), Vec3(0, -1, 0));
@@ -102,8 +102,8 @@ TEST(Glossy, MirroredLightIsWholeNearTheFloor) {
 }
 
 // The wall of a step that stands on glossy metal, just above the floor, as the path tracer sees it:
-// photons of the default radius spill over the edge. Biased methods blur the wall's light over all of
-// the step, 7 % at most.
+// photons of the default radius spill over the edge. Biased methods blur the wall's light over all
+// of the step, 7 % at most.
 TEST(Glossy, StepsOnMetalAgreeWithThePathTracer) {
   SceneBuilder b;
   b.box(b.material(testing::matte(Vec3(0.6f))), Vec3(-1), Vec3(1), true);

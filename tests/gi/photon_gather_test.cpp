@@ -142,8 +142,8 @@ float meanCover(const World& world, Vec3 x, float r) {
 }
 
 // A half at a straight edge, a quarter in a corner; nearer than r to an edge, the disk without its
-// segment: 1 - (acos t - t sqrt(1 - t^2))/pi at t r from the edge. Bias: the ray in the middle counts
-// for the edge itself.
+// segment: 1 - (acos t - t sqrt(1 - t^2))/pi at t r from the edge. Bias: the ray in the middle
+// counts for the edge itself.
 TEST(SurfaceCover, IsThePartOfADiskThatThereIs) {
   SceneBuilder b = floorOf();
   const World world(b);
@@ -187,8 +187,8 @@ TEST(SurfaceCover, ASheetSeenFromItsBackCounts) {
 }
 
 // Two rooms with a wall between them, a lamp in one. On the other side of the wall it is dark: hits
-// there landed on the other side. On the floor of the dark room light leaks in, as far as r: photons
-// of the lit floor are near, and of its side. More than r away it is black.
+// there landed on the other side. On the floor of the dark room light leaks in, as far as r:
+// photons of the lit floor are near, and of its side. More than r away it is black.
 TEST(PhotonGather, LeaksUnderAPartitionNoFurtherThanItsDisks) {
   const auto picture = [](Vec3 eye, Vec3 target) {
     SceneBuilder b;

@@ -88,8 +88,8 @@ std::vector<uint32_t> unitsFrom(uint32_t first, uint32_t count) {
 }
 
 // In a closed room all flux arrives: Phi in straight hits, whatever the ring has gone through. With
-// one lamp each path carries Phi/total exactly. Of several, lamps are chosen nearly in proportion to
-// power, and 400 paths tell their shares to a few percent.
+// one lamp each path carries Phi/total exactly. Of several, lamps are chosen nearly in proportion
+// to power, and 400 paths tell their shares to a few percent.
 TEST(PhotonMap, ThePoolHoldsTheLampsFluxAtEachMoment) {
   const Scene scene = litRoom();
   const Tracer tracer(scene, Isa::automatic);
@@ -270,8 +270,8 @@ testing::Estimator large(MapDirect direct, int pathLength) {
   return e;
 }
 
-// Bias: 2 % of the mean, blur over edges of walls and things; and 3 % with direct light in the pool,
-// whose shadows' edges and the lamp's surroundings blur.
+// Bias: 2 % of the mean, blur over edges of walls and things; and 3 % with direct light in the
+// pool, whose shadows' edges and the lamp's surroundings blur.
 void expectEachPathOnce(int length, int frames) {
   const Scene scene = mixedRoom();
   const Tracer tracer(scene, Isa::automatic);

@@ -31,8 +31,8 @@ std::vector<NearKey> byIndex(const Index& index, Vec3 x, size_t m, float most2) 
   return nearest.sorted();
 }
 
-// How points lie: evenly in a cube, on walls, on a lattice with many equally far ones, all but a few
-// in one place, on a line far from the origin.
+// How points lie: evenly in a cube, on walls, on a lattice with many equally far ones, all but a
+// few in one place, on a line far from the origin.
 enum class Lie { cube, walls, lattice, clump, line };
 
 class Points {

@@ -1,6 +1,6 @@
-// The protocol's number is raised with what is spoken: digests of the messages' text, of tiles, of a
-// scene and of a state stand beside it. What is digested here is made by formulas, without compression, so
-// that only a change of the format changes it.
+// The protocol's number is raised with what is spoken: digests of the messages' text, of tiles, of
+// a scene and of a state stand beside it. What is digested here is made by formulas, without
+// compression, so that only a change of the format changes it.
 #include "proto/wire_version.h"
 
 #include <gtest/gtest.h>

@@ -85,8 +85,8 @@ TEST(Methods, LightIsSharedByViewsUnlessItIsMadeForOne) {
   }
 }
 
-// A state is kept while what it is made of stays: the camera, what is asked of it, and light that it
-// has no part in may change.
+// A state is kept while what it is made of stays: the camera, what is asked of it, and light that
+// it has no part in may change.
 TEST(Methods, AStateIsKeptUnderOtherViewsAndBegunAnewForOtherSeeds) {
   for (const MethodFacts& facts : allMethods()) {
     if (facts.state == nullptr) continue;

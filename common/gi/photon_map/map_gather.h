@@ -51,7 +51,8 @@ struct MapGatherScratch {
   SurfaceCover cover;
 };
 
-// Adds E of the pool to receivers. pathVertices: as in layered_method.h. randomization: the frame's.
+// Adds E of the pool to receivers. pathVertices: as in layered_method.h. randomization: of the
+// frame, turns the rays that tell f.
 void gatherPool(const Transport& transport, const PhotonPool& pool, int pathVertices,
                 uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
                 RayCounts& rays);

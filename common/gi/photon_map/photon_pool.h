@@ -1,7 +1,7 @@
 // photon_pool.h: the hits of one version of the state, ready to be found by place.
 //
-// Index: photon_cells.h or photon_tree.h (--map-index). Both find the same, so that it decides about
-// time alone. Photons are named by their place in page order.
+// Index: photon_cells.h or photon_tree.h (--map-index). Both find the same, so that it decides
+// about time alone. Photons are named by their place in page order.
 //
 // Threads: const after construction.   Errors: none.
 #pragma once

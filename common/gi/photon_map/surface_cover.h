@@ -1,13 +1,13 @@
-// surface_cover.h: how much surface lies around points that are near each other: what part of a disk
-// around x may be hit by photons that count at x. At the edge of a wall part of the disk is empty,
-// and flux over pi r^2 alone would lose energy there.
+// surface_cover.h: how much surface lies around points that are near each other: what part of a
+// disk around x may be hit by photons that count at x. At the edge of a wall part of the disk is
+// empty, and flux over pi r^2 alone would lose energy there.
 //
 //   f(x, r) = sum 1/cos_j over what rays met within r of x / number of rays through x's disk
 //
-// The rays go along -n through a pattern on one disk that covers those of all the points: 32 through
-// the smallest. Each counts where it first meets a surface that accepts photons, as far off x's
-// tangent plane as photons may be: what lies below that (a floor under a carpet, a wall behind a
-// picture) gets no light. cos_j: between n and the normal that was met. So f is exactly 1 in the
+// The rays go along -n through a pattern on one disk that covers those of all the points: 32
+// through the smallest. Each counts where it first meets a surface that accepts photons, as far off
+// x's tangent plane as photons may be: what lies below that (a floor under a carpet, a wall behind
+// a picture) gets no light. cos_j: between n and the normal that was met. So f is exactly 1 in the
 // middle of a plane.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; shared rays were made for this

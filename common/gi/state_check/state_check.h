@@ -1,9 +1,13 @@
-// state_check.h: a method for tests of states alone. Its light tells which state lit it, to the bit:
+// state_check.h: a method for tests of states alone. Its light tells which state lit it, bit for bit:
 //
-//   unit n of a step   page (0, n mod 6) gets 8 bytes of its own, and three sums of page (1, 0) and
-//                      one of page (1, 1) get an amount of its own added; all are hashes of the
-//                      settings' seed, the step's randomization, n, and the state that it began from
-//   E = pi (0.5 + h 2^-33),  h  the upper half of the state's hash      the same everywhere [W/m^2]
+//   E = pi (0.5 + h 2^-33)     h: upper half of the state's hash     the same everywhere [W/m^2]
+//
+// Unit n of a step changes the state by amounts that are hashes of the settings' seed, the step's
+// randomization, n, and the state that the step began from:
+//
+//   page (0, n mod 6)    records: 8 bytes
+//   page (1, 0)          three sums, of which one is taken from
+//   page (1, 1)          one sum, the page's last
 //
 // So a picture is right only if each of its steps was, from the first one on. With seed 0 a sum
 // overflows in the second step.
