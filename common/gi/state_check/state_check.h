@@ -1,4 +1,5 @@
-// state_check.h: a method for tests of states alone. Its light tells which state lit it, bit for bit:
+// state_check.h: a method for tests of states alone. Its light tells, bit for bit, which state lit
+// it:
 //
 //   E = pi (0.5 + h 2^-33)     h: upper half of the state's hash     the same everywhere [W/m^2]
 //
