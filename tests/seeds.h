@@ -47,7 +47,7 @@ class Repeatable {
   Repeatable& operator=(const Repeatable&) = delete;
 
   static std::string commandFor(uint64_t seed) {
-    const testing::TestInfo& test = *testing::UnitTest::GetInstance()->current_test_info();
+    const ::testing::TestInfo& test = *::testing::UnitTest::GetInstance()->current_test_info();
     return fmt::format("NINEFOLD_TEST_SEED={} {} --gtest_filter={}.{}", seed,
                        std::filesystem::read_symlink("/proc/self/exe").string(),
                        test.test_suite_name(), test.name());
@@ -55,7 +55,7 @@ class Repeatable {
 
  private:
   static inline std::string line_;
-  const testing::ScopedTrace trace_;
+  const ::testing::ScopedTrace trace_;
   void (*before_)(int);
 };
 

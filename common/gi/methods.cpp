@@ -5,6 +5,7 @@
 #include "common/gi/photon_map/photon_map.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
+#include "common/gi/selective/selective.h"
 #ifdef NINEFOLD_TEST_METHODS
 #include "common/gi/state_check/state_check.h"
 #endif
@@ -21,6 +22,8 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
       return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
     case Method::photonMap:
       return std::make_unique<const PhotonMap>(t);
+    case Method::selective:
+      return std::make_unique<const Selective>(t);
 #ifdef NINEFOLD_TEST_METHODS
     case Method::stateCheck:
       return std::make_unique<const StateCheck>(t);

@@ -49,7 +49,8 @@ enum class SampleUse : uint32_t {
   cameraPoint,
   reverseVpl,
   resampling,
-  mapPhoton
+  mapPhoton,
+  groupPhoton
 };
 
 // The least m with 2^m >= n: LightSampler's log2Count for n points.
@@ -106,6 +107,8 @@ class LightSampler {
   Vec2 get2D(uint32_t i, uint32_t dimension) const {
     return sobol_.get2D(firstIndex_ + i, dimension, mask_);
   }
+  // Of a light path that goes on from D: see gi/light/light_path.h. The last number is for others.
+  Vec2 diffuseDirection(uint32_t i, uint32_t dimension, float) const { return get2D(i, dimension); }
 
  private:
   PaddedSobol sobol_;

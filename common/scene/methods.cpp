@@ -7,6 +7,7 @@
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
 //     n = p (11 + d) + d + 4 f       photon map: d direct VPLs, and eight rays that tell how much
 //                                    surface is around; a unit of its state: 4 rays a path
+//     n = p (3 + d) + d + 4 f        selective photons; a unit of its state: 4 rays a photon
 #include "common/scene/methods.h"
 
 #include <fmt/format.h>
@@ -62,6 +63,34 @@ constexpr StateFacts kMapState{
     .rays = [](const Settings& s) { return 4.0 * s.mapPerFrame; },
     .beginsAnew = true,
     .isKept = haveSameMap,
+};
+
+double selectiveRays(const Settings& s, double pixels) {
+  return pixels * (3 + s.directVpls) + s.directVpls + 4.0 * s.photons;
+}
+
+// Photons that a step in motion traces, about: as long as a frame on a few cores.
+constexpr int kPhotonsInMotion = 1 << 14;
+
+uint32_t groupsInMotion(const Settings& s) {
+  const int photonsOfEach = std::max(s.photonPool / s.photonGroups, 1);
+  return static_cast<uint32_t>(std::clamp(kPhotonsInMotion / photonsOfEach, 1, s.photonGroups));
+}
+
+// Photons go by few settings; what elements make of them is no part of the state.
+bool haveSameGroups(const Settings& before, const Settings& after) {
+  return before.photonPool == after.photonPool && before.photonGroups == after.photonGroups &&
+         before.pilotRatio == after.pilotRatio && before.seed == after.seed &&
+         before.pathLength == after.pathLength && before.specularDepth == after.specularDepth &&
+         before.environment == after.environment;
+}
+
+constexpr StateFacts kSelectiveState{
+    .unitsOfAll = [](const Settings& s) { return static_cast<uint32_t>(s.photonGroups); },
+    .unitsInMotion = groupsInMotion,
+    .rays = [](const Settings& s) { return 4.0 * s.photonPool / s.photonGroups; },
+    .beginsAnew = true,
+    .isKept = haveSameGroups,
 };
 
 #ifdef NINEFOLD_TEST_METHODS
@@ -120,6 +149,19 @@ constexpr std::array kTable{
                 .rays = mapRays,
                 .state = &kMapState,
                 .bias = "light that has bounced is blurred over as wide as its nearest photons"},
+    MethodFacts{.method = Method::selective,
+                .name = "selective-photons",
+                .title = "selective photons",
+                .help = "keeps light in mesh elements and renews first what an edit concerns; "
+                        "blurs bounced light",
+                .parts = kDirectVpls | kCausticPhotons | kElementPhotons,
+                .isUnfiltered = false,
+                .lightNeedsView = false,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = selectiveRays,
+                .state = &kSelectiveState,
+                .bias = "light that has bounced is blurred over as wide as mesh elements are"},
 #ifdef NINEFOLD_TEST_METHODS
     MethodFacts{.method = Method::stateCheck,
                 .name = "state-check",

@@ -23,7 +23,8 @@ enum LightPart : uint8_t {
   kIndirectVpls = 2,
   kCausticPhotons = 4,
   kReverseVpls = 8,
-  kMapPhotons = 16  // of a pool that outlives frames
+  kMapPhotons = 16,     // of a pool that outlives frames
+  kElementPhotons = 32  // of a pool, kept as light of mesh elements
 };
 inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 

@@ -19,6 +19,7 @@ enum class Method : uint8_t {
   pathTrace,
   bidirectional,
   photonMap,
+  selective,
 #ifdef NINEFOLD_TEST_METHODS
   stateCheck,  // for tests alone (gi/state_check)
 #endif
@@ -28,6 +29,7 @@ enum class PartitionRule : uint8_t { balance, equal };
 enum class MapDistribution : uint8_t { random, frame, turn, nets };  // photon_map/shooting.h
 enum class MapIndex : uint8_t { grid, tree };
 enum class MapDirect : uint8_t { off, on };
+enum class ElementRule : uint8_t { linear, buckets };  // selective/element_light.h
 
 struct Settings {
   Method method = Method::instantRadiosity;
@@ -47,6 +49,11 @@ struct Settings {
   MapDirect mapDirect = MapDirect::off;  // whether the light straight from lamps is the pool's
   MapDistribution mapDistribution = MapDistribution::nets;
   MapIndex mapIndex = MapIndex::grid;
+  int photonPool = 147456;    // Z: photons whose light mesh elements keep
+  int photonGroups = 288;     // N_g: groups of them that are traced at a time (photon_groups.h)
+  int pilotRatio = 16;        // R: all photons of a group over its pilots
+  float elementSize = 0.04f;  // h: side of an element, as a fraction of R
+  ElementRule elementRule = ElementRule::linear;
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row
   float bound = 30;            // c of b = c/R^2

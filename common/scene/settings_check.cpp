@@ -1,5 +1,7 @@
 #include "common/scene/settings_check.h"
 
+#include <algorithm>
+
 #include "common/base/error.h"
 #include "common/scene/methods.h"
 
@@ -48,12 +50,33 @@ void checkMap(const Settings& s) {
          s.mapPhotons / s.mapPerFrame, s.mapPerFrame, kMostParts);
 }
 
+// The multiple of `unit` nearest to n, at least one.
+int nearestMultiple(int n, int unit) { return std::max((n + unit / 2) / unit, 1) * unit; }
+
+void checkGroups(const Settings& s) {
+  int left = s.photonGroups;
+  for (const int prime : {2, 3, 5, 7})
+    while (left % prime == 0) left /= prime;
+  if (left != 1)
+    fail("photon-groups is {}: it must be a product of 2, 3, 5 and 7, as 288 or 10080 is",
+         s.photonGroups);
+  const int64_t unit = int64_t{s.photonGroups} * s.pilotRatio;
+  if (s.photonPool % unit == 0) return;
+  if (unit > 4194304)
+    fail("photon-groups {} times pilot-ratio {} is more than a pool can have: lower one",
+         s.photonGroups, s.pilotRatio);
+  fail("photon-pool is {}, no multiple of photon-groups {} times pilot-ratio {}: {} would do",
+       s.photonPool, s.photonGroups, s.pilotRatio,
+       nearestMultiple(s.photonPool, static_cast<int>(unit)));
+}
+
 }  // namespace
 
 void checkTogether(const Settings& s) {
   const MethodFacts& facts = factsOf(s.method);
   if (facts.has(kReverseVpls)) checkReverse(s, facts);
   if (facts.has(kMapPhotons)) checkMap(s);
+  if (facts.has(kElementPhotons)) checkGroups(s);
 }
 
 }  // namespace ninefold

@@ -57,6 +57,11 @@ std::span<const char* const> namesOf(Caustics) {
   return kNames;
 }
 
+std::span<const char* const> namesOf(ElementRule) {
+  static constexpr std::array kNames{"linear", "buckets"};
+  return kNames;
+}
+
 std::span<const char* const> namesOf(PartitionRule) {
   static constexpr std::array kNames{"balance", "equal"};
   return kNames;

@@ -168,6 +168,45 @@ inline constexpr std::tuple kSettings{
                       .value = "grid|tree",
                       .help = "how photons near a point are found; the picture is the same",
                       .parts = kMapPhotons},
+    // No sliders for these three: they must fit together (settings_check.h).
+    Setting<int>{.name = "photon-pool",
+                 .member = &Settings::photonPool,
+                 .low = 1,
+                 .high = 4194304,
+                 .value = "N",
+                 .help = "photons whose light mesh elements keep, {0} to {1}; a multiple of groups "
+                         "times pilot ratio",
+                 .parts = kElementPhotons},
+    Setting<int>{.name = "photon-groups",
+                 .member = &Settings::photonGroups,
+                 .low = 1,
+                 .high = 20160,
+                 .value = "N",
+                 .help = "groups of almost alike photons, {0} to {1}: a product of 2, 3, 5 and 7",
+                 .parts = kElementPhotons},
+    Setting<int>{.name = "pilot-ratio",
+                 .member = &Settings::pilotRatio,
+                 .low = 2,
+                 .high = 4096,
+                 .value = "R",
+                 .help = "one of so many photons, {0} to {1}, looks for what an edit concerns",
+                 .parts = kElementPhotons},
+    Setting<float>{.name = "element-size",
+                   .member = &Settings::elementSize,
+                   .low = 1e-4,
+                   .high = 2,
+                   .unit = "R",
+                   .value = "F",
+                   .help = "side of a mesh element as a fraction of R, above 0, up to {1}",
+                   .parts = kElementPhotons,
+                   .slider = {"element size", 0.005, 0.5, "%.3f R", true}},
+    Setting<ElementRule>{.name = "element-rule",
+                         .member = &Settings::elementRule,
+                         .value = "linear|buckets",
+                         .help = "light between the corners of elements: by degrees, or that of "
+                                 "the nearest one, as published",
+                         .parts = kElementPhotons,
+                         .slider = {"light between elements"}},
     Setting<int>{.name = "path-length",
                  .member = &Settings::pathLength,
                  .low = 0,
@@ -258,6 +297,7 @@ std::pair<int, int> parseSize(std::string_view text);
 // Names of an enum's values, in their order.
 std::span<const char* const> namesOf(Method);
 std::span<const char* const> namesOf(Caustics);
+std::span<const char* const> namesOf(ElementRule);
 std::span<const char* const> namesOf(PartitionRule);
 std::span<const char* const> namesOf(MapDistribution);
 std::span<const char* const> namesOf(MapIndex);

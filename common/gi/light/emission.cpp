@@ -252,6 +252,19 @@ Particle emitParticle(const Transport& t, size_t stream, Vec2 u01, Vec2 u23) {
                                             : beamParticle(t, chooseBeam(t, *s, u23), s->u));
 }
 
+Particle emitAlike(const Transport& t, size_t stream, Vec2 main, Vec2 rest) {
+  const auto s = chooseSource(t, stream, main);
+  if (!s) return {};
+  Source source = *s;
+  const Vec2 alike = source.u;
+  if (source.emitter->kind == EmitterKind::directional)
+    return emittedBy(source, beamParticle(t, chooseBeam(t, source, rest), alike));
+  source.u = rest;
+  return emittedBy(source, isLocal(*source.emitter)
+                               ? emitLocal(t, source, alike)
+                               : beamParticle(t, chooseBeam(t, source, alike), rest));
+}
+
 Particle emitAimed(const Transport& t, size_t stream, Vec2 u01, Vec2 u23, float uTarget) {
   if (t.targets.empty()) return emitParticle(t, stream, u01, u23);
   const auto s = chooseSource(t, stream, u01);

@@ -39,6 +39,11 @@ inline constexpr float kOrdinaryShare = 0.2f;
 // u: four joint sample dimensions; emitter choice and first position coordinate share u[0].
 Particle emitParticle(const Transport& transport, size_t stream, Vec2 u01, Vec2 u23);
 
+// The same with fewer numbers: what the choice of the emitter leaves of `main.x` and `main.y` tell
+// the direction (parallel light: the place on the disk), `rest` the place (environment: on the
+// disk). So particles with almost equal `main` leave one lamp almost alike.
+Particle emitAlike(const Transport& transport, size_t stream, Vec2 main, Vec2 rest);
+
 // uTarget chooses between the ordinary emission and a target.
 Particle emitAimed(const Transport& transport, size_t stream, Vec2 u01, Vec2 u23, float uTarget);
 

@@ -9,7 +9,8 @@
 // latest (survival 0.99^k is nil).
 //
 // Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival;
-// 4j+3 inside the lobe.
+// 4j+3 inside the lobe. A sampler may use what the choice of D leaves of its number once more, for
+// the direction.
 //
 // Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
 // Threads: reentrant.   Errors: none.
@@ -54,12 +55,13 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
 }
 
 // Follows a particle that starts in `media` after `diffuseBefore` D vertices. Its numbers are those
-// of sample `index`, from `firstDimension` on. visit(const Arrival&) returns whether the walk goes
+// of sample `index`, from `firstDimension` on. `sampler`: get1D, get2D and diffuseDirection as
+// LightSampler has them. visit(const Arrival&) returns whether the walk goes
 // on after a D scattering here; after S it always does.
-template <typename Visit>
+template <typename Sampler, typename Visit>
 void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
-                   const LightSampler& sampler, uint32_t index, uint32_t firstDimension,
-                   RayCounts& rays, Visit&& visit) {
+                   const Sampler& sampler, uint32_t index, uint32_t firstDimension, RayCounts& rays,
+                   Visit&& visit) {
   bool turned = false, focused = false, hidden = false;
   int specularRun = 0;
   for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
@@ -86,9 +88,9 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
       choice.diffuse *= scale, choice.reflection *= scale, choice.transmission *= scale;
     }
     float u = sampler.get1D(index, d + 2);
-    const Vec2 uDirection = sampler.get2D(index, d);
     if (u < choice.diffuse) {
       if (!goOn) return;
+      const Vec2 uDirection = sampler.diffuseDirection(index, d, u / choice.diffuse);
       const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
       particle.flux *= shadingFactor(p, p.ns, p.wo) / choice.diffuse * p.bsdf.diffuse;
       particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
@@ -101,7 +103,8 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     if (u >= choice.reflection + choice.transmission || ++specularRun > t.settings.specularDepth)
       return;
     const float left = (lobe == Lobe::reflection ? u : u - choice.reflection) / probability;
-    const auto scattered = scatterParticle(p, lobe, uDirection, sampler.get1D(index, d + 3), left);
+    const auto scattered =
+        scatterParticle(p, lobe, sampler.get2D(index, d), sampler.get1D(index, d + 3), left);
     if (!scattered) return;
     particle.flux *= scattered->weight / probability;
     particle.origin = offsetOrigin(p.surface, scattered->wi), particle.direction = scattered->wi;

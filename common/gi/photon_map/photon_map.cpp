@@ -1,14 +1,11 @@
 #include "common/gi/photon_map/photon_map.h"
 
+#include "common/gi/light_set/lamp_light.h"
 #include "common/gi/photon_map/map_gather.h"
 #include "common/gi/photon_map/shooting.h"
-#include "common/gi/vpl/direct_vpls.h"
-#include "common/gi/vpl/indirect_vpls.h"
 
 namespace ninefold {
 namespace {
-
-constexpr int kOriginPathsLog2 = 5;  // of photons that start at lit surfaces, for each set
 
 struct MapState final : MethodState {
   std::shared_ptr<const PhotonPool> pool;
@@ -20,19 +17,9 @@ struct MapLight final : LightSet {
   uint32_t randomization = 0;
 };
 
-struct MapScratch final : LayeredScratch {
-  LightSetScratch gather;
+struct MapScratch final : LampLightScratch {
   MapGatherScratch map;
 };
-
-// Caustic photons of a set.
-CausticPhotons causticsOf(const Transport& t, const FrameKey& frame, int set, RayCounts& rays) {
-  VplSet origins;
-  const Settings& s = t.settings;
-  if (t.needs.caustics && s.caustics == Caustics::all && s.photons > 0 && t.allows(2))
-    addIndirectVpls(t, frame, set, kOriginPathsLog2, origins, rays);
-  return causticPhotons(t, frame, set, origins.vpls, s.caustics, s.photons, rays);
-}
 
 }  // namespace
 
@@ -42,9 +29,10 @@ std::shared_ptr<const FrameLight> PhotonMap::light(const FrameKey& frame, int se
   auto light = std::make_shared<MapLight>();
   light->randomization = frame.randomization;
   if (state != nullptr) light->pool = static_cast<const MapState*>(state)->pool;
-  if (t_.emitters.empty()) return light;
-  if (t_.settings.mapDirect == MapDirect::off) addDirectVpls(t_, frame, set, 1, light->vpls);
-  light->photons = causticsOf(t_, frame, set, light->rays);
+  if (t_.settings.mapDirect == MapDirect::off)
+    addLampLight(t_, frame, set, *light);
+  else
+    addCausticPhotons(t_, frame, set, *light);
   return light;
 }
 
@@ -71,14 +59,13 @@ void PhotonMap::query(const FrameLight& frameLight, const ReceiverSamples& sampl
                       std::vector<Irradiance>* caustic, RayCounts& rays) const {
   const auto& light = static_cast<const MapLight&>(frameLight);
   auto& scratch = static_cast<MapScratch&>(memory);
-  receivers.pad();
-  gatherVpls(t_, light, samples, pathVertices, t_.settings.vplRoulette, scratch.gather.vplGather,
-             receivers, rays.shadow);
-  for (const PhotonGrid& grid : light.photons)
-    gatherPhotons(t_, grid, pathVertices, receivers, caustic);
-  if (t_.settings.compensate && t_.settings.mapDirect == MapDirect::off)
-    compensate(t_, samples, pathVertices, {.emission = true, .onward = false, .glossy = false},
-               scratch.gather.compensation, receivers, rays, [](int, Receivers&) {});
+  if (t_.settings.mapDirect == MapDirect::off) {
+    gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays);
+  } else {
+    receivers.pad();
+    for (const PhotonGrid& grid : light.photons)
+      gatherPhotons(t_, grid, pathVertices, receivers, caustic);
+  }
   if (light.pool != nullptr)
     gatherPool(t_, *light.pool, pathVertices, light.randomization, scratch.map, receivers, rays);
 }

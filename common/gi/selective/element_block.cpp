@@ -1,0 +1,199 @@
+#include "common/gi/selective/element_block.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/error.h"
+#include "common/gi/selective/element_nodes.h"
+#include "common/sampling/hash.h"
+#include "common/scene/world.h"
+
+namespace ninefold {
+namespace {
+
+constexpr uint32_t kMostCuts = 4096;
+
+// Point (i, j) of a triangle cut into n: its place in the triangle's rows.
+uint32_t pointOf(uint32_t i, uint32_t j, uint32_t n) { return j * (n + 1) - j * (j - 1) / 2 + i; }
+
+uint32_t pointsOf(uint32_t n) { return (n + 1) * (n + 2) / 2; }
+
+struct Corners {
+  Vec3 p[3];  // in the scene
+
+  float edge(int k) const { return glm::length(p[(k + 1) % 3] - p[k]); }
+  float longest() const { return std::max({edge(0), edge(1), edge(2)}); }
+  float shortest() const { return std::min({edge(0), edge(1), edge(2)}); }
+  float area() const { return 0.5f * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])); }
+};
+
+// A node before near ones are put together.
+struct RawNode {
+  Vec3 position{0}, normal{0};
+  Metres nearest = std::numeric_limits<float>::infinity();  // to another one of its elements
+  double area = 0;
+};
+
+class Making {
+ public:
+  Making(const Mesh& mesh, const DMat4& toWorld, Metres size)
+      : mesh_(mesh), toWorld_(toWorld), size_(size) {}
+
+  void cut(std::vector<uint16_t>& cuts, std::vector<uint32_t>& firstPoint) {
+    uint64_t points = 0;
+    for (const Triangle& t : mesh_.triangles) {
+      const float pieces = std::ceil(cornersOf(t).longest() / size_);
+      const auto n = static_cast<uint32_t>(std::clamp(pieces, 1.0f, float(kMostCuts)));
+      cuts.push_back(static_cast<uint16_t>(n));
+      firstPoint.push_back(static_cast<uint32_t>(points));
+      points += pointsOf(n);
+      if (points > ElementBlock::kMostNodes)
+        fail("the elements of {} are too many, at most are {}: raise --element-size",
+             mesh_.name.empty() ? "a mesh" : mesh_.name, ElementBlock::kMostNodes);
+    }
+  }
+
+  std::vector<uint32_t> name(const std::vector<uint16_t>& cuts) {
+    SmoothCorners corners;
+    std::vector<std::array<uint32_t, 3>> ends;
+    for (const Triangle& t : mesh_.triangles) ends.push_back(endsOf(t, corners));
+    EdgePoints edges(static_cast<uint32_t>(corners.size()));
+    std::vector<uint32_t> nodeOf;
+    for (size_t k = 0; k < cuts.size(); ++k) namePoints(ends[k], cuts[k], edges, nodeOf);
+    raw_.resize(edges.size());
+    return nodeOf;
+  }
+
+  // Fills positions, normals, areas and connections of the nodes.
+  void survey(const std::vector<uint16_t>& cuts, const std::vector<uint32_t>& firstPoint,
+              const std::vector<uint32_t>& nodeOf, Connected& connected) {
+    for (size_t k = 0; k < cuts.size(); ++k) {
+      const Triangle& t = mesh_.triangles[k];
+      const Corners at = cornersOf(t);
+      const uint32_t n = cuts[k];
+      const float step = 1 / static_cast<float>(n);
+      const double third = static_cast<double>(at.area()) / (3.0 * n * n);
+      for (uint32_t j = 0; j <= n; ++j)
+        for (uint32_t i = 0; i + j <= n; ++i) {
+          RawNode& node = raw_[nodeOf[firstPoint[k] + pointOf(i, j, n)]];
+          const float u = step * static_cast<float>(i), v = step * static_cast<float>(j);
+          node.position = at.p[0] + u * (at.p[1] - at.p[0]) + v * (at.p[2] - at.p[0]);
+          node.normal = glm::cross(at.p[1] - at.p[0], at.p[2] - at.p[0]);
+          node.nearest = std::min(node.nearest, step * at.shortest());
+          node.area += third * elementsAround(i, j, n);
+          const uint32_t name = nodeOf[firstPoint[k] + pointOf(i, j, n)];
+          connected.join(name, nodeOf[firstPoint[k]]);
+        }
+    }
+  }
+
+  // The final node of each raw one, and their areas.
+  std::vector<uint32_t> merge(Connected& connected, std::vector<float>& areas) {
+    std::unordered_map<uint64_t, double> areaOfCell;
+    for (uint32_t i = 0; i < raw_.size(); ++i)
+      if (isFine(raw_[i])) areaOfCell[cellOf(raw_[i], 1 + connected.find(i))] += raw_[i].area;
+    const double least = 0.25 * double{size_} * double{size_};
+    std::unordered_map<uint64_t, uint32_t> nodes;
+    std::vector<uint32_t> final(raw_.size());
+    std::vector<double> sums;
+    for (uint32_t i = 0; i < raw_.size(); ++i) {
+      const auto fresh = static_cast<uint32_t>(sums.size());
+      final[i] = fresh;
+      if (isFine(raw_[i])) {
+        uint64_t cell = cellOf(raw_[i], 1 + connected.find(i));
+        if (areaOfCell[cell] < least) cell = cellOf(raw_[i], 0);
+        final[i] = nodes.try_emplace(cell, fresh).first->second;
+      }
+      if (final[i] == fresh) sums.push_back(0);
+      sums[final[i]] += raw_[i].area;
+    }
+    areas.assign(sums.begin(), sums.end());
+    return final;
+  }
+
+ private:
+  Corners cornersOf(const Triangle& t) const {
+    return {{worldPoint(toWorld_, mesh_.positions[t.x]), worldPoint(toWorld_, mesh_.positions[t.y]),
+             worldPoint(toWorld_, mesh_.positions[t.z])}};
+  }
+
+  std::array<uint32_t, 3> endsOf(const Triangle& t, SmoothCorners& corners) const {
+    const Vec3 across = glm::cross(mesh_.positions[t.y] - mesh_.positions[t.x],
+                                   mesh_.positions[t.z] - mesh_.positions[t.x]);
+    const float length = glm::length(across);
+    const Vec3 flat = length > 0 ? across / length : Vec3(0, 0, 1);
+    std::array<uint32_t, 3> ends;
+    for (int c = 0; c < 3; ++c) {
+      const uint32_t vertex = t[c];
+      ends[static_cast<size_t>(c)] = corners.nodeOf(
+          mesh_.positions[vertex], mesh_.normals.empty() ? flat : mesh_.normals[vertex]);
+    }
+    return ends;
+  }
+
+  static void namePoints(const std::array<uint32_t, 3>& ends, uint32_t n, EdgePoints& edges,
+                         std::vector<uint32_t>& nodeOf) {
+    for (uint32_t j = 0; j <= n; ++j)
+      for (uint32_t i = 0; i + j <= n; ++i) {
+        const uint32_t k = n - i - j;
+        nodeOf.push_back(j == 0   ? edges.nodeOf(ends[0], ends[1], i, n)
+                         : i == 0 ? edges.nodeOf(ends[0], ends[2], j, n)
+                         : k == 0 ? edges.nodeOf(ends[1], ends[2], j, n)
+                                  : edges.add());
+      }
+  }
+
+  bool isFine(const RawNode& node) const { return node.nearest < 0.5f * size_; }
+
+  // Of the triangle's n^2 elements: one at its corners, three on its edges, six inside.
+  static int elementsAround(uint32_t i, uint32_t j, uint32_t n) {
+    const int edges = (i == 0) + (j == 0) + (i + j == n);
+    return edges == 0 ? 6 : edges == 1 ? 3 : 1;
+  }
+
+  uint64_t cellOf(const RawNode& node, uint32_t surface) const {
+    const Vec3 cell = glm::floor(node.position / size_);
+    const Vec3 a = glm::abs(node.normal);
+    const int axis = a.x >= a.y ? (a.x >= a.z ? 0 : 2) : (a.y >= a.z ? 1 : 2);
+    const uint64_t side = static_cast<uint64_t>(2 * axis + (node.normal[axis] < 0));
+    const auto word = [](float x) { return static_cast<uint64_t>(static_cast<int64_t>(x)); };
+    return hashWords(word(cell.x), word(cell.y), word(cell.z), uint64_t{surface} << 3 | side);
+  }
+
+  const Mesh& mesh_;
+  const DMat4& toWorld_;
+  const Metres size_;
+  std::vector<RawNode> raw_;
+};
+
+}  // namespace
+
+ElementBlock::ElementBlock(const Mesh& mesh, const DMat4& toWorld, Metres size)
+    : mesh_(&mesh), toWorld_(toWorld), size_(size) {
+  Making making(mesh, toWorld, size);
+  making.cut(cuts_, firstPoint_);
+  nodeOf_ = making.name(cuts_);
+  const uint32_t most = nodeOf_.empty() ? 0 : *std::max_element(nodeOf_.begin(), nodeOf_.end());
+  Connected connected(size_t{most} + 1);
+  making.survey(cuts_, firstPoint_, nodeOf_, connected);
+  const std::vector<uint32_t> merged = making.merge(connected, areas_);
+  for (uint32_t& node : nodeOf_) node = merged[node];
+}
+
+ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
+  const uint32_t n = cuts_[triangle];
+  const float x = u * static_cast<float>(n), y = v * static_cast<float>(n);
+  const uint32_t j = std::min(static_cast<uint32_t>(y), n - 1);
+  const uint32_t i = std::min(static_cast<uint32_t>(x), n - 1 - j);
+  const float fx = std::clamp(x - static_cast<float>(i), 0.0f, 1.0f);
+  const float fy = std::clamp(y - static_cast<float>(j), 0.0f, 1.0f);
+  const uint32_t* points = nodeOf_.data() + firstPoint_[triangle];
+  const auto node = [&](uint32_t di, uint32_t dj) { return points[pointOf(i + di, j + dj, n)]; };
+  const float left = 1 - fx - fy;
+  if (left >= 0) return {{node(0, 0), node(1, 0), node(0, 1)}, {left, fx, fy}};
+  if (i + j + 2 > n)  // past the long side by rounding
+    return {{node(0, 0), node(1, 0), node(0, 1)}, {0, fx / (fx + fy), fy / (fx + fy)}};
+  return {{node(1, 1), node(0, 1), node(1, 0)}, {-left, 1 - fx, 1 - fy}};
+}
+
+}  // namespace ninefold

@@ -1,0 +1,64 @@
+// element_block.h: the mesh elements of one instance, and the nodes at their corners.
+//
+//   triangle   cut into n^2 alike elements; n = ceil(longest edge / h), edges in the scene
+//   node       one of the corners. Elements share those at which the surface is smooth: corners of
+//              triangles in one place whose normals agree (kSmooth). So light goes on across smooth
+//              surfaces and ends at edges.
+//   fine mesh  Nodes nearer to each other than h/2 are one if they lie in one cell of side h, on
+//              one connected smooth surface, and face alike. What has less than h^2/4 there (slats,
+//              leaves, books) is one with its like in the cell: alone it would get hardly a photon.
+//   area       of a node: a third of each element around it [m^2]
+//
+// A point of an element stands for its three nodes in proportion to its barycentrics w. A photon
+// leaves w Phi at each, and E at a point is sum w Phi_node / area_node. So no light is lost, and a
+// constant E comes out constant in the mean.
+//
+// Units:   metres in the scene.   Source: Dmitriev et al. 2002, 6 (mesh elements); linear ones with
+//          lumped areas are made for this project.
+// Proved:  tests/gi/element_test.cpp.
+// Fails:   light is blurred over h. Triangles of another n next to each other share the ends of
+//          their edge alone. Masked texels count as area (element_light.h).
+// Threads: const after construction.   Errors: throws Error if there are too many elements.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "common/scene/scene.h"
+
+namespace ninefold {
+
+// Where light goes that falls onto a point, and comes from. Weights are >= 0, their sum is 1.
+struct ElementPlace {
+  std::array<uint32_t, 3> nodes;
+  std::array<float, 3> weights;
+};
+
+class ElementBlock {
+ public:
+  static constexpr size_t kMostNodes = size_t{1} << 25;
+
+  ElementBlock(const Mesh& mesh, const DMat4& toWorld, Metres size);
+
+  // A block is a pure function of these.
+  bool isOf(const Mesh& mesh, const DMat4& toWorld, Metres size) const {
+    return mesh_ == &mesh && toWorld_ == toWorld && size_ == size;
+  }
+  size_t nodes() const { return areas_.size(); }
+  float area(uint32_t node) const { return areas_[node]; }  // [m^2]
+  // u, v: barycentrics of the second and third corner.
+  ElementPlace at(uint32_t triangle, float u, float v) const;
+
+ private:
+  const Mesh* mesh_;
+  DMat4 toWorld_;
+  Metres size_;
+  // Points of a triangle's grid: row j has those at v = j/n, u = i/n.
+  std::vector<uint16_t> cuts_;        // n, by triangle
+  std::vector<uint32_t> firstPoint_;  // by triangle
+  std::vector<uint32_t> nodeOf_;      // by point
+  std::vector<float> areas_;          // by node
+};
+
+}  // namespace ninefold

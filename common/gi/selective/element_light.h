@@ -1,0 +1,74 @@
+// element_light.h: the light that the rows of all groups leave in the mesh elements, ready to be
+// asked.
+//
+//   Phi_node  = sum over hits of w Phi        whole numbers of the quantum u (state/fixed_point.h)
+//   E(x)      = sum over the three nodes at x of w Phi_node / A_node     [W/m^2]
+//
+// with w the barycentrics in the element (element_block.h), both sides of a surface apart. By
+// buckets, as published: a photon and a point have the nearest node alone.
+//
+// Sums of whole numbers do not depend on their order. So what changed is taken away and added, and
+// the sums are those of a fresh start to the last bit.
+//
+// Proved:  tests/gi/element_test.cpp.
+// Threads: const after construction.   Owner: shares the scene's meshes.
+// Errors:  throws Error for a flux that no lamp of the scene can have.
+// Fails:   masked texels count as area: leaves get less light than they should.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/gi/method/method.h"
+#include "common/gi/selective/element_block.h"
+#include "common/gi/selective/group_pages.h"
+#include "common/gi/selective/surface_numbers.h"
+
+namespace ninefold {
+
+// The elements of all instances: a function of the scene and h. Blocks of `before` are used again.
+class SceneElements {
+ public:
+  SceneElements(const Scene& scene, Metres size, const SceneElements* before);
+
+  size_t instances() const { return blocks_.size(); }
+  const ElementBlock& block(size_t instance) const { return *blocks_[instance]; }
+  bool isShared(const SceneElements& other, size_t instance) const {
+    return blocks_[instance] == other.blocks_[instance];
+  }
+
+ private:
+  SharedList<Mesh> meshes_;  // so that no other mesh takes the place of one
+  std::vector<std::shared_ptr<const ElementBlock>> blocks_;
+};
+
+class ElementLight : public MethodState {
+ public:
+  // `before`: of other pages or another state of the same scene, or null: it saves work alone.
+  ElementLight(const StatePages& pages, const PhotonGroups& groups,
+               std::shared_ptr<const SurfaceNumbers> surfaces,
+               std::shared_ptr<const SceneElements> elements, ElementRule rule,
+               const ElementLight* before);
+
+  const std::shared_ptr<const SceneElements>& elements() const { return elements_; }
+  Irradiance at(const SurfaceNumbers::Surface& surface, float u, float v) const;
+
+ private:
+  static constexpr size_t kPerNode = 6;  // R, G, B in front; the same on the back
+  using Sums = std::vector<int64_t>;     // of one instance
+
+  // Adds a group's hits, `sign` times, to the instances that are `wanted`.
+  void add(const GroupRow& row, int64_t sign, const std::vector<bool>& wanted);
+
+  ElementPlace place(const SurfaceNumbers::Surface& surface, float u, float v) const;
+
+  StatePages pages_;
+  const GroupPages rows_;
+  std::shared_ptr<const SurfaceNumbers> surfaces_;
+  std::shared_ptr<const SceneElements> elements_;
+  ElementRule rule_;
+  double quantum_ = 1;  // u [W]
+  std::vector<Sums> sums_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,57 @@
+// group_order.h: which groups of photons are traced next.
+//
+//   1. groups that were traced in another scene than the present one, by V P, greatest first
+//   2. all others; among equals, the smaller number
+//
+//   P   what changed paths of pilots that are like the group carry: added by steps, 0 once the
+//       group is traced
+//   V   share of such pilots that hit anything that the view shows; at least 1/16, so that what is
+//       not seen comes at last, too
+//
+// Hits of pilots are in the state, so that V is known at once for any view. (As published it is
+// counted anew after each move of the camera, and is 1 until enough pilots were traced.)
+//
+// Source:  Dmitriev et al. 2002, 5.2 and 5.3.   Proved: tests/gi/selective_test.cpp.
+// Threads: groupAt from any thread; the order of one state is made once.   Errors: none.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "common/gi/eye/task.h"
+#include "common/gi/selective/group_pages.h"
+#include "common/gi/selective/surface_numbers.h"
+
+namespace ninefold {
+
+class GroupOrder {
+ public:
+  GroupOrder(const Tracer& tracer, const PhotonGroups& groups, const SurfaceNumbers& surfaces,
+             uint64_t stamp)
+      : tracer_(tracer), groups_(groups), rows_(groups), surfaces_(surfaces), stamp_(stamp) {}
+
+  // Number `rank` of the groups in their order, counted round.
+  uint32_t groupAt(const StatePages& pages, const View& view, uint32_t rank) const;
+
+ private:
+  struct Urgency {
+    bool isStale;
+    int64_t priority;
+    uint32_t group;
+  };
+  std::vector<uint32_t> orderOf(const StatePages& pages, const View& view) const;
+  std::vector<int64_t> visibility(const StatePages& pages, const View& view) const;
+
+  const Tracer& tracer_;
+  const PhotonGroups& groups_;
+  const GroupPages rows_;
+  const SurfaceNumbers& surfaces_;
+  const uint64_t stamp_;
+
+  mutable std::mutex mutex_;
+  mutable uint64_t key_ = 0;             // guarded by mutex_: of the order below
+  mutable std::vector<uint32_t> order_;  // likewise
+};
+
+}  // namespace ninefold

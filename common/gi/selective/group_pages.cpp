@@ -1,0 +1,126 @@
+#include "common/gi/selective/group_pages.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace ninefold {
+namespace {
+
+constexpr size_t kMostPages = 30;       // of a row: what can be sent at once, 2 MiB
+constexpr size_t kMostOfAll = 60000;    // of the state (proto allows some more)
+constexpr size_t kMostHitsOfPath = 64;  // mean number that there is room for, if there is
+
+struct Header {
+  uint64_t stamp;
+  uint32_t randomization;
+  float lampFlux;
+  uint32_t pilots, hits;
+};
+
+template <typename T>
+void append(Records& bytes, const T* values, size_t count) {
+  const size_t before = bytes.size();
+  bytes.resize(before + count * sizeof(T));
+  if (count > 0) std::memcpy(bytes.data() + before, values, count * sizeof(T));
+}
+
+template <typename T>
+void take(const Records& bytes, size_t& place, T* values, size_t count) {
+  if (count > 0) std::memcpy(values, bytes.data() + place, count * sizeof(T));
+  place += count * sizeof(T);
+}
+
+const Records* recordsOf(const StatePages& pages, PageId id) {
+  const Page* page = pages.find(id);
+  return page == nullptr ? nullptr : std::get_if<Records>(page);
+}
+
+std::optional<Header> headerOf(const Records& bytes) {
+  if (bytes.size() < sizeof(Header)) return std::nullopt;
+  Header header;
+  std::memcpy(&header, bytes.data(), sizeof(Header));
+  return header;
+}
+
+}  // namespace
+
+GroupPages::GroupPages(const PhotonGroups& groups) : pilots_(groups.pilotsOfEach()) {
+  const size_t wanted = sizeof(Header) + pilots_ * sizeof(Pilot) +
+                        groups.photonsOfEach() * kMostHitsOfPath * sizeof(ElementHit);
+  const size_t most = std::min(kMostPages, kMostOfAll / groups.groups());
+  pages_ = std::clamp<size_t>((wanted + kPageBytes - 1) / kPageBytes, 1, most);
+}
+
+size_t GroupPages::room() const {
+  return (pages_ * kPageBytes - sizeof(Header) - pilots_ * sizeof(Pilot)) / sizeof(ElementHit);
+}
+
+PageDeltas GroupPages::replace(const StatePages& pages, uint32_t group, const GroupRow& row) const {
+  Records bytes;
+  const Header header{row.stamp, row.randomization, row.lampFlux,
+                      static_cast<uint32_t>(row.pilots.size()),
+                      static_cast<uint32_t>(row.hits.size())};
+  append(bytes, &header, 1);
+  append(bytes, row.pilots.data(), row.pilots.size());
+  append(bytes, row.hits.data(), row.hits.size());
+  PageDeltas deltas;
+  for (size_t j = 0; j < pages_; ++j) {
+    const auto from = static_cast<std::ptrdiff_t>(std::min(j * kPageBytes, bytes.size()));
+    const auto to = static_cast<std::ptrdiff_t>(std::min((j + 1) * kPageBytes, bytes.size()));
+    const PageId id = pageOf(group, j);
+    // A page that was never needed stays unwritten.
+    if (from < to || pages.find(id) != nullptr)
+      deltas.push_back({id, Records(bytes.begin() + from, bytes.begin() + to)});
+  }
+  return deltas;
+}
+
+std::optional<GroupRow> GroupPages::read(const StatePages& pages, uint32_t group) const {
+  Records bytes;
+  for (size_t j = 0; j < pages_; ++j)
+    if (const Records* page = recordsOf(pages, pageOf(group, j)))
+      bytes.insert(bytes.end(), page->begin(), page->end());
+  const std::optional<Header> header = headerOf(bytes);
+  if (!header) return std::nullopt;
+  const size_t length =
+      sizeof(Header) + header->pilots * sizeof(Pilot) + header->hits * sizeof(ElementHit);
+  if (bytes.size() != length) return std::nullopt;
+  GroupRow row{header->stamp, header->randomization, header->lampFlux, {}, {}};
+  row.pilots.resize(header->pilots), row.hits.resize(header->hits);
+  size_t place = sizeof(Header);
+  take(bytes, place, row.pilots.data(), row.pilots.size());
+  take(bytes, place, row.hits.data(), row.hits.size());
+  return row;
+}
+
+std::optional<uint64_t> GroupPages::stamp(const StatePages& pages, uint32_t group) const {
+  const Records* first = recordsOf(pages, pageOf(group, 0));
+  if (first == nullptr) return std::nullopt;
+  const std::optional<Header> header = headerOf(*first);
+  if (!header) return std::nullopt;
+  return header->stamp;
+}
+
+bool GroupPages::isShared(const StatePages& a, const StatePages& b, uint32_t group) const {
+  for (size_t j = 0; j < pages_; ++j)
+    if (a.find(pageOf(group, j)) != b.find(pageOf(group, j))) return false;
+  return true;
+}
+
+int64_t GroupPages::priority(const StatePages& pages, uint32_t group) {
+  const Page* page = pages.find({0, static_cast<uint32_t>(group / kPageSums)});
+  const auto* sums = page == nullptr ? nullptr : std::get_if<Sums>(page);
+  return sums == nullptr ? 0 : (*sums)[group % kPageSums];
+}
+
+void GroupPages::addPriorities(const std::vector<int64_t>& amounts, PageDeltas& deltas) {
+  for (size_t first = 0; first < amounts.size(); first += kPageSums) {
+    std::vector<SumChange> changes;
+    for (size_t g = first; g < std::min(first + kPageSums, amounts.size()); ++g)
+      if (amounts[g] != 0) changes.push_back({static_cast<uint16_t>(g - first), amounts[g]});
+    if (!changes.empty())
+      deltas.push_back({{0, static_cast<uint32_t>(first / kPageSums)}, std::move(changes)});
+  }
+}
+
+}  // namespace ninefold

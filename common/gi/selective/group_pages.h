@@ -1,0 +1,78 @@
+// group_pages.h: the state's pages: what the photons of each group hit, and how urgent groups are.
+//
+//   kind 0, sums      page g / 8192, place g mod 8192: priority P of group g, in 2^-32
+//   kind 1, records   pages g J + j, j in [0, J): group g as one row of bytes, cut into pages:
+//                     GroupHeader, its Pilots, its ElementHits in the order of its photons
+//
+// A group that is traced again replaces its row. So what its photons left before is taken away
+// without tracing them a second time in the scene that was: light is the sum over the rows.
+// A hit names triangle and place; which elements lie there is for who reads it (element_light.h).
+//
+// Proved:  tests/gi/group_pages_test.cpp.
+// Threads: pure functions.   Errors: rows that are cut short or do not fit together read as empty.
+// Memory:  12 bytes a hit, 12 a pilot.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/gi/selective/photon_groups.h"
+#include "common/math/units.h"
+#include "common/state/state_pages.h"
+
+namespace ninefold {
+
+// Flux that a photon leaves in elements.
+struct ElementHit {
+  uint32_t surface = 0;   // 2 (number of the triangle among all of the scene) + 1 on its back
+  uint16_t u = 0, v = 0;  // barycentrics in 1/65535
+  uint32_t flux = 0;      // packed_flux.h [W]
+  bool operator==(const ElementHit&) const = default;
+};
+static_assert(sizeof(ElementHit) == 12);
+
+struct Pilot {
+  uint32_t signature = 0;  // hash of its hits
+  float weight = 0;        // P that a change of its path adds to the group that it is like
+  uint32_t end = 0;        // its hits end before this one
+  bool operator==(const Pilot&) const = default;
+};
+
+// What one group left.
+struct GroupRow {
+  uint64_t stamp = 0;          // of the scene that it was traced in (scene_stamp.h)
+  uint32_t randomization = 0;  // replication of its numbers
+  float lampFlux = 0;          // of all lamps then [W]
+  std::vector<Pilot> pilots;
+  std::vector<ElementHit> hits;
+  bool operator==(const GroupRow&) const = default;
+};
+
+class GroupPages {
+ public:
+  explicit GroupPages(const PhotonGroups& groups);
+
+  // Hits that there is room for in a group's row.
+  size_t room() const;
+  PageDeltas replace(const StatePages& pages, uint32_t group, const GroupRow& row) const;
+  // Nothing: it was never traced.
+  std::optional<GroupRow> read(const StatePages& pages, uint32_t group) const;
+  // Of a group's row alone.
+  std::optional<uint64_t> stamp(const StatePages& pages, uint32_t group) const;
+  // The pages of a group's row are the same ones in both.
+  bool isShared(const StatePages& a, const StatePages& b, uint32_t group) const;
+
+  static int64_t priority(const StatePages& pages, uint32_t group);
+  // amounts: by group; those that are 0 change nothing.
+  static void addPriorities(const std::vector<int64_t>& amounts, PageDeltas& deltas);
+
+ private:
+  PageId pageOf(uint32_t group, size_t j) const {
+    return {1, static_cast<uint32_t>(group * pages_ + j)};
+  }
+  size_t pilots_;
+  size_t pages_;  // J
+};
+
+}  // namespace ninefold

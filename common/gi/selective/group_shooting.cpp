@@ -1,0 +1,117 @@
+#include "common/gi/selective/group_shooting.h"
+
+#include <cmath>
+
+#include "common/gi/light/light_path.h"
+#include "common/gi/light/media_around.h"
+#include "common/gi/selective/packed_flux.h"
+#include "common/sampling/halton.h"
+
+namespace ninefold {
+namespace {
+
+constexpr uint32_t kWalkDimension = 4;
+
+bool isKept(const Transport& t, const Arrival& a) {
+  return a.turned && !a.focused && !isBlack(a.point->bsdf.diffuse) && t.allows(a.diffuseBefore + 1);
+}
+
+uint16_t placeOf(float barycentric) {
+  return static_cast<uint16_t>(std::lround(65535 * std::clamp(barycentric, 0.0f, 1.0f)));
+}
+
+// One stream of lamps: its numbers, and how many photons share its flux.
+struct Stream {
+  size_t index;
+  HaltonSampler numbers;
+  uint32_t count;  // n'
+
+  bool has(uint32_t photon, uint32_t all) const { return uint64_t{photon} * count % all < count; }
+};
+
+std::vector<Stream> streamsOf(const Transport& t, uint32_t photons, uint32_t randomization) {
+  std::vector<Stream> streams;
+  for (size_t s = 0; s < t.streams.count(); ++s) {
+    const uint64_t seed = LightStreams::seedOf(s, t.settings.seed);
+    const int count = t.streams.samples(s, static_cast<int>(photons));
+    streams.push_back({s, HaltonSampler(seed, SampleUse::groupPhoton, randomization),
+                       std::min(static_cast<uint32_t>(count), photons)});
+  }
+  return streams;
+}
+
+void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Stream& stream,
+                 uint32_t photon, std::vector<ElementHit>& hits, RayCounts& rays) {
+  const size_t first = hits.size();
+  Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
+                             stream.numbers.place(photon));
+  // A lamp may lie in a solid that its light never leaves.
+  const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
+  start.flux *= t.shader.squaredIndex(media);
+  walkLightPath(
+      t, start, media, 0, stream.numbers, photon, kWalkDimension, rays, [&](const Arrival& a) {
+        const ShadingPoint& p = *a.point;
+        if (isKept(t, a)) {
+          const float share =
+              1 / (static_cast<float>(stream.count) * t.shader.squaredIndex(a.media));
+          const Flux flux = share * shadingFactor(p, p.ns, p.wo) * a.flux;
+          const uint64_t word = hashWords(photon, stream.index, hits.size() - first);
+          if (const uint32_t packed = packFlux(flux, word); packed != 0)
+            hits.push_back({surfaces.numberOf({p.surface.instance, p.surface.triangle, !p.front}),
+                            placeOf(p.surface.u), placeOf(p.surface.v), packed});
+        }
+        return t.allows(a.diffuseBefore + 2);
+      });
+}
+
+Pilot pilotOf(const std::vector<ElementHit>& hits, size_t first, double meanFlux) {
+  uint64_t signature = 0;
+  double flux = 0;
+  for (size_t i = first; i < hits.size(); ++i) {
+    const ElementHit& h = hits[i];
+    signature = hashWords(signature, uint64_t{h.surface} << 32 | h.flux, uint64_t{h.u} << 16 | h.v);
+    const Flux brought = unpackFlux(h.flux);
+    flux += double{std::max({brought.x, brought.y, brought.z})};
+  }
+  const double weight = meanFlux > 0 ? flux / meanFlux : 0;
+  return {static_cast<uint32_t>(signature), static_cast<float>(std::min(weight, 1e6)),
+          static_cast<uint32_t>(hits.size())};
+}
+
+// Every n/room-th of the hits, which carry as much more.
+void thin(std::vector<ElementHit>& hits, size_t room, uint64_t word) {
+  const double step = static_cast<double>(hits.size()) / static_cast<double>(room);
+  const double u = double(unitFloat(static_cast<uint32_t>(word >> 32)));
+  for (size_t i = 0; i < room; ++i) {
+    const auto place = static_cast<size_t>((static_cast<double>(i) + u) * step);
+    ElementHit hit = hits[std::min(place, hits.size() - 1)];
+    hit.flux = packFlux(static_cast<float>(step) * unpackFlux(hit.flux), hashWords(word, i));
+    hits[i] = hit;
+  }
+  hits.resize(room);
+}
+
+}  // namespace
+
+GroupRow GroupShooting::shoot(uint32_t group, uint32_t randomization, RayCounts& rays) const {
+  const Transport& t = transport;
+  GroupRow row{stamp, randomization, t.lampFlux, {}, {}};
+  if (t.emitters.empty()) return row;
+  const double meanFlux = double{t.lampFlux} / groups.photons();
+  const std::vector<Stream> streams = streamsOf(t, groups.photons(), randomization);
+  for (uint32_t k = 0; k < groups.photonsOfEach(); ++k) {
+    const size_t first = row.hits.size();
+    const uint32_t photon = groups.photon(group, k);
+    for (const Stream& stream : streams)
+      if (stream.has(photon, groups.photons()))
+        shootPhoton(t, surfaces, stream, photon, row.hits, rays);
+    if (k < groups.pilotsOfEach()) row.pilots.push_back(pilotOf(row.hits, first, meanFlux));
+  }
+  if (row.hits.size() > room) {
+    thin(row.hits, room, hashWords(t.settings.seed, randomization, group));
+    for (Pilot& pilot : row.pilots) pilot.end = std::min(pilot.end, static_cast<uint32_t>(room));
+  }
+  return row;
+}
+
+}  // namespace ninefold

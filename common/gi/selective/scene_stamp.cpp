@@ -1,0 +1,44 @@
+#include "common/gi/selective/scene_stamp.h"
+
+#include <bit>
+
+#include "common/sampling/hash.h"
+
+namespace ninefold {
+namespace {
+
+class Stamp {
+ public:
+  void add(uint64_t word) { value_ = hashWords(value_, word); }
+  void add(float x) { add(uint64_t{std::bit_cast<uint32_t>(x)}); }
+  void add(Vec3 v) { add(v.x), add(v.y), add(v.z); }
+  void add(const DMat4& m) {
+    for (int column = 0; column < 4; ++column)
+      for (int row = 0; row < 3; ++row) add(std::bit_cast<uint64_t>(m[column][row]));
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  uint64_t value_ = 0;
+};
+
+}  // namespace
+
+uint64_t sceneStamp(const Transport& t) {
+  Stamp stamp;
+  for (const Instance& instance : t.scene.instances) stamp.add(instance.toWorld);
+  for (const Material& m : t.scene.materials) {
+    stamp.add(m.baseColor), stamp.add(m.emission);
+    stamp.add(m.metallic), stamp.add(m.roughness), stamp.add(m.transmission), stamp.add(m.ior);
+  }
+  for (const PunctualLight& light : t.lights) {
+    stamp.add(light.position), stamp.add(light.direction), stamp.add(light.intensity);
+  }
+  stamp.add(t.emitters.environment());
+  // A lamp's share of the samples decides what its photons carry.
+  for (size_t i = 0; i < t.emitters.size(); ++i)
+    stamp.add(t.streams.probability(static_cast<uint32_t>(i)));
+  return stamp.value();
+}
+
+}  // namespace ninefold

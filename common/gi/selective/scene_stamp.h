@@ -1,0 +1,18 @@
+// scene_stamp.h: a number that tells two states of a scene apart, as far as photons feel them.
+//
+//   where its instances are, what materials and punctual lights are like, which lamps there are
+//
+// Meshes and images stay as they were read; edits cannot change them.
+//
+// Proved:  tests/gi/group_pages_test.cpp.   Threads: pure function.   Errors: none.
+#pragma once
+
+#include <cstdint>
+
+#include "common/gi/light/transport.h"
+
+namespace ninefold {
+
+uint64_t sceneStamp(const Transport& transport);
+
+}  // namespace ninefold

@@ -1,0 +1,96 @@
+#include "common/gi/selective/selective.h"
+
+#include "common/gi/light_set/lamp_light.h"
+#include "common/gi/selective/element_light.h"
+#include "common/gi/selective/group_shooting.h"
+#include "common/gi/selective/scene_stamp.h"
+#include "common/state/fixed_point.h"
+
+namespace ninefold {
+namespace {
+
+// The VPLs stand on lamps alone.
+struct SelectiveLight final : LightSet {
+  const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
+};
+
+// P that pilots of this group's photons add to others, and what it takes from its own.
+std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePages& pages,
+                                     uint32_t group, const std::optional<GroupRow>& before,
+                                     const GroupRow& now) {
+  std::vector<int64_t> changes(groups.groups(), 0);
+  if (before) {
+    const size_t count = std::min(before->pilots.size(), now.pilots.size());
+    for (uint32_t k = 0; k < count; ++k) {
+      const Pilot &was = before->pilots[k], &is = now.pilots[k];
+      if (was.signature == is.signature) continue;
+      changes[groups.likeGroup(groups.photon(group, k))] +=
+          toFixed(double{std::max(was.weight, is.weight)}, kWeightQuantum);
+    }
+  }
+  changes[group] = -GroupPages::priority(pages, group);
+  return changes;
+}
+
+}  // namespace
+
+Selective::Selective(const Transport& transport)
+    : LayeredMethod(transport),
+      groups_(transport.settings),
+      surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
+      stamp_(sceneStamp(transport)),
+      order_(transport.tracer, groups_, *surfaces_, stamp_) {}
+
+std::shared_ptr<const FrameLight> Selective::light(const FrameKey& frame, int set,
+                                                   std::span<const View>,
+                                                   const MethodState* state) const {
+  auto light = std::make_shared<SelectiveLight>();
+  light->elements = static_cast<const ElementLight*>(state);
+  addLampLight(t_, frame, set, *light);
+  return light;
+}
+
+std::unique_ptr<Scratch> Selective::makeScratch() const {
+  return std::make_unique<LampLightScratch>();
+}
+
+StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                           const View& view) const {
+  const GroupPages rows(groups_);
+  const uint32_t group = order_.groupAt(pages, view, unit - step.firstUnit);
+  const std::optional<GroupRow> before = rows.read(pages, group);
+  const uint32_t randomization = before ? before->randomization : step.randomization;
+  StepResult result;
+  const GroupShooting shooting{t_, groups_, *surfaces_, stamp_, rows.room()};
+  const GroupRow now = shooting.shoot(group, randomization, result.rays);
+  result.deltas = rows.replace(pages, group, now);
+  GroupPages::addPriorities(priorityChanges(groups_, pages, group, before, now), result.deltas);
+  return result;
+}
+
+std::shared_ptr<const MethodState> Selective::digest(const StatePages& pages,
+                                                     const MethodState* before) const {
+  const auto* earlier = static_cast<const ElementLight*>(before);
+  const SceneElements* known = earlier == nullptr ? nullptr : earlier->elements().get();
+  auto elements =
+      std::make_shared<const SceneElements>(t_.scene, t_.settings.elementSize * t_.radius, known);
+  return std::make_shared<const ElementLight>(pages, groups_, surfaces_, std::move(elements),
+                                              t_.settings.elementRule, earlier);
+}
+
+void Selective::query(const FrameLight& frameLight, const ReceiverSamples& samples,
+                      int pathVertices, LayeredScratch& memory, Receivers& receivers,
+                      std::vector<Irradiance>* caustic, RayCounts& rays) const {
+  const auto& light = static_cast<const SelectiveLight&>(frameLight);
+  auto& scratch = static_cast<LampLightScratch&>(memory);
+  gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays);
+  if (light.elements == nullptr) return;
+  for (size_t i = 0; i < receivers.size(); ++i) {
+    const uint32_t object = receivers.object[i], triangle = receivers.triangle[i];
+    const bool isBack = glm::dot(receivers.ng(i), t_.tracer.frontNormal(object, triangle)) < 0;
+    receivers.addIrradiance(
+        i, light.elements->at({object, triangle, isBack}, receivers.u[i], receivers.v[i]));
+  }
+}
+
+}  // namespace ninefold

@@ -1,0 +1,62 @@
+// selective.h: selective photon tracing. The state is what a pool of photons left in mesh elements.
+// After an edit those groups of photons are traced anew first whose paths the edit concerns.
+//
+//   last turn before x          who brings it
+//   none: straight from a lamp  direct VPLs, and compensation of their bound: L_e alone
+//   D, or a glossy lobe         the pool, by mesh elements (element_light.h)
+//   any other S lobe            caustic photons (caustic_photons.h)
+//
+//   unit of a step   one group, the one at its place in the order (group_order.h). Its photons are
+//                    traced in the present scene and replace those of before (group_pages.h).
+//   change           A pilot that now hits something else than before tells that the group that it
+//                    is like has changed, too: its weight is added to that group's priority P. Any
+//                    edit shows in this way: of objects, materials and lamps.
+//
+// Beyond the paper: a group's hits are kept (12 bytes each), so that old light is taken away without
+// tracing it again with negative energy. A state of which all groups are traced is that of a fresh
+// start, to the last bit.
+//
+// At rest each frame has a pool of its own, by digit-scrambled numbers (sampling/halton.h): frames
+// are independent.
+//
+// Source:  Dmitriev, Brabec, Myszkowski and Seidel 2002.
+// Proved:  tests/gi (all tests over the table of methods; selective_test.cpp).
+// Fails:   light that has bounced is blurred over an element; where a wall stands on an element,
+//          light leaks under it.
+// Threads, owner, errors: as method.h says.
+#pragma once
+
+#include "common/gi/light_set/light_set.h"
+#include "common/gi/selective/group_order.h"
+#include "common/gi/selective/photon_groups.h"
+#include "common/gi/selective/surface_numbers.h"
+
+namespace ninefold {
+
+class Selective final : public LayeredMethod {
+ public:
+  explicit Selective(const Transport& transport);
+
+  // `state` may be null: the empty state, without a photon.
+  std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
+                                          std::span<const View> views,
+                                          const MethodState* state) const override;
+  std::unique_ptr<Scratch> makeScratch() const override;
+  StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                  const View& view) const override;
+  std::shared_ptr<const MethodState> digest(const StatePages& pages,
+                                            const MethodState* before) const override;
+
+ protected:
+  void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
+             LayeredScratch& scratch, Receivers& receivers, std::vector<Irradiance>* caustic,
+             RayCounts& rays) const override;
+
+ private:
+  const PhotonGroups groups_;
+  const std::shared_ptr<const SurfaceNumbers> surfaces_;
+  const uint64_t stamp_;
+  const GroupOrder order_;
+};
+
+}  // namespace ninefold

@@ -1,0 +1,266 @@
+// Selective photon tracing: what steps do after an edit, in which order, and where light ends up.
+#include "common/gi/selective/selective.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/gi/selective/packed_flux.h"
+#include "tests/gi/expect.h"
+#include "tests/gi/make_scene.h"
+
+namespace ninefold {
+namespace {
+
+using testing::SceneBuilder;
+
+// A room with two lamps in the ceiling, a box that stands on the floor, and a point light.
+struct Room {
+  Vec3 box{0.3f, -1, 0.2f};
+  float firstLamp = 5, secondLamp = 5, point = 0.2f;
+  Vec3 wall{0.6f};
+
+  Scene build() const {
+    SceneBuilder b;
+    b.box(b.material(testing::matte(wall)), Vec3(-1), Vec3(1), true);
+    const int red = b.material(testing::matte(Vec3(0.7f, 0.2f, 0.2f)));
+    b.quad(b.material(testing::matte(Vec3(0), Vec3(firstLamp))), Vec3(-0.7f, 0.99f, -0.1f),
+           Vec3(0.2f, 0, 0), Vec3(0, 0, 0.2f));
+    b.quad(b.material(testing::matte(Vec3(0), Vec3(secondLamp))), Vec3(0.5f, 0.99f, -0.1f),
+           Vec3(0.2f, 0, 0), Vec3(0, 0, 0.2f));
+    b.box(red, Vec3(0), Vec3(0.25f, 0.4f, 0.25f), false);
+    PunctualLight light;
+    light.position = Vec3(-0.5f, -0.5f, 0.5f), light.intensity = Vec3(point);
+    b.light(light);
+    b.camera(Vec3(0, 0, 0.95f), Vec3(0, -0.3f, -1), 1.2f);
+    Scene scene = b.build();
+    scene.instances[3].toWorld[3] = DVec4(DVec3(box), 1);
+    scene.bounds = {};
+    for (const Vec3& corner : {Vec3(-1), Vec3(1)}) scene.bounds.add(corner);
+    return scene;
+  }
+};
+
+Settings poolOf(int photons = 18432, int groups = 288) {
+  Settings s = testing::small(Method::selective, 8);
+  s.photonPool = photons, s.photonGroups = groups, s.pilotRatio = 16;
+  return s;
+}
+
+// A state that is made, and made again after edits.
+class Session {
+ public:
+  explicit Session(const Room& room, Settings settings = poolOf()) : settings_(settings) {
+    show(room, nullptr);
+    pages_ = stateAtRest(*renderer_, settings_, 3);
+  }
+  // A gesture goes on from what the session began with.
+  void edit(const Room& room) {
+    if (!begun_) begun_ = renderer_;
+    show(room, begun_.get());
+  }
+  void step(uint32_t units) {
+    StepKey key;
+    key.from = 1, key.firstUnit = nextUnit_;
+    const StatePages before = pages_;
+    for (uint32_t unit = 0; unit < units; ++unit)
+      pages_.apply(renderer_->step(before, key, key.firstUnit + unit).deltas);
+    nextUnit_ += units;
+  }
+  // The rows of a fresh start in the present scene, with the numbers of this one.
+  StatePages fresh() const { return stateAtRest(*renderer_, settings_, 3); }
+  const StatePages& pages() const { return pages_; }
+  std::shared_ptr<const MethodState> digest() const { return renderer_->digest(pages_); }
+
+  // Groups whose rows are not those of `other`.
+  std::set<uint32_t> differing(const StatePages& other) const {
+    const PhotonGroups groups(settings_);
+    const GroupPages rows(groups);
+    std::set<uint32_t> found;
+    for (uint32_t g = 0; g < groups.groups(); ++g)
+      if (!(*rows.read(pages_, g) == *rows.read(other, g))) found.insert(g);
+    return found;
+  }
+  // Hits that are not where `other` has them, of all groups.
+  size_t hitsAmiss(const StatePages& other) const {
+    const PhotonGroups groups(settings_);
+    const GroupPages rows(groups);
+    size_t count = 0;
+    for (uint32_t g = 0; g < groups.groups(); ++g) {
+      const auto hash = [](const ElementHit& h) {
+        return hashWords(h.surface, uint64_t{h.u} << 16 | h.v, h.flux);
+      };
+      std::multiset<uint64_t> wanted;
+      const GroupRow there = *rows.read(other, g), here = *rows.read(pages_, g);
+      for (const ElementHit& hit : there.hits) wanted.insert(hash(hit));
+      for (const ElementHit& hit : here.hits) {
+        const auto found = wanted.find(hash(hit));
+        if (found != wanted.end()) wanted.erase(found);
+      }
+      count += wanted.size();
+    }
+    return count;
+  }
+
+ private:
+  void show(const Room& room, const Renderer* begun) {
+    scenes_.push_back(std::make_unique<Scene>(room.build()));
+    tracers_.push_back(std::make_unique<Tracer>(*scenes_.back(), Isa::automatic));
+    settings_.camera = scenes_.back()->cameras.front();
+    renderer_ = std::make_shared<const Renderer>(*tracers_.back(), settings_, begun);
+  }
+
+  Settings settings_;
+  std::vector<std::unique_ptr<Scene>> scenes_;
+  std::vector<std::unique_ptr<Tracer>> tracers_;
+  std::shared_ptr<const Renderer> renderer_, begun_;
+  StatePages pages_;
+  uint32_t nextUnit_ = 0;
+};
+
+std::vector<std::pair<std::string, Room>> edits() {
+  std::vector<std::pair<std::string, Room>> all;
+  const auto add = [&](const char* name, auto&& change) {
+    Room room;
+    change(room);
+    all.emplace_back(name, room);
+  };
+  add("the box moves", [](Room& r) { r.box = Vec3(-0.4f, -0.9f, -0.3f); });
+  add("a lamp is dimmed", [](Room& r) { r.firstLamp = 2; });
+  add("a lamp goes out", [](Room& r) { r.secondLamp = 0; });
+  add("the point light doubles", [](Room& r) { r.point = 0.4f; });
+  add("the wall is painted", [](Room& r) { r.wall = Vec3(0.6f, 0.6f, 0.3f); });
+  return all;
+}
+
+// Bit for bit, whatever was edited, while steps of any size run.
+TEST(Selective, AllGroupsTracedAnewAreAFreshStart) {
+  for (const auto& [name, room] : edits()) {
+    Session session{Room()};
+    session.edit(room);
+    EXPECT_FALSE(session.differing(session.fresh()).empty()) << name;
+    for (uint32_t done = 0, units = 1; done < 288; done += units, units = std::min(units * 2, 31u))
+      session.step(std::min(units, 288 - done));
+    EXPECT_TRUE(session.differing(session.fresh()).empty()) << name;
+  }
+}
+
+// Two edits, the second while groups of the first are still to be traced.
+TEST(Selective, AnEditInMidUpdateStartsOver) {
+  Session session{Room()};
+  Room room;
+  room.box.x = -0.2f;
+  session.edit(room);
+  session.step(100);
+  room.firstLamp = 1;
+  session.edit(room);
+  for (int i = 0; i < 9; ++i) session.step(32);
+  EXPECT_TRUE(session.differing(session.fresh()).empty());
+}
+
+// A lamp that was off when the gesture began has photons of its own, and all of its flux.
+TEST(Selective, ALampThatIsSwitchedOnInAGestureShines) {
+  Room dark;
+  dark.secondLamp = 0;
+  Session session(dark);
+  session.edit(Room());
+  session.step(288);
+  const auto bounced = [](const StatePages& pages) {
+    const PhotonGroups groups(poolOf());
+    const GroupPages rows(groups);
+    double sum = 0;
+    for (uint32_t g = 0; g < groups.groups(); ++g) {
+      const GroupRow row = *rows.read(pages, g);
+      for (const ElementHit& hit : row.hits) sum += static_cast<double>(unpackFlux(hit.flux).y);
+    }
+    return sum;
+  };
+  const double lit = bounced(Session{Room()}.pages());
+  EXPECT_NEAR(bounced(session.pages()), lit, 0.02 * lit);
+  EXPECT_LT(bounced(Session(dark).pages()), 0.9 * lit);
+}
+
+// Of all hits that an edit displaces, the first quarter of the groups brings well over a quarter.
+TEST(Selective, WhatAnEditConcernsIsTracedFirst) {
+  struct Case {
+    Room room;
+    double least;
+  };
+  Room small, dimmed;
+  small.box = Vec3(0.3f, -1, -0.3f), dimmed.firstLamp = 2;
+  for (const auto& [room, least] : {Case{small, 0.33}, Case{dimmed, 0.5}}) {
+    Session session(Room(), poolOf(73728));
+    session.edit(room);
+    const StatePages fresh = session.fresh();
+    const auto all = static_cast<double>(session.hitsAmiss(fresh));
+    for (int i = 0; i < 9; ++i) session.step(8);
+    EXPECT_GT(1 - static_cast<double>(session.hitsAmiss(fresh)) / all, least);
+  }
+}
+
+// Units of one step take different groups, and nothing is urgent once all is done.
+TEST(Selective, UnitsOfAStepShareNoGroup) {
+  Session session{Room()};
+  Room room;
+  room.box.x = -0.2f;
+  session.edit(room);
+  const StatePages fresh = session.fresh();
+  size_t before = session.differing(fresh).size();
+  for (int i = 0; i < 36; ++i) {
+    session.step(8);
+    const size_t left = session.differing(fresh).size();
+    EXPECT_EQ(left, before - 8);
+    before = left;
+  }
+  for (uint32_t g = 0; g < 288; ++g) EXPECT_GE(GroupPages::priority(session.pages(), g), 0);
+}
+
+// A wall without thickness between a lit and a dark room: its dark face and whatever lies further
+// than an element from it get nothing at all.
+TEST(Selective, LightStaysOnItsSideOfAThinWall) {
+  SceneBuilder b;
+  const int grey = b.material(testing::matte(Vec3(0.7f)));
+  b.box(grey, Vec3(-1), Vec3(1), true);
+  b.quad(grey, Vec3(0, -1, -1), Vec3(0, 2, 0), Vec3(0, 0, 2));
+  PunctualLight light;
+  light.position = Vec3(-0.5f, 0, 0), light.intensity = Vec3(2);
+  b.light(light);
+  const Metres h = 0.1f;
+  const auto seen = [&](Vec3 eye, Vec3 target) {
+    const Scene scene = SceneBuilder(b).camera(eye, target, 0.2f).build();
+    const Tracer tracer(scene, Isa::automatic);
+    Settings s = poolOf();
+    s.elementSize = h / scene.bounds.radius();
+    return testing::render(tracer, s, 2);
+  };
+  for (const Vec3& p : seen(Vec3(0.9f, 0, 0), Vec3(0)).pixels) EXPECT_EQ(p, Vec3(0));
+  for (const Vec3& p : seen(Vec3(0.6f, 0, 0), Vec3(0.6f, -1, 0.01f)).pixels) EXPECT_EQ(p, Vec3(0));
+  for (const Vec3& p : seen(Vec3(-0.9f, 0, 0), Vec3(0)).pixels) EXPECT_GT(p.x, 0.05f);
+}
+
+// The finer the elements, the nearer to the truth, down to the noise of the photons: against the
+// reference in a room whose light changes fast near the box.
+TEST(Selective, FinerElementsBlurLess) {
+  const Scene scene = Room().build();
+  const Tracer tracer(scene, Isa::automatic);
+  Settings truth = testing::small(Method::instantRadiosity, 24);
+  truth.directVpls = 16, truth.indirectVpls = 64;
+  const auto wanted = testing::render(tracer, truth, 256);
+  const auto errorOf = [&](float size) {
+    Settings s = poolOf(73728);
+    s.width = s.height = 24, s.elementSize = size, s.directVpls = 16;
+    const auto found = testing::render(tracer, s, 24);
+    double sum = 0;
+    for (size_t i = 0; i < found.pixels.size(); ++i) {
+      const auto off = static_cast<double>(found.pixels[i].x - wanted.pixels[i].x);
+      sum += off * off;
+    }
+    return std::sqrt(sum / static_cast<double>(found.pixels.size())) / wanted.grey();
+  };
+  const double coarse = errorOf(0.6f), fine = errorOf(0.1f);
+  EXPECT_LT(fine, 0.7 * coarse);
+  EXPECT_LT(fine, 0.03);
+}
+
+}  // namespace
+}  // namespace ninefold
