@@ -9,11 +9,17 @@ MethodStates::Shared MethodStates::get(uint32_t version, const StatePages& pages
   const std::lock_guard lock(mutex_);
   const auto found = std::ranges::find(states_, pages.hash(), &std::pair<uint64_t, Shared>::first);
   if (found != states_.end()) return found->second;
-  const MethodState* before = states_.empty() ? nullptr : states_.back().second.get();
-  Shared made = digest_(pages, before);
+  const Shared& before = states_.empty() ? before_ : states_.back().second;
+  Shared made = digest_(pages, before.get());
   states_.emplace_back(pages.hash(), made);
+  before_.reset();
   if (states_.size() > kKept) states_.pop_front();
   return made;
+}
+
+MethodStates::Shared MethodStates::latest() {
+  const std::lock_guard lock(mutex_);
+  return states_.empty() ? before_ : states_.back().second;
 }
 
 }  // namespace ninefold

@@ -41,7 +41,7 @@ RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& 
       toneMap_(delivery.exposure) {}
 
 RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& its,
-                        const Delivery& delivery, int threads, const Light* before)
+                        const Delivery& delivery, int threads, Light* before)
     : scene(std::move(s)),
       settings(its),
       filter(delivery.filter),
@@ -55,9 +55,11 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
                        differInViewAlone(before->settings, settings)
                    ? Renderer(before->renderer, settings)
                    : Renderer(scene->tracer, settings, begun.get())),
-      states([this](const StatePages& pages, const MethodState* before) {
-        return renderer.digest(pages, before);
-      }),
+      states([this](const StatePages& pages,
+                    const MethodState* last) { return renderer.digest(pages, last); },
+             before != nullptr && before->settings.method == settings.method
+                 ? before->states.latest()
+                 : nullptr),
       sets([this](const FrameKey& frame, int set,
                   const MethodState* state) { return renderer.light(frame, set, state); },
            kFramesKept) {

@@ -108,7 +108,7 @@ class RenderJob {
   // What jobs share.
   struct Light {
     Light(std::shared_ptr<const TracedScene> scene, const Settings& settings,
-          const Delivery& delivery, int threads, const Light* before);
+          const Delivery& delivery, int threads, Light* before);
     const std::shared_ptr<const TracedScene> scene;
     const Settings settings;
     const SurfaceTest filter;

@@ -79,10 +79,10 @@ uint32_t groupsInMotion(const Settings& s) {
 
 // Photons go by few settings; what elements make of them is no part of the state.
 bool haveSameGroups(const Settings& before, const Settings& after) {
-  return before.photonPool == after.photonPool && before.photonGroups == after.photonGroups &&
-         before.pilotRatio == after.pilotRatio && before.seed == after.seed &&
-         before.pathLength == after.pathLength && before.specularDepth == after.specularDepth &&
-         before.environment == after.environment;
+  return before.method == after.method && before.photonPool == after.photonPool &&
+         before.photonGroups == after.photonGroups && before.pilotRatio == after.pilotRatio &&
+         before.seed == after.seed && before.pathLength == after.pathLength &&
+         before.specularDepth == after.specularDepth && before.environment == after.environment;
 }
 
 constexpr StateFacts kSelectiveState{

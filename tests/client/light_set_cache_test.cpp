@@ -116,9 +116,12 @@ TEST(LightSetCache, ASetKeepsTheStateThatItIsMadeOf) {
 
 TEST(MethodStates, AreKeptByWhatTheirPagesHold) {
   int digested = 0;
-  MethodStates states([&](const StatePages&, const MethodState*) {
+  const MethodState* before = nullptr;
+  const auto digest = [&](const StatePages&, const MethodState* last) {
+    before = last;
     return ++digested, std::make_shared<const MethodState>();
-  });
+  };
+  MethodStates states(digest, nullptr);
   StatePages one, other;
   one.apply({{{0, 0}, Records(8, std::byte{1})}});
   other.apply({{{0, 0}, Records(8, std::byte{2})}});
@@ -127,6 +130,14 @@ TEST(MethodStates, AreKeptByWhatTheirPagesHold) {
   EXPECT_EQ(states.get(1, one), first);
   EXPECT_NE(states.get(1, other), first) << "another master's version 1";
   EXPECT_EQ(digested, 2);
+  EXPECT_EQ(before, first.get());
+
+  // After an edit the first state goes on from the last one.
+  const auto last = states.latest();
+  MethodStates edited(digest, last);
+  EXPECT_EQ(edited.latest(), last);
+  EXPECT_NE(edited.get(1, one), first);
+  EXPECT_EQ(before, last.get());
 }
 
 }  // namespace

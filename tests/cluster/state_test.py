@@ -12,7 +12,9 @@ from programs import BIN, SCENES, ClusterTest, signal
 class State(ClusterTest):
     SIZE = "48x36"
     METHOD = ("--method", "state-check")
+    UNITS = 6  # of a step
     LONG = 60  # frames: enough to lose or find somebody in the middle
+    LATE = 700  # and for somebody to come late
 
     def test_any_number_of_clients_and_threads(self):
         hashes = set()
@@ -20,7 +22,7 @@ class State(ClusterTest):
             stats = self.render(*self.METHOD, "--local-clients", clients, "--client-threads", threads, frames=4)
             hashes.add(stats["image_hash"])
             self.assertEqual(stats["state"]["steps"], 4, stats)
-            self.assertEqual(stats["state"]["units"], 4 * 6)
+            self.assertEqual(stats["state"]["units"], 4 * self.UNITS)
             self.assertGreater(stats["state"]["bytes_received"], 0)
             self.assertGreater(stats["state"]["bytes_sent"], 0)
         self.assertEqual(len(hashes), 1, hashes)
@@ -41,7 +43,7 @@ class State(ClusterTest):
 
     def test_who_comes_late_has_the_state_of_all_others(self):
         self.new_key()
-        frames = 700
+        frames = self.LATE
         undisturbed = self.render(*self.METHOD, "--local-clients", 1, frames=frames)
         master = self.master(*self.METHOD, "--local-clients", 0, "--key-file", "cluster.key", frames=frames)
         address = self.address_of(master)

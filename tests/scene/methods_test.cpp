@@ -130,6 +130,24 @@ TEST(Methods, ThePoolGoesByTheSettingsOfItsPhotons) {
   EXPECT_TRUE(isKept([](Settings& o) { o.directVpls = 5; }, direct));
 }
 
+TEST(Methods, GroupsGoByTheSettingsOfTheirPhotons) {
+  const MethodFacts& facts = factsOf(Method::selective);
+  const Settings s = settingsOf(facts);
+  EXPECT_EQ(facts.state->unitsOfAll(s), 288u);
+  EXPECT_EQ(facts.state->unitsInMotion(s), 32u);
+  const auto isKept = [&](const std::function<void(Settings&)>& change) {
+    Settings after = s;
+    change(after);
+    return facts.state->isKept(s, after);
+  };
+  EXPECT_TRUE(isKept([](Settings& o) { o.elementSize = 0.1f, o.directVpls = 0; }));
+  EXPECT_TRUE(isKept([](Settings& o) { o.elementRule = ElementRule::buckets, o.photons = 0; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.photonPool = 294912; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.photonGroups = 576; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.pilotRatio = 32; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.specularDepth = 2; }));
+}
+
 // Without photons no eye path meets a point by chance: what comes from one by a smooth surface is
 // missing, and said to be; rough lobes sample lights, area lights are met.
 TEST(LeftOut, MethodsThatMissTheCausticsOfPunctualLightsNameThem) {

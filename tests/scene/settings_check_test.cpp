@@ -1,5 +1,5 @@
 // Settings that are each within range, and too much together for a method with reverse VPLs, or of
-// no use for one with a rolling pool of photons.
+// no use for one with a pool of photons.
 #include "common/scene/settings_check.h"
 
 #include <gtest/gtest.h>
@@ -60,6 +60,30 @@ TEST(SettingsCheck, APoolIsRenewedInEqualParts) {
       const std::string said =
           refusal(facts, [&](Settings& s) { s.mapPhotons = photons, s.mapPerFrame = perFrame; });
       EXPECT_EQ(said, facts.has(kMapPhotons) ? text : "") << facts.name;
+    }
+}
+
+TEST(SettingsCheck, GroupsOfPhotonsFitTogether) {
+  const std::tuple<int, int, int, const char*> cases[] = {
+      {147456, 286, 16,
+       "photon-groups is 286: it must be a product of 2, 3, 5 and 7, as 288 or 10080 is"},
+      {147456, 11, 16,
+       "photon-groups is 11: it must be a product of 2, 3, 5 and 7, as 288 or 10080 is"},
+      {150000, 288, 16,
+       "photon-pool is 150000, no multiple of photon-groups 288 times pilot-ratio 16: 152064 would "
+       "do"},
+      {10, 288, 16,
+       "photon-pool is 10, no multiple of photon-groups 288 times pilot-ratio 16: 4608 would do"},
+      {4194304, 20160, 4096,
+       "photon-groups 20160 times pilot-ratio 4096 is more than a pool can have: lower one"},
+      {161280, 10080, 16, ""},
+      {16, 1, 16, ""}};
+  for (const MethodFacts& facts : allMethods())
+    for (const auto& [photons, groups, ratio, text] : cases) {
+      const std::string said = refusal(facts, [&](Settings& s) {
+        s.photonPool = photons, s.photonGroups = groups, s.pilotRatio = ratio;
+      });
+      EXPECT_EQ(said, facts.has(kElementPhotons) ? text : "") << facts.name;
     }
 }
 

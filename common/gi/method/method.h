@@ -75,8 +75,8 @@ class GiMethod {
   // the step was opened; it counts only for methods whose light needs it.
   virtual StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit,
                           const View& view) const;
-  // `before`: of an earlier version under the same method, or null. It may save work; it must not
-  // change the result.
+  // `before`: of an earlier version under the same method, maybe of the scene before an edit; or
+  // null. It may save work; it must not change the result.
   virtual std::shared_ptr<const MethodState> digest(const StatePages& pages,
                                                     const MethodState* before) const;
 
