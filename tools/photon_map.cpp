@@ -16,6 +16,7 @@
 #include "tools/map_box.h"
 #include "tools/map_motion.h"
 #include "tools/map_stages.h"
+#include "tools/words.h"
 
 namespace ninefold {
 namespace {
@@ -49,50 +50,6 @@ constexpr const char* kHelp =
     "picture, with an empty pool. total: shoot, the index that --map-index names, estimate, "
     "rest.\n"
     "Exit status: 0 done, 1 a failure (one line on stderr), 2 wrong usage.\n";
-
-// The words of a command line, without those that are this tool's own.
-class Words {
- public:
-  Words(int argc, char** argv) : words_(argv, argv + argc) {}
-
-  bool has(std::string_view flag) const {
-    return std::any_of(words_.begin() + 1, words_.end(),
-                       [&](const std::string& w) { return w.starts_with(flag); });
-  }
-  void addIfMissing(const std::string& flag, const std::string& value) {
-    if (!has("--" + flag)) words_.push_back("--" + flag + "=" + value);
-  }
-  void add(const std::string& word) { words_.push_back(word); }
-  // Takes --flag VALUE or --flag=VALUE out.
-  std::optional<std::string> take(const std::string& flag) {
-    const std::string name = "--" + flag;
-    for (auto at = words_.begin() + 1; at != words_.end(); ++at) {
-      if (at->starts_with(name + "=")) {
-        const std::string value = at->substr(name.size() + 1);
-        return words_.erase(at), value;
-      }
-      if (*at != name) continue;
-      if (at + 1 == words_.end()) failUsage("{} needs a value", name);
-      const std::string value = *(at + 1);
-      return words_.erase(at, at + 2), value;
-    }
-    return std::nullopt;
-  }
-  int takeWhole(const std::string& flag, int usual, int low, int high) {
-    const auto text = take(flag);
-    if (!text) return usual;
-    return static_cast<int>(
-        parseWhole(flag, *text, static_cast<uint64_t>(low), static_cast<uint64_t>(high)));
-  }
-  Options options() const {
-    std::vector<const char*> all;
-    for (const std::string& word : words_) all.push_back(word.c_str());
-    return parseOptions(static_cast<int>(all.size()), all.data(), processVariable, 1);
-  }
-
- private:
-  std::vector<std::string> words_;
-};
 
 struct Wanted {
   int surfaces = 0;  // of the box; 0: a scene file

@@ -72,9 +72,14 @@ double selectiveRays(const Settings& s, double pixels) {
 // Photons that a step in motion traces, about: as long as a frame on a few cores.
 constexpr int kPhotonsInMotion = 1 << 14;
 
-uint32_t groupsInMotion(const Settings& s) {
+// Rows of photons: groups, and parts of the pilots that are about as large.
+uint32_t rowsOfAll(const Settings& s) {
+  return static_cast<uint32_t>(s.photonGroups + (s.photonGroups + s.pilotRatio - 1) / s.pilotRatio);
+}
+
+uint32_t rowsInMotion(const Settings& s) {
   const int photonsOfEach = std::max(s.photonPool / s.photonGroups, 1);
-  return static_cast<uint32_t>(std::clamp(kPhotonsInMotion / photonsOfEach, 1, s.photonGroups));
+  return std::clamp(static_cast<uint32_t>(kPhotonsInMotion / photonsOfEach), 1u, rowsOfAll(s));
 }
 
 // Photons go by few settings; what elements make of them is no part of the state.
@@ -86,8 +91,8 @@ bool haveSameGroups(const Settings& before, const Settings& after) {
 }
 
 constexpr StateFacts kSelectiveState{
-    .unitsOfAll = [](const Settings& s) { return static_cast<uint32_t>(s.photonGroups); },
-    .unitsInMotion = groupsInMotion,
+    .unitsOfAll = rowsOfAll,
+    .unitsInMotion = rowsInMotion,
     .rays = [](const Settings& s) { return 4.0 * s.photonPool / s.photonGroups; },
     .beginsAnew = true,
     .isKept = haveSameGroups,

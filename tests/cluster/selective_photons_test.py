@@ -8,7 +8,7 @@ from state_test import State
 
 class SelectivePhotons(State):
     METHOD = ("--method", "selective-photons", "--photon-pool", 4608)
-    UNITS = 288
+    UNITS = 288 + 288 // 16
     LONG = 12
     LATE = 40
 

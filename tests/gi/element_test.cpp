@@ -172,13 +172,13 @@ TEST(ElementLight, DigestedAtOnceIsDigestedStepByStep) {
   const Pool pool;
   const GroupPages rows(pool.groups());
   StatePages pages;
-  for (uint32_t g = 0; g < 288; ++g) pages.apply(rows.replace(pages, g, pool.row(g)));
+  for (uint32_t g = 0; g < 306; ++g) pages.apply(rows.replace(pages, g, pool.row(g)));
   auto light = pool.digest(pages, nullptr, pool.scene());
   Scene moved = pool.scene();
   for (const uint64_t step : seedsFrom(1, 8)) {
     const Repeatable repeatable(step);
     for (uint64_t i = 0; i < 20; ++i) {
-      const auto g = static_cast<uint32_t>(hashWords(step, i) % 288);
+      const auto g = static_cast<uint32_t>(hashWords(step, i) % 306);
       pages.apply(rows.replace(pages, g, pool.row(hashWords(step, i, 1))));
     }
     if (step % 2 == 0) moved.instances[1].toWorld[3].x += 0.0371;

@@ -40,8 +40,8 @@ ElementLight::ElementLight(const StatePages& pages, const PhotonGroups& groups,
       elements_(std::move(elements)),
       rule_(rule) {
   const size_t instances = elements_->instances();
-  std::vector<std::optional<GroupRow>> rows(groups.groups());
-  for (uint32_t g = 0; g < groups.groups(); ++g) rows[g] = rows_.read(pages_, g);
+  std::vector<std::optional<GroupRow>> rows(groups.rows());
+  for (uint32_t r = 0; r < groups.rows(); ++r) rows[r] = rows_.read(pages_, r);
   quantum_ = quantumOf(rows);
 
   // Instances whose sums go on from those of `before`, and the rest, which begin with nothing.
@@ -57,13 +57,13 @@ ElementLight::ElementLight(const StatePages& pages, const PhotonGroups& groups,
     else
       sums_[i].assign(kPerNode * elements_->block(i).nodes(), 0);
   }
-  for (uint32_t g = 0; g < groups.groups(); ++g) {
-    const bool isSame = goesOn && rows_.isShared(pages_, before->pages_, g);
+  for (uint32_t r = 0; r < groups.rows(); ++r) {
+    const bool isSame = goesOn && rows_.isShared(pages_, before->pages_, r);
     if (goesOn && !isSame)
-      if (const auto old = rows_.read(before->pages_, g)) add(*old, -1, kept);
-    if (!rows[g]) continue;
-    add(*rows[g], 1, fresh);
-    if (!isSame) add(*rows[g], 1, kept);
+      if (const auto old = rows_.read(before->pages_, r)) add(*old, -1, kept);
+    if (!rows[r]) continue;
+    add(*rows[r], 1, fresh);
+    if (!isSame) add(*rows[r], 1, kept);
   }
 }
 

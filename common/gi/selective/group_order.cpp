@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <tuple>
 
 #include "common/math/rounding.h"
 #include "common/sampling/hash.h"
@@ -43,7 +44,7 @@ class Field {
 
 }  // namespace
 
-uint32_t GroupOrder::groupAt(const StatePages& pages, const View& view, uint32_t rank) const {
+uint32_t GroupOrder::rowAt(const StatePages& pages, const View& view, uint32_t rank) const {
   const uint64_t key = keyOf(pages, view);
   const std::lock_guard lock(mutex_);
   if (order_.empty() || key_ != key) order_ = orderOf(pages, view), key_ = key;
@@ -51,20 +52,23 @@ uint32_t GroupOrder::groupAt(const StatePages& pages, const View& view, uint32_t
 }
 
 std::vector<uint32_t> GroupOrder::orderOf(const StatePages& pages, const View& view) const {
-  std::vector<uint32_t> order(groups_.groups());
+  std::vector<uint32_t> order(groups_.rows());
   std::iota(order.begin(), order.end(), 0u);
   if (pages.all().empty()) return order;
   const std::vector<int64_t> visible = visibility(pages, view);
   std::vector<Urgency> urgencies;
-  for (const uint32_t g : order)
-    urgencies.push_back(
-        {rows_.stamp(pages, g) != stamp_, visible[g] * GroupPages::priority(pages, g), g});
+  for (const uint32_t r : order) {
+    if (rows_.stamp(pages, r) == stamp_)
+      urgencies.push_back({2, 0, r});
+    else if (groups_.hasPilots(r))
+      urgencies.push_back({0, 0, r});
+    else
+      urgencies.push_back({1, visible[r] * GroupPages::priority(pages, r), r});
+  }
   std::ranges::sort(urgencies, [](const Urgency& a, const Urgency& b) {
-    if (a.isStale != b.isStale) return a.isStale;
-    if (a.isStale && a.priority != b.priority) return a.priority > b.priority;
-    return a.group < b.group;
+    return std::tuple(a.rank, -a.priority, a.row) < std::tuple(b.rank, -b.priority, b.row);
   });
-  std::ranges::transform(urgencies, order.begin(), &Urgency::group);
+  std::ranges::transform(urgencies, order.begin(), &Urgency::row);
   return order;
 }
 
@@ -78,13 +82,13 @@ std::vector<int64_t> GroupOrder::visibility(const StatePages& pages, const View&
                                      static_cast<float>(hit.v) / 65535));
   };
   std::vector<int64_t> seen(groups_.groups(), 0), all(groups_.groups(), 0);
-  for (uint32_t g = 0; g < groups_.groups(); ++g) {
-    const auto row = rows_.read(pages, g);
+  for (uint32_t r = groups_.groups(); r < groups_.rows(); ++r) {
+    const auto row = rows_.read(pages, r);
     if (!row) continue;
     size_t first = 0;
     for (uint32_t k = 0; k < row->pilots.size(); ++k) {
       const size_t end = std::min<size_t>(row->pilots[k].end, row->hits.size());
-      const uint32_t alike = groups_.likeGroup(groups_.photon(g, k));
+      const uint32_t alike = groups_.likeGroup(groups_.photon(r, k));
       const auto from = row->hits.begin() + static_cast<std::ptrdiff_t>(std::min(first, end));
       const auto to = row->hits.begin() + static_cast<std::ptrdiff_t>(end);
       ++all[alike];

@@ -1,7 +1,8 @@
-// group_order.h: which groups of photons are traced next.
+// group_order.h: which rows of photons are traced next.
 //
-//   1. groups that were traced in another scene than the present one, by V P, greatest first
-//   2. all others; among equals, the smaller number
+//   1. pilots that were traced in another scene than the present one
+//   2. groups that were, by V P, greatest first
+//   3. all others; among equals, the smaller number
 //
 //   P   what changed paths of pilots that are like the group carry: added by steps, 0 once the
 //       group is traced
@@ -12,7 +13,7 @@
 // counted anew after each move of the camera, and is 1 until enough pilots were traced.)
 //
 // Source:  Dmitriev et al. 2002, 5.2 and 5.3.   Proved: tests/gi/selective_test.cpp.
-// Threads: groupAt from any thread; the order of one state is made once.   Errors: none.
+// Threads: rowAt from any thread; the order of one state is made once.   Errors: none.
 #pragma once
 
 #include <memory>
@@ -31,14 +32,14 @@ class GroupOrder {
              uint64_t stamp)
       : tracer_(tracer), groups_(groups), rows_(groups), surfaces_(surfaces), stamp_(stamp) {}
 
-  // Number `rank` of the groups in their order, counted round.
-  uint32_t groupAt(const StatePages& pages, const View& view, uint32_t rank) const;
+  // Number `rank` of the rows in their order, counted round.
+  uint32_t rowAt(const StatePages& pages, const View& view, uint32_t rank) const;
 
  private:
   struct Urgency {
-    bool isStale;
+    int rank;  // 0 to 2, as above
     int64_t priority;
-    uint32_t group;
+    uint32_t row;
   };
   std::vector<uint32_t> orderOf(const StatePages& pages, const View& view) const;
   std::vector<int64_t> visibility(const StatePages& pages, const View& view) const;

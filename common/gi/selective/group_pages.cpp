@@ -44,30 +44,34 @@ std::optional<Header> headerOf(const Records& bytes) {
 
 }  // namespace
 
-GroupPages::GroupPages(const PhotonGroups& groups) : pilots_(groups.pilotsOfEach()) {
-  const size_t wanted = sizeof(Header) + pilots_ * sizeof(Pilot) +
-                        groups.photonsOfEach() * kMostHitsOfPath * sizeof(ElementHit);
-  const size_t most = std::min(kMostPages, kMostOfAll / groups.groups());
+GroupPages::GroupPages(const PhotonGroups& groups)
+    : photons_(std::max(groups.photonsOf(0), groups.photonsOf(groups.groups()))) {
+  const size_t wanted =
+      sizeof(Header) + photons_ * (sizeof(Pilot) + kMostHitsOfPath * sizeof(ElementHit));
+  const size_t most = std::min(kMostPages, kMostOfAll / groups.rows());
   pages_ = std::clamp<size_t>((wanted + kPageBytes - 1) / kPageBytes, 1, most);
 }
 
 size_t GroupPages::room() const {
-  return (pages_ * kPageBytes - sizeof(Header) - pilots_ * sizeof(Pilot)) / sizeof(ElementHit);
+  const size_t bytes = pages_ * kPageBytes - sizeof(Header);
+  const size_t pilots = photons_ * sizeof(Pilot);
+  return bytes > pilots ? (bytes - pilots) / sizeof(ElementHit) : 0;
 }
 
-PageDeltas GroupPages::replace(const StatePages& pages, uint32_t group, const GroupRow& row) const {
+PageDeltas GroupPages::replace(const StatePages& pages, uint32_t row,
+                               const GroupRow& content) const {
   Records bytes;
-  const Header header{row.stamp, row.randomization, row.lampFlux,
-                      static_cast<uint32_t>(row.pilots.size()),
-                      static_cast<uint32_t>(row.hits.size())};
+  const Header header{content.stamp, content.randomization, content.lampFlux,
+                      static_cast<uint32_t>(content.pilots.size()),
+                      static_cast<uint32_t>(content.hits.size())};
   append(bytes, &header, 1);
-  append(bytes, row.pilots.data(), row.pilots.size());
-  append(bytes, row.hits.data(), row.hits.size());
+  append(bytes, content.pilots.data(), content.pilots.size());
+  append(bytes, content.hits.data(), content.hits.size());
   PageDeltas deltas;
   for (size_t j = 0; j < pages_; ++j) {
     const auto from = static_cast<std::ptrdiff_t>(std::min(j * kPageBytes, bytes.size()));
     const auto to = static_cast<std::ptrdiff_t>(std::min((j + 1) * kPageBytes, bytes.size()));
-    const PageId id = pageOf(group, j);
+    const PageId id = pageOf(row, j);
     // A page that was never needed stays unwritten.
     if (from < to || pages.find(id) != nullptr)
       deltas.push_back({id, Records(bytes.begin() + from, bytes.begin() + to)});
@@ -75,35 +79,35 @@ PageDeltas GroupPages::replace(const StatePages& pages, uint32_t group, const Gr
   return deltas;
 }
 
-std::optional<GroupRow> GroupPages::read(const StatePages& pages, uint32_t group) const {
+std::optional<GroupRow> GroupPages::read(const StatePages& pages, uint32_t row) const {
   Records bytes;
   for (size_t j = 0; j < pages_; ++j)
-    if (const Records* page = recordsOf(pages, pageOf(group, j)))
+    if (const Records* page = recordsOf(pages, pageOf(row, j)))
       bytes.insert(bytes.end(), page->begin(), page->end());
   const std::optional<Header> header = headerOf(bytes);
   if (!header) return std::nullopt;
   const size_t length =
       sizeof(Header) + header->pilots * sizeof(Pilot) + header->hits * sizeof(ElementHit);
   if (bytes.size() != length) return std::nullopt;
-  GroupRow row{header->stamp, header->randomization, header->lampFlux, {}, {}};
-  row.pilots.resize(header->pilots), row.hits.resize(header->hits);
+  GroupRow content{header->stamp, header->randomization, header->lampFlux, {}, {}};
+  content.pilots.resize(header->pilots), content.hits.resize(header->hits);
   size_t place = sizeof(Header);
-  take(bytes, place, row.pilots.data(), row.pilots.size());
-  take(bytes, place, row.hits.data(), row.hits.size());
-  return row;
+  take(bytes, place, content.pilots.data(), content.pilots.size());
+  take(bytes, place, content.hits.data(), content.hits.size());
+  return content;
 }
 
-std::optional<uint64_t> GroupPages::stamp(const StatePages& pages, uint32_t group) const {
-  const Records* first = recordsOf(pages, pageOf(group, 0));
+std::optional<uint64_t> GroupPages::stamp(const StatePages& pages, uint32_t row) const {
+  const Records* first = recordsOf(pages, pageOf(row, 0));
   if (first == nullptr) return std::nullopt;
   const std::optional<Header> header = headerOf(*first);
   if (!header) return std::nullopt;
   return header->stamp;
 }
 
-bool GroupPages::isShared(const StatePages& a, const StatePages& b, uint32_t group) const {
+bool GroupPages::isShared(const StatePages& a, const StatePages& b, uint32_t row) const {
   for (size_t j = 0; j < pages_; ++j)
-    if (a.find(pageOf(group, j)) != b.find(pageOf(group, j))) return false;
+    if (a.find(pageOf(row, j)) != b.find(pageOf(row, j))) return false;
   return true;
 }
 

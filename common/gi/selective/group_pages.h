@@ -1,11 +1,11 @@
-// group_pages.h: the state's pages: what the photons of each group hit, and how urgent groups are.
+// group_pages.h: the state's pages: what the photons of each row hit, and how urgent groups are.
 //
 //   kind 0, sums      page g / 8192, place g mod 8192: priority P of group g, in 2^-32
-//   kind 1, records   pages g J + j, j in [0, J): group g as one row of bytes, cut into pages:
-//                     GroupHeader, its Pilots, its ElementHits in the order of its photons
+//   kind 1, records   pages r J + j, j in [0, J): row r as bytes, cut into pages: a header, its
+//                     Pilots if it has any, its ElementHits in the order of its photons
 //
-// A group that is traced again replaces its row. So what its photons left before is taken away
-// without tracing them a second time in the scene that was: light is the sum over the rows.
+// A row that is traced again is replaced. So what its photons left before is taken away without
+// tracing them a second time in the scene that was: light is the sum over the rows.
 // A hit names triangle and place; which elements lie there is for who reads it (element_light.h).
 //
 // Proved:  tests/gi/group_pages_test.cpp.
@@ -39,7 +39,7 @@ struct Pilot {
   bool operator==(const Pilot&) const = default;
 };
 
-// What one group left.
+// What the photons of one row left.
 struct GroupRow {
   uint64_t stamp = 0;          // of the scene that it was traced in (scene_stamp.h)
   uint32_t randomization = 0;  // replication of its numbers
@@ -53,26 +53,26 @@ class GroupPages {
  public:
   explicit GroupPages(const PhotonGroups& groups);
 
-  // Hits that there is room for in a group's row.
+  // Hits that there is room for in a row.
   size_t room() const;
-  PageDeltas replace(const StatePages& pages, uint32_t group, const GroupRow& row) const;
+  PageDeltas replace(const StatePages& pages, uint32_t row, const GroupRow& content) const;
   // Nothing: it was never traced.
-  std::optional<GroupRow> read(const StatePages& pages, uint32_t group) const;
-  // Of a group's row alone.
-  std::optional<uint64_t> stamp(const StatePages& pages, uint32_t group) const;
-  // The pages of a group's row are the same ones in both.
-  bool isShared(const StatePages& a, const StatePages& b, uint32_t group) const;
+  std::optional<GroupRow> read(const StatePages& pages, uint32_t row) const;
+  // Its stamp alone.
+  std::optional<uint64_t> stamp(const StatePages& pages, uint32_t row) const;
+  // The row's pages are the same ones in both.
+  bool isShared(const StatePages& a, const StatePages& b, uint32_t row) const;
 
   static int64_t priority(const StatePages& pages, uint32_t group);
   // amounts: by group; those that are 0 change nothing.
   static void addPriorities(const std::vector<int64_t>& amounts, PageDeltas& deltas);
 
  private:
-  PageId pageOf(uint32_t group, size_t j) const {
-    return {1, static_cast<uint32_t>(group * pages_ + j)};
+  PageId pageOf(uint32_t row, size_t j) const {
+    return {1, static_cast<uint32_t>(row * pages_ + j)};
   }
-  size_t pilots_;
-  size_t pages_;  // J
+  size_t photons_;  // most of a row
+  size_t pages_;    // J
 };
 
 }  // namespace ninefold

@@ -93,25 +93,25 @@ void thin(std::vector<ElementHit>& hits, size_t room, uint64_t word) {
 
 }  // namespace
 
-GroupRow GroupShooting::shoot(uint32_t group, uint32_t randomization, RayCounts& rays) const {
+GroupRow GroupShooting::shoot(uint32_t row, uint32_t randomization, RayCounts& rays) const {
   const Transport& t = transport;
-  GroupRow row{stamp, randomization, t.lampFlux, {}, {}};
-  if (t.emitters.empty()) return row;
+  GroupRow left{stamp, randomization, t.lampFlux, {}, {}};
+  if (t.emitters.empty()) return left;
   const double meanFlux = double{t.lampFlux} / groups.photons();
   const std::vector<Stream> streams = streamsOf(t, groups.photons(), randomization);
-  for (uint32_t k = 0; k < groups.photonsOfEach(); ++k) {
-    const size_t first = row.hits.size();
-    const uint32_t photon = groups.photon(group, k);
+  for (uint32_t k = 0; k < groups.photonsOf(row); ++k) {
+    const size_t first = left.hits.size();
+    const uint32_t photon = groups.photon(row, k);
     for (const Stream& stream : streams)
       if (stream.has(photon, groups.photons()))
-        shootPhoton(t, surfaces, stream, photon, row.hits, rays);
-    if (k < groups.pilotsOfEach()) row.pilots.push_back(pilotOf(row.hits, first, meanFlux));
+        shootPhoton(t, surfaces, stream, photon, left.hits, rays);
+    if (groups.hasPilots(row)) left.pilots.push_back(pilotOf(left.hits, first, meanFlux));
   }
-  if (row.hits.size() > room) {
-    thin(row.hits, room, hashWords(t.settings.seed, randomization, group));
-    for (Pilot& pilot : row.pilots) pilot.end = std::min(pilot.end, static_cast<uint32_t>(room));
+  if (left.hits.size() > room) {
+    thin(left.hits, room, hashWords(t.settings.seed, randomization, row));
+    for (Pilot& pilot : left.pilots) pilot.end = std::min(pilot.end, static_cast<uint32_t>(room));
   }
-  return row;
+  return left;
 }
 
 }  // namespace ninefold

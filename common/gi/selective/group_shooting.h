@@ -1,4 +1,4 @@
-// group_shooting.h: the photons of one group are traced, and what they leave is written down.
+// group_shooting.h: the photons of one row are traced, and what they leave is written down.
 //
 //   photon i carries Phi_i / Z from its lamp; numbers of i: sampling/halton.h
 //   a hit is kept if the last turn before it was D or a glossy lobe, so that the light has bounced;
@@ -8,7 +8,7 @@
 // Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): n' of
 // the Z photons shoot once more for it, those with i n' mod Z < n'.
 //
-// What has no room in the group's row is thinned, and what is left carries more.
+// What has no room in the row is thinned, and what is left carries more.
 //
 // A pilot's weight: flux of its hits, in units of a photon's mean flux Phi/Z, each hit over T_e, by
 // which the texture there hides a change of light (visual_masking.h).
@@ -31,7 +31,7 @@ struct GroupShooting {
   uint64_t stamp = 0;  // of the transport's scene
   size_t room = 0;     // hits that a row has room for
 
-  GroupRow shoot(uint32_t group, uint32_t randomization, RayCounts& rays) const;
+  GroupRow shoot(uint32_t row, uint32_t randomization, RayCounts& rays) const;
 };
 
 }  // namespace ninefold

@@ -14,21 +14,22 @@ struct SelectiveLight final : LightSet {
   const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
 };
 
-// P that pilots of this group's photons add to others, and what it takes from its own.
+// What tracing a row changes of the groups' priorities. Pilots that took another path than before
+// add to groups that were not yet traced in the scene with this stamp; a group's own is spent.
 std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePages& pages,
-                                     uint32_t group, const std::optional<GroupRow>& before,
+                                     uint32_t row, const std::optional<GroupRow>& before,
                                      const GroupRow& now) {
+  const GroupPages rows(groups);
   std::vector<int64_t> changes(groups.groups(), 0);
-  if (before) {
-    const size_t count = std::min(before->pilots.size(), now.pilots.size());
-    for (uint32_t k = 0; k < count; ++k) {
-      const Pilot &was = before->pilots[k], &is = now.pilots[k];
-      if (was.signature == is.signature) continue;
-      changes[groups.likeGroup(groups.photon(group, k))] +=
-          toFixed(double{std::max(was.weight, is.weight)}, kWeightQuantum);
-    }
+  if (!groups.hasPilots(row)) changes[row] = -GroupPages::priority(pages, row);
+  if (!before) return changes;
+  const size_t count = std::min(before->pilots.size(), now.pilots.size());
+  for (uint32_t k = 0; k < count; ++k) {
+    const Pilot &was = before->pilots[k], &is = now.pilots[k];
+    const uint32_t group = groups.likeGroup(groups.photon(row, k));
+    if (was.signature != is.signature && rows.stamp(pages, group) != now.stamp)
+      changes[group] += toFixed(double{std::max(was.weight, is.weight)}, kWeightQuantum);
   }
-  changes[group] = -GroupPages::priority(pages, group);
   return changes;
 }
 
@@ -57,14 +58,14 @@ std::unique_ptr<Scratch> Selective::makeScratch() const {
 StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_t unit,
                            const View& view) const {
   const GroupPages rows(groups_);
-  const uint32_t group = order_.groupAt(pages, view, unit - step.firstUnit);
-  const std::optional<GroupRow> before = rows.read(pages, group);
+  const uint32_t row = order_.rowAt(pages, view, unit - step.firstUnit);
+  const std::optional<GroupRow> before = rows.read(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;
   const GroupShooting shooting{t_, groups_, *surfaces_, stamp_, rows.room()};
-  const GroupRow now = shooting.shoot(group, randomization, result.rays);
-  result.deltas = rows.replace(pages, group, now);
-  GroupPages::addPriorities(priorityChanges(groups_, pages, group, before, now), result.deltas);
+  const GroupRow now = shooting.shoot(row, randomization, result.rays);
+  result.deltas = rows.replace(pages, row, now);
+  GroupPages::addPriorities(priorityChanges(groups_, pages, row, before, now), result.deltas);
   return result;
 }
 

@@ -6,15 +6,19 @@
 //   D, or a glossy lobe         the pool, by mesh elements (element_light.h)
 //   any other S lobe            caustic photons (caustic_photons.h)
 //
-//   unit of a step   one group, the one at its place in the order (group_order.h). Its photons are
-//                    traced in the present scene and replace those of before (group_pages.h).
+//   unit of a step   one row of photons (photon_groups.h), the one at its place in the order
+//                    (group_order.h): all pilots at first, then groups. Its photons are traced in
+//                    the present scene and replace those of before (group_pages.h).
 //   change           A pilot that now hits something else than before tells that the group that it
 //                    is like has changed, too: its weight is added to that group's priority P. Any
 //                    edit shows in this way: of objects, materials and lamps.
 //
-// Beyond the paper: a group's hits are kept (12 bytes each), so that old light is taken away without
-// tracing it again with negative energy. A state of which all groups are traced is that of a fresh
-// start, to the last bit.
+// Beyond the paper:
+//   - A row's hits are kept (12 bytes each), so that old light is taken away without tracing it
+//     again with negative energy. A state of which all rows are traced is that of a fresh start, to
+//     the last bit.
+//   - All pilots, 1/R of the pool, go before any group, as groups in a chance order would find
+//     little.
 //
 // At rest each frame has a pool of its own, by digit-scrambled numbers (sampling/halton.h): frames
 // are independent.
