@@ -49,10 +49,10 @@ struct Settings {
   MapDirect mapDirect = MapDirect::off;  // whether the light straight from lamps is the pool's
   MapDistribution mapDistribution = MapDistribution::nets;
   MapIndex mapIndex = MapIndex::grid;
-  int photonPool = 147456;    // Z: photons whose light mesh elements keep
+  int photonPool = 73728;     // Z: photons whose light mesh elements keep
   int photonGroups = 288;     // N_g: groups of them that are traced at a time (photon_groups.h)
   int pilotRatio = 16;        // R: all photons of a group over its pilots
-  float elementSize = 0.04f;  // h: side of an element, as a fraction of R
+  float elementSize = 0.08f;  // h: side of an element, as a fraction of R
   ElementRule elementRule = ElementRule::linear;
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row

@@ -100,6 +100,32 @@ TEST(ElementBlock, SpreadsEvenLightInProportionToArea) {
   }
 }
 
+// A square whose triangles are there three times, the third time the other way round and from
+// another corner: the nodes and areas of one, and each point is the same place on all.
+TEST(ElementBlock, CountsATriangleOnceHoweverOftenItIsThere) {
+  SceneBuilder b;
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  Scene scene = b.build();
+  const ElementBlock once(std::as_const(scene).meshes[0], DMat4(1), 0.1f);
+  Mesh& mesh = scene.meshes[0];
+  const Triangle t = mesh.triangles[0];
+  for (const Vec3& p : std::vector<Vec3>(mesh.positions)) mesh.positions.push_back(p);
+  mesh.triangles.push_back(t + 4u);
+  mesh.triangles.push_back({t.z, t.y, t.x});
+  const ElementBlock thrice(mesh, DMat4(1), 0.1f);
+  EXPECT_EQ(thrice.nodes(), once.nodes());
+  const float u = 0.3f, v = 0.45f, w = 1 - u - v;
+  const ElementPlace first = thrice.at(0, u, v), second = thrice.at(2, u, v),
+                     third = thrice.at(3, u, w);
+  EXPECT_FALSE(second.isTurned);
+  EXPECT_TRUE(third.isTurned);
+  for (size_t c = 0; c < 3; ++c) {
+    EXPECT_EQ(second.nodes[c], first.nodes[c]);
+    EXPECT_EQ(third.nodes[c], first.nodes[c]);
+    EXPECT_NEAR(third.weights[c], first.weights[c], 1e-5);
+  }
+}
+
 // Corners, edges and what rounding puts past the long side.
 TEST(ElementBlock, FindsAPlaceForEachPointOfATriangle) {
   SceneBuilder b;

@@ -36,17 +36,18 @@ struct RawNode {
 
 class Making {
  public:
-  Making(const Mesh& mesh, const DMat4& toWorld, Metres size)
-      : mesh_(mesh), toWorld_(toWorld), size_(size) {}
+  Making(const Mesh& mesh, const DMat4& toWorld, Metres size, const Twins& twins)
+      : mesh_(mesh), toWorld_(toWorld), size_(size), twins_(twins) {}
 
   void cut(std::vector<uint16_t>& cuts, std::vector<uint32_t>& firstPoint) {
     uint64_t points = 0;
-    for (const Triangle& t : mesh_.triangles) {
-      const float pieces = std::ceil(cornersOf(t).longest() / size_);
+    for (uint32_t k = 0; k < mesh_.triangles.size(); ++k) {
+      const float pieces = std::ceil(cornersOf(mesh_.triangles[k]).longest() / size_);
       const auto n = static_cast<uint32_t>(std::clamp(pieces, 1.0f, float(kMostCuts)));
-      cuts.push_back(static_cast<uint16_t>(n));
+      const bool isTwin = twins_.find(k) != nullptr;
+      cuts.push_back(static_cast<uint16_t>(isTwin ? 0 : n));
       firstPoint.push_back(static_cast<uint32_t>(points));
-      points += pointsOf(n);
+      if (!isTwin) points += pointsOf(n);
       if (points > ElementBlock::kMostNodes)
         fail("the elements of {} are too many, at most are {}: raise --element-size",
              mesh_.name.empty() ? "a mesh" : mesh_.name, ElementBlock::kMostNodes);
@@ -56,10 +57,12 @@ class Making {
   std::vector<uint32_t> name(const std::vector<uint16_t>& cuts) {
     SmoothCorners corners;
     std::vector<std::array<uint32_t, 3>> ends;
-    for (const Triangle& t : mesh_.triangles) ends.push_back(endsOf(t, corners));
+    for (size_t k = 0; k < cuts.size(); ++k)
+      ends.push_back(cuts[k] > 0 ? endsOf(mesh_.triangles[k], corners) : std::array<uint32_t, 3>{});
     EdgePoints edges(static_cast<uint32_t>(corners.size()));
     std::vector<uint32_t> nodeOf;
-    for (size_t k = 0; k < cuts.size(); ++k) namePoints(ends[k], cuts[k], edges, nodeOf);
+    for (size_t k = 0; k < cuts.size(); ++k)
+      if (cuts[k] > 0) namePoints(ends[k], cuts[k], edges, nodeOf);
     raw_.resize(edges.size());
     return nodeOf;
   }
@@ -68,9 +71,9 @@ class Making {
   void survey(const std::vector<uint16_t>& cuts, const std::vector<uint32_t>& firstPoint,
               const std::vector<uint32_t>& nodeOf, Connected& connected) {
     for (size_t k = 0; k < cuts.size(); ++k) {
-      const Triangle& t = mesh_.triangles[k];
-      const Corners at = cornersOf(t);
+      const Corners at = cornersOf(mesh_.triangles[k]);
       const uint32_t n = cuts[k];
+      if (n == 0) continue;
       const float step = 1 / static_cast<float>(n);
       const double third = static_cast<double>(at.area()) / (3.0 * n * n);
       for (uint32_t j = 0; j <= n; ++j)
@@ -163,14 +166,15 @@ class Making {
   const Mesh& mesh_;
   const DMat4& toWorld_;
   const Metres size_;
+  const Twins& twins_;
   std::vector<RawNode> raw_;
 };
 
 }  // namespace
 
 ElementBlock::ElementBlock(const Mesh& mesh, const DMat4& toWorld, Metres size)
-    : mesh_(&mesh), toWorld_(toWorld), size_(size) {
-  Making making(mesh, toWorld, size);
+    : mesh_(&mesh), toWorld_(toWorld), size_(size), twins_(mesh) {
+  Making making(mesh, toWorld, size, twins_);
   making.cut(cuts_, firstPoint_);
   nodeOf_ = making.name(cuts_);
   const uint32_t most = nodeOf_.empty() ? 0 : *std::max_element(nodeOf_.begin(), nodeOf_.end());
@@ -181,6 +185,17 @@ ElementBlock::ElementBlock(const Mesh& mesh, const DMat4& toWorld, Metres size)
 }
 
 ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
+  const Twins::Twin* twin = twins_.find(triangle);
+  if (twin == nullptr) return within(triangle, u, v);
+  std::array<float, 3> weights{};
+  weights[twin->corners[0]] = 1 - u - v, weights[twin->corners[1]] = u;
+  weights[twin->corners[2]] = v;
+  ElementPlace there = within(twin->triangle, weights[1], weights[2]);
+  there.isTurned = twin->isTurned;
+  return there;
+}
+
+ElementPlace ElementBlock::within(uint32_t triangle, float u, float v) const {
   const uint32_t n = cuts_[triangle];
   const float x = u * static_cast<float>(n), y = v * static_cast<float>(n);
   const uint32_t j = std::min(static_cast<uint32_t>(y), n - 1);

@@ -8,6 +8,8 @@
 //              one connected smooth surface, and face alike. What has less than h^2/4 there (slats,
 //              leaves, books) is one with its like in the cell: alone it would get hardly a photon.
 //   area       of a node: a third of each element around it [m^2]
+//   twin       A triangle that is there twice, either way round: a ray meets one of the two. The
+//              later one has no elements, and its light is the first one's.
 //
 // A point of an element stands for its three nodes in proportion to its barycentrics w. A photon
 // leaves w Phi at each, and E at a point is sum w Phi_node / area_node. So no light is lost, and a
@@ -23,8 +25,10 @@
 
 #include <array>
 #include <cstdint>
+#include <unordered_map>
 #include <vector>
 
+#include "common/gi/selective/twins.h"
 #include "common/scene/scene.h"
 
 namespace ninefold {
@@ -33,6 +37,7 @@ namespace ninefold {
 struct ElementPlace {
   std::array<uint32_t, 3> nodes;
   std::array<float, 3> weights;
+  bool isTurned = false;  // the elements' front is the triangle's back
 };
 
 class ElementBlock {
@@ -54,11 +59,14 @@ class ElementBlock {
   const Mesh* mesh_;
   DMat4 toWorld_;
   Metres size_;
+  ElementPlace within(uint32_t triangle, float u, float v) const;
+
   // Points of a triangle's grid: row j has those at v = j/n, u = i/n.
-  std::vector<uint16_t> cuts_;        // n, by triangle
+  std::vector<uint16_t> cuts_;        // n, by triangle; 0: it is a twin
   std::vector<uint32_t> firstPoint_;  // by triangle
   std::vector<uint32_t> nodeOf_;      // by point
   std::vector<float> areas_;          // by node
+  Twins twins_;
 };
 
 }  // namespace ninefold

@@ -79,7 +79,7 @@ void ElementLight::add(const GroupRow& row, int64_t sign, const std::vector<bool
     Sums& sums = sums_[surface.instance];
     for (size_t k = 0; k < 3; ++k) {
       if (at.weights[k] == 0) continue;
-      int64_t* of = sums.data() + kPerNode * at.nodes[k] + (surface.isBack ? 3 : 0);
+      int64_t* of = sums.data() + kPerNode * at.nodes[k] + (surface.isBack != at.isTurned ? 3 : 0);
       const double weight = double{at.weights[k]};
       for (int c = 0; c < 3; ++c) of[c] += sign * toFixed(weight * double{flux[c]}, quantum_);
     }
@@ -91,7 +91,7 @@ ElementPlace ElementLight::place(const SurfaceNumbers::Surface& surface, float u
   if (rule_ == ElementRule::linear) return at;
   const auto nearest = std::max_element(at.weights.begin(), at.weights.end());
   const auto k = static_cast<size_t>(nearest - at.weights.begin());
-  return {{at.nodes[k], at.nodes[k], at.nodes[k]}, {1, 0, 0}};
+  return {{at.nodes[k], at.nodes[k], at.nodes[k]}, {1, 0, 0}, at.isTurned};
 }
 
 Irradiance ElementLight::at(const SurfaceNumbers::Surface& surface, float u, float v) const {
@@ -102,7 +102,8 @@ Irradiance ElementLight::at(const SurfaceNumbers::Surface& surface, float u, flo
   for (size_t k = 0; k < 3; ++k) {
     const float area = block.area(there.nodes[k]);
     if (there.weights[k] == 0 || !(area > 0)) continue;
-    const int64_t* of = sums.data() + kPerNode * there.nodes[k] + (surface.isBack ? 3 : 0);
+    const int64_t* of =
+        sums.data() + kPerNode * there.nodes[k] + (surface.isBack != there.isTurned ? 3 : 0);
     const float scale = there.weights[k] / area;
     for (int c = 0; c < 3; ++c) e[c] += scale * static_cast<float>(fromFixed(of[c], quantum_));
   }
