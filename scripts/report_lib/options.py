@@ -4,7 +4,7 @@ import os
 
 from report_lib import scenes
 
-SECTIONS = ("agreement", "speed", "bidirectional", "photon-map", "crops", "interleaving", "randomization", "needs")
+SECTIONS = ("agreement", "speed", "bidirectional", "photon-map", "selective-photons", "crops", "interleaving", "randomization", "needs")
 
 FULL = dict(budgets="0.5,1,2,4,8,16", short_budgets="1,4", target_seconds=128, reference_seconds=300, runs=8,
             run_seconds=10, seeds=8, frames="1,16", rounds=10, few="table_room,office")

@@ -123,3 +123,35 @@ def _finish(figure, path):
     with open(path, "wb") as file:
         file.write(pictures.png_of_plot(figure))
     plot.close(figure)
+
+
+def shares(path, series):
+    """series: {title: {label: [(share of the photons traced, share found)]}}. Dotted: by chance."""
+    columns = min(3, len(series))
+    rows = math.ceil(len(series) / columns)
+    figure, axes = plot.subplots(rows, columns, figsize=(3.6 * columns, 3 * rows), squeeze=False, layout="constrained")
+    for axis in axes.flat[len(series):]:
+        axis.set_visible(False)
+    for axis, (title, lines) in zip(axes.flat, series.items()):
+        axis.plot([0, 1], [0, 1], color="0.4", linewidth=0.8, linestyle=":")
+        for colour, (label, points) in zip(COLOURS, lines.items()):
+            axis.plot(*zip((0, 0), *points), color=colour, linewidth=1.2, label=label)
+        axis.set(title=title, xlabel="photons traced", ylabel="found", xlim=(0, 1), ylim=(0, 1))
+        axis.title.set_fontsize(9)
+        axis.tick_params(labelsize=7)
+        axis.grid(True, color="0.92")
+    axes.flat[0].legend(fontsize=7, loc="lower right")
+    _finish(figure, path)
+
+
+def paths(path, views, groups):
+    """views: {title: (axis across, axis upwards)} of x, y, z; groups: polylines [m] of each."""
+    figure, axes = plot.subplots(1, len(views), figsize=(5 * len(views), 4), squeeze=False, layout="constrained")
+    for axis, (title, (across, upwards)) in zip(axes.flat, views.items()):
+        for colour, lines in zip(COLOURS, groups):
+            for line in lines:
+                axis.plot([p[across] for p in line], [p[upwards] for p in line], color=colour, linewidth=0.6)
+        axis.set(title=title, aspect="equal", xlabel=f"{'xyz'[across]} [m]", ylabel=f"{'xyz'[upwards]} [m]")
+        if upwards == 2:
+            axis.invert_yaxis()
+    _finish(figure, path)

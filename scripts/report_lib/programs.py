@@ -24,7 +24,8 @@ class Job:
 class Programs:
     def __init__(self, folder, clients, progress):
         self.folder, self.clients, self.progress = folder, clients, progress
-        for name in ("ninefold-master", "ninefold-client", "ninefold-compare", "ninefold-virtual-lights", "ninefold-photon-map"):
+        for name in ("ninefold-master", "ninefold-client", "ninefold-compare", "ninefold-virtual-lights", "ninefold-photon-map",
+                     "ninefold-selective-photons"):
             if not os.access(os.path.join(folder, name), os.X_OK):
                 raise Failure(f"{folder} has no program {name}; build it, or name its folder by --programs")
 
@@ -52,6 +53,11 @@ class Programs:
         """The object of ninefold-photon-map."""
         self.progress(f"photon map: {' '.join(arguments)}")
         return json.loads(self._call("ninefold-photon-map", *arguments))
+
+    def selective_photons(self, *arguments):
+        """The object of ninefold-selective-photons."""
+        self.progress(f"selective photons: {' '.join(arguments)}")
+        return json.loads(self._call("ninefold-selective-photons", *arguments))
 
     def _call(self, name, *arguments):
         command = [os.path.join(self.folder, name), *arguments]
