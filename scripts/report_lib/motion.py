@@ -17,7 +17,7 @@ def run(context):
         if scene.name in COURSES:
             truth = motion_truth.get(context, scene, scene.size(context.options.width), SHOTS, context.options.truth_frames)
             floors[scene.name] = truth.noise
-            made[scene.name] = {method: _runs(context, scene, method, truth) for method in methods}
+            made[scene.name] = _runs(context, scene, methods, truth)
             sheets.append(_sheet(context, scene, methods, truth))
     if made:
         phases, pace = motion_tables.phases(made), motion_tables.pace(made)
@@ -35,16 +35,22 @@ def _file(pattern, number):
     return pattern.replace("####", f"{number:04d}")
 
 
-def _runs(context, scene, method, truth):
-    """A Run for each seed."""
-    job = Job(scene, scene.size(context.options.width), ("--method", method))
-    runs = []
+def _runs(context, scene, methods, truth):
+    """{method: [Run, one a seed]}. Methods take turns, so that what else the machine does is much the same for all."""
+    runs = {method: [] for method in methods}
     for seed in range(1, context.options.seeds + 1):
-        pattern = _pattern(context, scene, method, seed)
-        times = context.programs.play(job, seed, script(COURSES[scene.name], shots=SHOTS), pattern)
-        files = {shot["shot"]: _file(pattern, shot["shot"]) for shot in times["shots"] if not shot["lost"]}
-        runs.append(motion_run.Run(times, {number: pictures.read(file) for number, file in files.items()}, truth))
+        for method in methods:
+            runs[method].append(_run(context, scene, method, seed, truth))
     return runs
+
+
+def _run(context, scene, method, seed, truth):
+    job = Job(scene, scene.size(context.options.width), ("--method", method))
+    pattern = _pattern(context, scene, method, seed)
+    times = context.programs.play(job, seed, script(COURSES[scene.name], shots=SHOTS), pattern)
+    load = os.getloadavg()[0]
+    files = {shot["shot"]: _file(pattern, shot["shot"]) for shot in times["shots"] if not shot["lost"]}
+    return motion_run.Run(times, {number: pictures.read(file) for number, file in files.items()}, truth, load)
 
 
 def _plots(context, made, floors):

@@ -9,16 +9,17 @@ from report_lib.motion_scripts import LAMP, PHASES, REST, SECONDS, SHOTS
 
 
 class Run:
-    """times: the object of --stats (docs/script.md); shown: {shot's number: picture}; truth: motion_truth.Truth."""
+    """times: the object of --stats (docs/script.md); shown: {shot's number: picture}; truth: motion_truth.Truth;
+    load: the machine's load average of the minute."""
 
-    def __init__(self, times, shown, truth):
+    def __init__(self, times, shown, truth, load):
         self.shots = measured(times["shots"], shown, truth)
         self.lost = sum(shot["lost"] for shot in times["shots"])
         moving = [frame for frame in times["frames"] if frame["moving"]]
         seconds = sum(phase.end - phase.begin for phase in PHASES if phase.moves)
         self.pace = {"frames_a_second": len(moving) / seconds, "latency_p50": times["latency_ms"]["p50"],
                      "latency_p95": times["latency_ms"]["p95"], "width": _median(moving, "width"), "took": _median(moving, "took_ms"),
-                     "age": self._age(), "delay": self._delay()}
+                     "age": self._age(), "delay": self._delay(), "load": load}
 
     def column(self, key):
         return [(entry["time"], entry[key]) for entry in self.shots]

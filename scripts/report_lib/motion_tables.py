@@ -7,7 +7,7 @@ from report_lib.tables import Table, figure
 
 MOMENTS = (2, 4.8, 7)  # of the pictures: in the midst of walk, object and lamp [s]
 PACE = {"frames_a_second": "frames/s in motion", "width": "width", "took": "frame [ms]", "latency_p50": "latency p50 [ms]",
-        "latency_p95": "p95 [ms]", "age": "age on the screen [ms]"}
+        "latency_p95": "p95 [ms]", "age": "age on the screen [ms]", "load": "load"}
 FLICKER = {"flicker_object": (OBJECT, "flicker, object moves"), "flicker_rest": (AFTER_OBJECT, "flicker after it")}
 
 

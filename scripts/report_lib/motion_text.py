@@ -7,7 +7,8 @@ TEXT = [
     "A script in real time (docs/script.md), on the local clients of this machine: the camera walks, a thing moves and rests, a lamp is "
     "dimmed to a quarter and rests. Ten times a second the picture that is on the screen is kept as radiance, whatever frame it is of, and "
     "held against the truth of that moment: so what comes late is wrong. Each run has a seed of its own. Smaller frames are "
-    "enlarged as the window does it. Pictures have no last touch and no tone map.",
+    "enlarged as the window does it. Pictures have no last touch and no tone map. Methods take turns; load: that of the machine, whose "
+    "own part is about its number of cores. Where it is more, others took time, and frames in motion became smaller.",
     "Truth: the same script as stills of many frames by instant radiosity, two series of unlike seeds. Their noise, which adds to each "
     "error, is taken off in tables and plots (scripts/report_lib/motion_errors.py). In motion frames look through the middle of each pixel "
     "while the truth's edges are smooth: all methods are charged for that alike.",

@@ -15,13 +15,13 @@ QUICK = dict(budgets="0.5,1,2", short_budgets="1", target_seconds=2, reference_s
 DESCRIPTION = """How wrong pictures are after how many seconds, for each scene and method, held against
 references by the path tracer, or by the bidirectional method where that hardly finds the light: writes report.html, which opens from disk, and a .csv for each table. References are made once and kept in
 out/references; a section that was run before stays in the page until it is run again. The full report takes about two
-hours on two cores the first time, nearly half of it for references (5 minutes a scene at most)."""
+hours and a half on two cores the first time, nearly half of it for references (5 minutes a scene at most)."""
 
 
 def parse(words):
     parser = argparse.ArgumentParser(prog="scripts/report", description=DESCRIPTION)
     parser.add_argument("--quick", action="store_true",
-                        help="three scenes and short runs: under 5 minutes on two cores; figures are rough")
+                        help="three scenes and short runs: about 10 minutes on two cores; figures are rough")
     parser.add_argument("--sections", default=",".join(SECTIONS),
                         help=f"which to run, of {', '.join(SECTIONS)}; 'none': only write the page again")
     parser.add_argument("--scenes", help="names; default: all that are there")

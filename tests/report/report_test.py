@@ -188,7 +188,7 @@ class Motion(unittest.TestCase):
 
     def made(self):
         def run(factor):
-            return motion_run.Run(self.times(range(91)), {i: factor * self.TRUTH.pictures[i] for i in range(91)}, self.TRUTH)
+            return motion_run.Run(self.times(range(91)), {i: factor * self.TRUTH.pictures[i] for i in range(91)}, self.TRUTH, 2.5)
         return {"room": {"a": [run(1.2), run(1.4)], "b": [run(2)]}}
 
     def test_tables_tell_means_of_phases_and_runs(self):
@@ -205,6 +205,7 @@ class Motion(unittest.TestCase):
         self.assertAlmostEqual(pace["frames_a_second"], 9 / 4.5)
         self.assertEqual((pace["width"], pace["latency_p95"], pace["lost"]), (160, 50, 0))
         self.assertAlmostEqual(pace["age"], 30)
+        self.assertEqual(pace["load"], 2.5)
 
     def test_the_file_has_all_moments_and_the_plot_is_one(self):
         made = self.made()
