@@ -58,27 +58,26 @@ def _plots(context, made, floors):
     for number, (key, label) in enumerate(ERRORS.items()):
         noise = {scene: [(i / SHOTS, errors[number]) for i, errors in enumerate(series)] for scene, series in floors.items()}
         plots.error_in_motion(os.path.join(context.folder, key + ".png"), motion_tables.over_time(made, "net_" + key), label, PHASES, noise)
-        shown.append(Picture(key + ".png", f"{label} of what is on the screen, mean of the runs, the truth's noise taken off", plot=True))
+        shown.append(Picture(key + ".png", f"{label} of what is on the screen, median of the runs, the truth's noise taken off", plot=True))
     return shown
 
 
 def _sheet(context, scene, methods, truth):
-    """A row for each method, the truth above; at each moment the picture of the first run and its signed error."""
+    """A row for each method, the truth above: the pictures of the first run at each moment, and the signed error of the last."""
     numbers = [round(moment * SHOTS) for moment in motion_tables.MOMENTS]
     exposure = pictures.good_exposure(truth.pictures[0])
-    rows = [[cell for i in numbers for cell in (pictures.shown(truth.pictures[i], exposure), None)]]
+    rows = [[pictures.shown(truth.pictures[i], exposure) for i in numbers] + [None]]
     for method in methods:
-        rows.append([cell for i in numbers for cell in _cells(_pattern(context, scene, method, 1), i, truth, exposure)])
+        seen = [_seen(_pattern(context, scene, method, 1), i, truth) for i in numbers]
+        error = None if seen[-1] is None else pictures.signed_error(seen[-1], truth.pictures[numbers[-1]], 0.5)
+        rows.append([None if picture is None else pictures.shown(picture, exposure) for picture in seen] + [error])
     name = scene.name + ".png"
     pictures.write(os.path.join(context.folder, name), pictures.sheet(rows))
     moments = ", ".join(f"{moment:g} s" for moment in motion_tables.MOMENTS)
-    return Picture(name, f"{scene.name} at {moments}: the truth, {', '.join(methods)}; beside each its signed error (full colour at 50 %)")
+    return Picture(name, f"{scene.name} at {moments}, and the last one's signed error (full colour at 50 %): the truth, {', '.join(methods)}")
 
 
-def _cells(pattern, number, truth, exposure):
-    """Nothing of a shot that is lost."""
-    if not os.path.exists(_file(pattern, number)):
-        return [None, None]
-    true = truth.pictures[number]
-    picture = on_screen(pictures.read(_file(pattern, number)), *true.shape[:2])
-    return [pictures.shown(picture, exposure), pictures.signed_error(picture, true, 0.5)]
+def _seen(pattern, number, truth):
+    """None of a shot that is lost."""
+    file = _file(pattern, number)
+    return on_screen(pictures.read(file), *truth.pictures[number].shape[:2]) if os.path.exists(file) else None

@@ -1,5 +1,6 @@
-"""Tables of the section motion. made: {scene: {method: [Run, one a seed]}}."""
-import numpy
+"""Tables of the section motion. made: {scene: {method: [Run, one a seed]}}. Of several runs the median counts: where the machine
+belonged to others for a second or two, a run's frames were a few pixels wide, and a mean would tell of that alone."""
+import statistics
 
 from report_lib.motion_errors import ERRORS, of_phase
 from report_lib.motion_scripts import AFTER_OBJECT, OBJECT, PHASES
@@ -11,19 +12,20 @@ PACE = {"frames_a_second": "frames/s in motion", "width": "width", "took": "fram
 FLICKER = {"flicker_object": (OBJECT, "flicker, object moves"), "flicker_rest": (AFTER_OBJECT, "flicker after it")}
 
 
-def over_runs(values):
-    """Mean and standard error of those that have a value; None where there are too few."""
-    there = [value for value in values if value is not None]
-    error = float(numpy.std(there, ddof=1) / len(there) ** 0.5) if len(there) > 1 else None
-    return (float(numpy.mean(there)) if there else None), error
+def of_runs(name, values):
+    """Median, least and largest of those that have a value, as entries of a row; None if none has."""
+    there = [value for value in values if value is not None] or [None]
+    if there == [None]:
+        return {name: None, name + "_least": None, name + "_largest": None}
+    return {name: statistics.median(there), name + "_least": min(there), name + "_largest": max(there)}
 
 
-def with_error(mean, error, digits=2):
-    return figure(mean, digits) + (f" ± {figure(error, 1)}" if error is not None else "")
+def with_range(entry, name):
+    return f"{figure(entry[name], 2)} ({figure(entry[name + '_least'], 2)} to {figure(entry[name + '_largest'], 2)})"
 
 
 def over_time(made, key):
-    """{scene: {method: [(seconds, mean of the runs)]}}."""
+    """{scene: {method: [(seconds, median of the runs)]}}."""
     return {scene: {method: _mean_series(runs, key) for method, runs in methods.items()} for scene, methods in made.items()}
 
 
@@ -32,27 +34,24 @@ def _mean_series(runs, key):
     for run in runs:
         for time, value in run.column(key):
             by_time.setdefault(time, []).append(value)
-    return sorted((time, float(numpy.mean(values))) for time, values in by_time.items())
+    return sorted((time, statistics.median(values)) for time, values in by_time.items())
 
 
 def phases(made):
     methods = list(next(iter(made.values())))
-    table = Table("motion", ["scene", "phase", *(f"{method}: relMSE (trimmed)" for method in methods)])
+    table = Table("motion", ["scene", "phase", *(f"{method}: relMSE" for method in methods), *(f"{method}: trimmed" for method in methods)])
     for scene, of_methods in made.items():
         for phase in PHASES:
             entries = [_phase_entry(scene, phase, method, runs) for method, runs in of_methods.items()]
             table.data += entries
-            table.rows.append([scene, phase.name, *(f"{with_error(e['relmse'], e['relmse_error'])} ({figure(e['trimmed'], 2)})"
-                                                    for e in entries)])
+            table.rows.append([scene, phase.name, *(with_range(entry, key) for key in ERRORS for entry in entries)])
     return table
 
 
 def _phase_entry(scene, phase, method, runs):
     entry = {"scene": scene, "phase": phase.name, "moves": phase.moves, "method": method, "runs": len(runs)}
-    for key in ERRORS:
-        entry[key], entry[key + "_error"] = over_runs([of_phase(run.column("net_" + key), phase) for run in runs])
-    for key in ("flicker", "age"):
-        entry[key], _ = over_runs([of_phase(run.column(key), phase) for run in runs])
+    for name, key in [*((name, "net_" + name) for name in ERRORS), ("flicker", "flicker"), ("age", "age")]:
+        entry |= of_runs(name, [of_phase(run.column(key), phase) for run in runs])
     return entry
 
 
@@ -61,13 +60,13 @@ def pace(made):
                                   "shots lost"])
     for scene, methods in made.items():
         for method, runs in methods.items():
-            entry = {"scene": scene, "method": method, **{key: over_runs([run.pace[key] for run in runs])[0] for key in PACE}}
-            entry["delay"], entry["delay_error"] = over_runs([run.pace["delay"] for run in runs])
+            entry = {"scene": scene, "method": method, "lost": sum(run.lost for run in runs)}
+            for key in (*PACE, "delay"):
+                entry |= of_runs(key, [run.pace[key] for run in runs])
             for key, (phase, _) in FLICKER.items():
-                entry[key], _ = over_runs([of_phase(run.column("flicker"), phase) for run in runs])
-            entry["lost"] = sum(run.lost for run in runs)
+                entry |= of_runs(key, [of_phase(run.column("flicker"), phase) for run in runs])
             table.data.append(entry)
-            table.rows.append([scene, method, *(figure(entry[key]) for key in PACE), with_error(entry["delay"], entry["delay_error"]),
+            table.rows.append([scene, method, *(figure(entry[key]) for key in PACE), with_range(entry, "delay"),
                                *(figure(entry[key], 2) for key in FLICKER), str(entry["lost"])])
     return table
 

@@ -8,11 +8,11 @@ TEXT = [
     "dimmed to a quarter and rests. Ten times a second the picture that is on the screen is kept as radiance, whatever frame it is of, and "
     "held against the truth of that moment: so what comes late is wrong. Each run has a seed of its own. Smaller frames are "
     "enlarged as the window does it. Pictures have no last touch and no tone map. Methods take turns; load: that of the machine, whose "
-    "own part is about its number of cores. Where it is more, others took time, and frames in motion became smaller.",
+    "own part is about its number of cores. Where it is more, others took time, and frames in motion became smaller: hence medians.",
     "Truth: the same script as stills of many frames by instant radiosity, two series of unlike seeds. Their noise, which adds to each "
     "error, is taken off in tables and plots (scripts/report_lib/motion_errors.py). In motion frames look through the middle of each pixel "
     "while the truth's edges are smooth: all methods are charged for that alike.",
-    "relMSE: mean of the shots of each phase, mean of the runs with the standard error between them. Trimmed: without the 0.1 % of pixels "
+    "relMSE: mean of the shots of each phase, median of the runs (least to largest). Trimmed: without the 0.1 % of pixels "
     "that differ most. Those are the edges of lamps, hundreds of times as bright as the wall beside them: one pixel late, or enlarged, they "
     "outweigh all others. 'At rest' includes the first pictures; 'after' begins while the program still takes the scene as moving (250 ms).",
     "Age: how old what is on the screen is. Delay of the lamp: by how much the picture's mean brightness is behind the truth's, from the "
