@@ -1,6 +1,6 @@
 // shots.h: what is on the screen at fixed moments of a session in real time, written beside it.
 //
-//   shot i = 0, 1, ..., count-1     t_i = i/rate [s] after the start: the picture that was there at t_i
+//   shot i = 0, 1, ..., count-1   the picture that was there at i/rate [s] after the start
 //
 // Frames do not wait for files: pictures stand in a queue for a thread of its own. Where too many
 // wait a shot is lost, and counted. Its entry says what was to be seen.
