@@ -56,7 +56,10 @@ DMat4 motionOf(const SceneEdit& edit, int node) {
 
 }  // namespace
 
-int Script::pictures() const { return static_cast<int>(std::floor(seconds * *rate + 1e-9)) + 1; }
+int Script::pictures() const {
+  const double perSecond = rate ? *rate : *shots;
+  return static_cast<int>(std::floor(seconds * perSecond + 1e-9)) + 1;
+}
 
 ScriptState Script::at(double time, const Scene& scene, const Camera& start) const {
   ScriptState state{start, {}};

@@ -38,12 +38,13 @@ class Script {
     double playedFrom = 0, playedTo = 0;  // animation: times of the file [s]
   };
 
-  double seconds = 0;          // length
-  std::optional<double> rate;  // pictures a second of script time; nothing: in real time
-  int frames = 1;              // of the film for each picture
+  double seconds = 0;           // length
+  std::optional<double> rate;   // pictures a second of script time; nothing: in real time
+  std::optional<double> shots;  // in real time: a second, of what is on the screen then
+  int frames = 1;               // of the film for each picture
   std::vector<Event> events;
 
-  // Pictures of a script that has a rate.
+  // Of a script that has a rate, or shots.
   int pictures() const;
   // Events of the same thing follow one another; before its first event a thing is as it was read.
   ScriptState at(double time, const Scene& scene, const Camera& start) const;

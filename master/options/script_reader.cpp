@@ -86,6 +86,10 @@ class Reader {
     Script script;
     script.seconds = file.number("seconds", 0, kLongestScript);
     if (file.has("rate")) script.rate = file.number("rate", kSlowestRate, kFastestRate);
+    if (file.has("shots")) script.shots = file.number("shots", kSlowestRate, kFastestRate);
+    if (script.rate && script.shots)
+      fail("{}: \"rate\" and \"shots\" exclude each other: shots are of a session in real time",
+           name_);
     script.frames = static_cast<int>(file.numberOr("frames", 1, 1, 1e6));
     const Json& events = file.list("events");
     if (events.size() > kMostEvents) fail("{}: more than {} events", name_, kMostEvents);

@@ -40,6 +40,10 @@ void LatencyLog::add(const Shown& shown) {
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
 }
 
+void LatencyLog::add(const std::vector<Shot>& shots) {
+  shots_.insert(shots_.end(), shots.begin(), shots.end());
+}
+
 std::string LatencyLog::json(const std::string& scene, const ServerTally& tally) const {
   std::vector<double> latency, moving;
   nlohmann::ordered_json frames = nlohmann::ordered_json::array();
@@ -58,6 +62,13 @@ std::string LatencyLog::json(const std::string& scene, const ServerTally& tally)
                              {"clients_stuck", tally.tasks.clientsStuck},
                              {"values_not_finite", tally.replaced},
                              {"frames", std::move(frames)}};
+  for (const Shot& s : shots_)
+    all["shots"].push_back({{"shot", s.number},
+                            {"frame", s.frame},
+                            {"opened", s.opened},
+                            {"shown", s.shown},
+                            {"frames", s.frames},
+                            {"lost", s.isLost}});
   return all.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "master/running/live_run.h"
+#include "master/running/shots.h"
 
 namespace ninefold {
 
@@ -13,6 +14,7 @@ class LatencyLog {
  public:
   explicit LatencyLog(Time start) : start_(start) {}
   void add(const Shown& shown);
+  void add(const std::vector<Shot>& shots);
   std::string json(const std::string& scene, const ServerTally& tally) const;
 
  private:
@@ -27,6 +29,7 @@ class LatencyLog {
   };
   Time start_;
   std::vector<Entry> entries_;
+  std::vector<Shot> shots_;
 };
 
 }  // namespace ninefold

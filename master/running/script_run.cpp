@@ -1,5 +1,6 @@
 #include "master/running/script_run.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <thread>
@@ -15,6 +16,7 @@
 #include "master/running/latency_log.h"
 #include "master/running/live_run.h"
 #include "master/running/script_player.h"
+#include "master/running/shots.h"
 
 namespace ninefold {
 namespace {
@@ -43,8 +45,8 @@ class ScriptRun {
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
-    if (script().rate && (!options_.output || !isNumbered(*options_.output)))
-      fail("a script with a rate needs --output out.####.png for its pictures");
+    if ((script().rate || script().shots) && (!options_.output || !isNumbered(*options_.output)))
+      fail("a script with a rate or shots needs --output out.####.png for its pictures");
     live_.setView(options_.view);
     moveTo(0);
     live_.start();
@@ -58,6 +60,7 @@ class ScriptRun {
   // On the picture's thread.
   void take(const std::shared_ptr<const Shown>& shown) {
     const std::lock_guard lock(mutex_);
+    if (shots_) shots_->take(Clock::now(), latest_);
     log_.add(*shown);
     latest_ = shown;
     if (!shown->frame.moving && shown->frames == script().frames) still_ = shown;
@@ -102,18 +105,43 @@ class ScriptRun {
     {
       const std::lock_guard lock(mutex_);
       log_ = LatencyLog(start);
+      if (script().shots && latest_ != nullptr) takeShotsFrom(start);
     }
     for (double now = 0; now <= script().seconds && !isOver();
          now = seconds(Clock::now() - start)) {
       moveTo(now);
+      takeShots();
       std::this_thread::sleep_for(kStep);
     }
+    takeShots();
     moveTo(script().seconds);
     const LiveState last = live_.state();
     waitFor(latest_, [&](const Shown& s) {
       return s.state == last && !s.frame.moving && s.frames >= script().frames;
     });
+    if (shots_) finishShots();
     writeLatest();
+  }
+
+  // Needs the lock.
+  void takeShotsFrom(Time start) {
+    shots_.emplace(start, *script().shots, script().pictures(), [this](int i, const Shown& shown) {
+      write(numbered(*options_.output, i), shown);
+    });
+  }
+
+  // Needs no new picture: what is there stays on the screen.
+  void takeShots() {
+    const std::lock_guard lock(mutex_);
+    if (shots_) shots_->take(Clock::now(), latest_);
+  }
+
+  void finishShots() {
+    const std::lock_guard lock(mutex_);
+    const std::vector<Shot>& shots = shots_->finish();
+    const auto lost = std::ranges::count_if(shots, &Shot::isLost);
+    if (lost > 0) warn("{} of {} shots are lost: files took too long", lost, shots.size());
+    log_.add(shots);
   }
 
   // What there is, if the script was ended before its time.
@@ -121,7 +149,7 @@ class ScriptRun {
     const std::lock_guard lock(mutex_);
     if (latest_ == nullptr)
       return warn("stopped before any picture was complete: nothing is written");
-    if (options_.output) write(*options_.output, *latest_);
+    if (options_.output && !script().shots) write(*options_.output, *latest_);
     if (options_.stats)
       writeStats(*options_.stats, log_.json(options_.scene, live_.cluster().tally()));
   }
@@ -151,6 +179,7 @@ class ScriptRun {
   std::condition_variable arrived_;
   LatencyLog log_;                               // guarded by mutex_
   std::shared_ptr<const Shown> latest_, still_;  // guarded by mutex_
+  std::optional<Shots> shots_;                   // guarded by mutex_
   LiveRun live_;
 };
 

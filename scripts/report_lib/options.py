@@ -2,25 +2,27 @@
 import argparse
 import os
 
-from report_lib import scenes
+from report_lib import motion_scripts, scenes
 
-SECTIONS = ("agreement", "speed", "bidirectional", "photon-map", "selective-photons", "crops", "interleaving", "randomization", "needs")
+SECTIONS = ("agreement", "speed", "motion", "bidirectional", "photon-map", "selective-photons", "crops", "interleaving", "randomization",
+            "needs")
 
 FULL = dict(budgets="0.5,1,2,4,8,16", short_budgets="1,4", target_seconds=128, reference_seconds=300, runs=8,
-            run_seconds=10, seeds=8, frames="1,16", rounds=10, few="table_room,office")
+            run_seconds=10, seeds=8, frames="1,16", rounds=10, truth_frames=128,
+            few="table_room,office")
 QUICK = dict(budgets="0.5,1,2", short_budgets="1", target_seconds=2, reference_seconds=10, runs=4, run_seconds=3, seeds=2,
-             frames="4", rounds=0, few="table_room", scenes="cornell,table_room,egg_room")
+             frames="4", rounds=0, truth_frames=32, few="table_room", scenes="cornell,table_room,egg_room")
 
 DESCRIPTION = """How wrong pictures are after how many seconds, for each scene and method, held against
 references by the path tracer, or by the bidirectional method where that hardly finds the light: writes report.html, which opens from disk, and a .csv for each table. References are made once and kept in
 out/references; a section that was run before stays in the page until it is run again. The full report takes about two
-hours on two cores the first time, nearly half of it for references (5 minutes a scene at most)."""
+hours and a half on two cores the first time, nearly half of it for references (5 minutes a scene at most)."""
 
 
 def parse(words):
     parser = argparse.ArgumentParser(prog="scripts/report", description=DESCRIPTION)
     parser.add_argument("--quick", action="store_true",
-                        help="three scenes and short runs: under 5 minutes on two cores; figures are rough")
+                        help="three scenes and short runs: about 10 minutes on two cores; figures are rough")
     parser.add_argument("--sections", default=",".join(SECTIONS),
                         help=f"which to run, of {', '.join(SECTIONS)}; 'none': only write the page again")
     parser.add_argument("--scenes", help="names; default: all that are there")
@@ -34,8 +36,11 @@ def parse(words):
     parser.add_argument("--short-budgets", help="seconds of each run of the sections interleaving, crops and bidirectional (default 1,4)")
     parser.add_argument("--runs", type=int, help="runs a scene of the section agreement, at least 2 (default 8)")
     parser.add_argument("--run-seconds", type=float, help="of each of them (default 10)")
-    parser.add_argument("--seeds", type=int, help="runs of each kind in the sections interleaving and randomization, at least 2 (default 8)")
+    parser.add_argument("--seeds", type=int, help="runs of each kind in the sections motion, interleaving and randomization, at least 2 (default 8)")
     parser.add_argument("--frames", help="frames of each run of the section randomization (default 1,16)")
+    parser.add_argument("--truth-frames", type=int,
+                        help=f"frames of each picture that the section motion (of {', '.join(motion_scripts.COURSES)}) takes for true, "
+                             "twice (default 128)")
     parser.add_argument("--rounds", type=int, help="of timing what unused features cost; 0: do not (default 10)")
     parser.add_argument("--reference-seconds", type=float, help="time for each reference (default 300)")
     parser.add_argument("--reference-error", type=float, default=0.001,

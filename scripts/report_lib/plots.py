@@ -1,5 +1,5 @@
-"""Plots: error over time, one small log-log plot for each scene; virtual lights from above; times of stages; what is there
-of a change; bias."""
+"""Plots: error over time, one small log-log plot for each scene; error while things move; virtual lights from above; times of
+stages; what is there of a change; bias."""
 import math
 
 import matplotlib
@@ -10,7 +10,7 @@ from matplotlib.ticker import NullFormatter  # noqa: E402
 
 from report_lib import pictures  # noqa: E402
 
-COLOURS = ("#1f4e9c", "#c0392b", "#2e8b57", "#8e44ad", "#d68910", "#5d6d7e")
+COLOURS = ("#1f4e9c", "#c0392b", "#2e8b57", "#8e44ad", "#d68910", "#5d6d7e", "#17a2b8", "#7d5a3c", "#d63384", "#7cb518")
 
 
 def error_over_time(path, series, label, slope, floors):
@@ -48,6 +48,28 @@ def _one_scene(axis, scene, methods, label, slope, floor):
         low, high = scale.get_view_interval()
         scale.set_minor_formatter("{x:g}" if high < 10 * low else NullFormatter())
     axis.grid(True, which="major", color="0.92")
+
+
+def error_in_motion(path, series, label, phases, floors):
+    """series: {scene: {method: [(seconds, error)]}}; grey: phases in which something moves; floors: {scene: [(seconds, noise)]}."""
+    figure, axes = plot.subplots(len(series), 1, figsize=(9, 2.8 * len(series)), squeeze=False, sharex=True, layout="constrained")
+    for axis, (scene, methods) in zip(axes.flat, series.items()):
+        for colour, (method, points) in zip(COLOURS, methods.items()):
+            seen = [(t, e) for t, e in points if e > 0]
+            if seen:
+                axis.plot(*zip(*seen), color=colour, linewidth=1.2, label=method)
+        axis.plot(*zip(*floors[scene]), color="0.4", linewidth=0.8, linestyle=":", label="truth's noise")
+        axis.set(yscale="log", title=scene, ylabel=label, xlim=(phases[0].begin, phases[-1].end))
+        axis.title.set_fontsize(9)
+        axis.tick_params(labelsize=7, which="both")
+        axis.grid(True, which="major", color="0.92")
+        for phase in phases:
+            if phase.moves:
+                axis.axvspan(phase.begin, phase.end, color="0.94", zorder=0)
+                axis.text(phase.begin + 0.03, 0.97, phase.name, fontsize=7, color="0.3", va="top", transform=axis.get_xaxis_transform())
+    axes.flat[0].legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
+    axes.flat[-1].set_xlabel("seconds")
+    _finish(figure, path)
 
 
 FAMILY_COLOURS = {"standard": COLOURS[0], "reverse": COLOURS[1], "lamp": COLOURS[4]}

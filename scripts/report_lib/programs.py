@@ -2,6 +2,7 @@
 import dataclasses
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -39,6 +40,29 @@ class Programs:
                    "--output", picture, "--stats", stats)
         with open(stats, encoding="utf-8") as file:
             return json.load(file)
+
+    def play(self, job, seed, script, output):
+        """Plays a script (an object of docs/script.md); `output` is numbered (x.####.exr). Returns the object of --stats, or None
+        of a script with a rate, which writes none."""
+        folder = os.path.dirname(output)
+        os.makedirs(folder, exist_ok=True)
+        file, stats = os.path.join(folder, "script.json"), os.path.join(folder, "times.json")
+        with open(file, "w", encoding="utf-8") as text:
+            json.dump(script, text)
+        self.progress(f"{job.scene.name} {' '.join(job.flags)} seed {seed}, a script of {script['seconds']} s"
+                      + (f" as {script['rate']} stills a second" if "rate" in script else ""))
+        self._call("ninefold-master", *job.arguments(), "--seed", str(seed), "--script", file, "--local-clients", str(self.clients),
+                   "--wait-clients", str(self.clients), "--output", output, "--stats", stats)
+        if "rate" in script:
+            return None
+        with open(stats, encoding="utf-8") as text:
+            return json.load(text)
+
+    def methods(self):
+        """The names of all methods, as the program's help lists them: "NAME (note), NAME or NAME (note)"."""
+        said = self._call("ninefold-master", "--help")
+        text = re.search(r"--method NAME +how light is computed: (.*?)\n +--", said, re.S).group(1)
+        return re.split(r", | or ", re.sub(r" \([^)]*\)", "", " ".join(text.split())))
 
     def compare(self, image, reference):
         """The object of ninefold-compare --json."""

@@ -1,5 +1,6 @@
 """Section: error over time, for each scene and method, and pictures at equal time."""
 import os
+import re
 
 from report_lib import pictures, plots
 from report_lib.measure import can_tell, measure, net
@@ -11,9 +12,10 @@ from report_lib.tables import Table, figure, percent, signed_percents
 
 INSTANT, SINGLE, PAPER, TRACER = "instant radiosity", "instant radiosity, 1x1", "the paper's pipeline", "path tracer"
 BOTH_ENDS, BOTH_ENDS_SINGLE = "bidirectional", "bidirectional, 1x1"
-METHODS = {INSTANT: (), SINGLE: ("--interleave", "1x1"), BOTH_ENDS: ("--method", "bidirectional"),
+METHODS = {INSTANT: ("--method", "instant-radiosity"), SINGLE: ("--interleave", "1x1"), BOTH_ENDS: ("--method", "bidirectional"),
            BOTH_ENDS_SINGLE: ("--method", "bidirectional", "--interleave", "1x1"), PAPER: ("--preset", "paper"),
            TRACER: ("--method", "path-trace")}
+UNBIASED = set(METHODS) - {PAPER}
 HEAD = ["scene", "method", "budget [s]", "time [s]", "frames", "Mrays", "RMSE %", "less noise", "relMSE", "less noise",
         "trimmed", "less noise", "bias R G B [%]", "SSIM", "error as stated", "reference's error"]
 TEXT = [
@@ -29,41 +31,50 @@ TEXT = [
     "Bidirectional (--method bidirectional) looks for virtual lights from the lamps and from the camera. A light set costs it "
     "about ten times as much, so that 1x1, one set a frame, gains it most where the picture is small.",
     "The paper's pipeline (--preset paper) has known bias: four diffuse vertices at most, a filter and a photon radius that "
-    "stay, a bound that loses energy, no anti-aliasing."]
+    "stay, a bound that loses energy, no anti-aliasing.",
+    "Other methods of the program stand under the names of --method, with its defaults. They may have a bias that stays (--help tells it), "
+    "so that nothing is extrapolated for them."]
 
 
 def run(context):
     section = Section("speed", "Error over time", list(TEXT))
     table = Table("speed", HEAD)
     references = {}
+    variants = with_all_methods(context.programs.methods())
     for scene in context.scenes:
         references[scene.name] = context.references.get(scene, scene.size(context.options.width))
-        for method in METHODS:
-            table.data += _series(context, scene, method, references[scene.name])
-        section.pictures += _sheets(context, scene, references[scene.name])
+        for method, flags in variants.items():
+            table.data += _series(context, scene, method, flags, references[scene.name])
+        section.pictures += _sheets(context, scene, variants, references[scene.name])
     table.rows = [_row(entry) for entry in table.data]
-    section.tables += [targets_table(table.data, references, unbiased=set(METHODS) - {PAPER}), table]
+    section.tables += [targets_table(table.data, references, unbiased=UNBIASED), table]
     section.pictures[:0] = _plots(context, table.data, references)
     return section
 
 
-def _series(context, scene, method, reference):
-    entries = [_measure(context, scene, method, budget, reference) for budget in context.options.budgets]
-    if scene.name in TARGETS and method != PAPER:
+def with_all_methods(names):
+    """{variant: flags}: those above, and each method of the program that none of them is of, by its name."""
+    covered = {word for flags in METHODS.values() for word in flags}
+    return {**METHODS, **{name: ("--method", name) for name in names if name not in covered}}
+
+
+def _series(context, scene, method, flags, reference):
+    entries = [_measure(context, scene, method, flags, budget, reference) for budget in context.options.budgets]
+    if scene.name in TARGETS and method in UNBIASED:
         budget = 2 * max(context.options.budgets)
         within_reach = [wanted for wanted in WANTED if can_tell(reference, wanted[0], wanted[2])]
         while budget <= context.options.target_seconds and not has_met_all(entries, within_reach):
-            entries.append(_measure(context, scene, method, budget, reference))
+            entries.append(_measure(context, scene, method, flags, budget, reference))
             budget *= 2
     return entries
 
 
 def _path(context, scene, method, budget):
-    return os.path.join(context.folder, "runs", f"{scene.name}_{list(METHODS).index(method)}_{budget:g}s.exr")
+    return os.path.join(context.folder, "runs", f"{scene.name}_{re.sub('[^a-z0-9]+', '-', method)}_{budget:g}s.exr")
 
 
-def _measure(context, scene, method, budget, reference):
-    job = Job(scene, scene.size(context.options.width), METHODS[method])
+def _measure(context, scene, method, flags, budget, reference):
+    job = Job(scene, scene.size(context.options.width), flags)
     seed = 1 + round(1000 * budget)
     made = measure(context, job, seed, ("--seconds", budget), reference, _path(context, scene, method, budget))
     return {"scene": scene.name, "method": method, "budget": budget, **made}
@@ -93,13 +104,13 @@ def _plots(context, data, references):
     return shown
 
 
-def _sheets(context, scene, reference):
+def _sheets(context, scene, methods, reference):
     shown = []
     truth = pictures.read(reference.picture)
     for budget in dict.fromkeys((min(context.options.budgets), max(context.options.budgets))):
-        made = [pictures.read(_path(context, scene, method, budget)) for method in METHODS]
+        made = [pictures.read(_path(context, scene, method, budget)) for method in methods]
         name = f"{scene.name}_{budget:g}s.png"
         pictures.write(os.path.join(context.folder, name), pictures.beside_reference(truth, made))
-        shown.append(Picture(name, f"{scene.name} after {budget:g} s: reference, {', '.join(METHODS)}; "
+        shown.append(Picture(name, f"{scene.name} after {budget:g} s: reference, {', '.join(methods)}; "
                                    "below them the signed error (full colour at 50 %)"))
     return shown

@@ -1,4 +1,5 @@
 """docs/script.md: what it shows runs as it stands there, but for size, frames and number of clients."""
+import json
 import pathlib
 import re
 import shlex
@@ -43,11 +44,14 @@ class Document(ClusterTest):
             with self.subTest(" ".join(words)):
                 self.run_as_shown(words, script)
                 count += 1
-        self.assertEqual(count, 3)
+        self.assertEqual(count, 4)
         with self.subTest("seconds times rate, and one"):
             self.assertEqual(len(self.pictures("ball.*.png")), 4 * 2 + 1)
             self.assertEqual(len(self.pictures("round.*.png")), 4 * 5 + 1)
             self.assertTrue((self.folder / "last.png").exists())
+            shots = json.loads((self.folder / "times.json").read_text())["shots"]
+            self.assertEqual(len(shots), 2 * 10 + 1)
+            self.assertEqual(len(list(self.folder.glob("seen.*.exr"))), sum(not shot["lost"] for shot in shots))
         with self.subTest("the animation goes round"):
             round_ = self.pictures("round.*.png")
             self.assertTrue(round_[0] == round_[-1], "it ends where it began")

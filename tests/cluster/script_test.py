@@ -48,6 +48,41 @@ class Animation(Pictures):
         self.assertRegex(program.lines[-1], r"^ninefold-master: --animate: nothing is animated")
 
 
+class Shots(Pictures):
+    """What is on the screen of a session in real time."""
+    SCRIPT = {"seconds": 1, "shots": 5, "events": [
+        {"from": 0.25, "to": 0.75, "camera": ["classic", "0.1,0.2,-0.8:0.278,0.273,0:40"]}]}
+
+    def play(self, script, *options):
+        self.write("s.json", json.dumps(script))
+        self.run_master(SCENES / "cornell.glb", "--script", "s.json", "--stats", "times.json", *options)
+        return json.loads((self.folder / "times.json").read_text())
+
+    def test_there_is_one_for_each_moment_and_each_tells_its_frame(self):
+        times = self.play(self.SCRIPT, "--output", "s.##.png", "--denoise", "off")
+        shots = times["shots"]
+        self.assertEqual([s["shot"] for s in shots], [0, 1, 2, 3, 4, 5])
+        self.assertEqual([p.name for p in sorted(self.folder.glob("s.*.png"))],
+                         [f"s.{s['shot']:02d}.png" for s in shots if not s["lost"]])
+        seen = {f["frame"]: f["time"] for f in times["frames"]}
+        for shot in shots:
+            self.assertLess(shot["opened"], shot["shown"])
+            self.assertLessEqual(shot["shown"], shot["shot"] / 5)
+            if shot["shown"] > 0:
+                self.assertEqual(seen[shot["frame"]], shot["shown"])
+
+    def test_radiance_is_written_too(self):
+        self.play(self.SCRIPT, "--output", "s.##.exr")
+        first, last = ((self.folder / f"s.0{i}.exr").read_bytes() for i in (0, 5))
+        self.assertNotEqual(first, last)
+
+    def test_they_need_numbered_files(self):
+        self.write("s.json", json.dumps(self.SCRIPT))
+        program = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--script", "s.json", "--output", "s.png")
+        self.assertEqual(program.ends(), 1)
+        self.assertRegex(program.lines[-1], "a script with a rate or shots needs --output")
+
+
 class Disturbed(Pictures):
     """Edits while clients join, die and rejoin leave no stale pixel."""
     SCRIPT = {"seconds": 4, "rate": 10, "frames": 2, "events": [

@@ -204,6 +204,8 @@ TEST(Script, SaysWhatIsWrongAndWhere) {
   has(R"({"events": []})", "\"seconds\" is missing");
   has(R"({"seconds": -1, "events": []})", "\"seconds\" is -1");
   has(R"({"seconds": 1, "events": [], "rat": 3})", "\"rat\" is unknown");
+  has(R"({"seconds": 1, "events": [], "rate": 3, "shots": 3})", "exclude each other");
+  has(R"({"seconds": 1, "events": [], "shots": 0})", "\"shots\" is 0");
   has(R"({"seconds": 1, "events": [{"at": 0}]})", "event 0: needs");
   has(R"({"seconds": 1, "events": [{"from": 1, "to": 0, "camera": ["front"]}]})", "\"to\" is 0");
   has(R"({"seconds": 1, "events": [{"at": 0, "camera": ["back"]}]})", "event 0: no camera 'back'");

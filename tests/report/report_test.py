@@ -3,6 +3,7 @@
 
 Run it from anywhere: tests/report/report_test.py
 """
+import itertools
 import os
 import pathlib
 import sys
@@ -14,7 +15,9 @@ import numpy
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
-from report_lib import blocks, crops, keep, measure, options, photon_bias, photon_stages, pictures, scenes, section, seconds_to_error, tables  # noqa: E402
+from report_lib import blocks, crops, keep, measure, motion_errors, motion_run, motion_scripts, motion_tables, motion_text  # noqa: E402
+from report_lib import options, photon_bias, photon_stages, pictures, plots, scenes, section, seconds_to_error, speed, tables  # noqa: E402
+from report_lib.motion_truth import Truth  # noqa: E402
 from report_lib.references import Reference  # noqa: E402
 
 
@@ -92,6 +95,149 @@ class EverySection(unittest.TestCase):
     def test_can_be_loaded(self):
         for name in options.SECTIONS:
             self.assertTrue(callable(section.module_of(name).run), name)
+
+
+class Speed(unittest.TestCase):
+    def test_no_method_of_the_program_is_left_out_or_made_twice(self):
+        variants = speed.with_all_methods(["instant-radiosity", "path-trace", "bidirectional", "photon-map", "new"])
+        self.assertEqual({name: flags for name, flags in variants.items() if name not in speed.METHODS},
+                         {"photon-map": ("--method", "photon-map"), "new": ("--method", "new")})
+        self.assertNotIn("photon-map", speed.UNBIASED)
+
+
+def grey(value, size=(4, 6)):
+    return numpy.full((*size, 3), value, numpy.float32)
+
+
+class MotionErrors(unittest.TestCase):
+    def test_relmse_is_that_of_its_formula(self):
+        # Truth 2 and 6 in halves, mean 4; over it 0.5 and 1.5; the picture is 1 too bright: 0.25 of the mean.
+        truth = numpy.concatenate([grey(2), grey(6)])
+        expected = 0.5 * (0.0625 / (0.25 + 0.01) + 0.0625 / (2.25 + 0.01))
+        self.assertAlmostEqual(motion_errors.errors(truth + 1, truth)[0], expected, places=6)
+
+    def test_trimmed_leaves_out_one_in_a_thousand(self):
+        truth, picture = grey(1, (40, 50)), grey(1, (40, 50))
+        picture[3, 7] = picture[9, 9] = 100  # 2 of 2000
+        self.assertGreater(motion_errors.errors(picture, truth)[0], 9)
+        self.assertEqual(motion_errors.errors(picture, truth)[1], 0)
+
+    def test_the_truths_noise_is_what_it_adds(self):
+        random = numpy.random.default_rng(5)
+        exact = grey(3, (120, 160))
+        a, b, picture = (exact + s * random.standard_normal(exact.shape) for s in (0.3, 0.3, 0.6))
+        seen, noise = motion_errors.errors(picture, (a + b) / 2)[0], motion_errors.noise(a, b)[0]
+        # (0.6^2 + 0.3^2/2)/9/1.01; the standard deviation of 57,600 squares is below 1 %.
+        # r has a variance of its own, 0.005 of its square: 1/r^2 is 1.015 times as much.
+        self.assertAlmostEqual(noise, 1.015 * 0.045 / 9 / 1.01, delta=1e-4)
+        self.assertAlmostEqual(seen - noise, 1.015 * 0.36 / 9 / 1.01, delta=1e-3)
+
+    def test_a_smaller_picture_is_enlarged_between_its_pixels_centres(self):
+        small = numpy.array([[[0.0] * 3, [4.0] * 3]], numpy.float32)
+        # Centres of four pixels at -0.25, 0.25, 0.75 and 1.25 of two.
+        self.assertEqual(motion_errors.on_screen(small, 3, 4)[:, :, 0].tolist(), [[0, 1, 3, 4]] * 3)
+        whole = numpy.arange(24, dtype=numpy.float32).reshape(2, 4, 3)
+        self.assertTrue((motion_errors.on_screen(whole, 2, 4) == whole).all())
+
+    def test_what_is_late_by_a_time_has_that_delay_whatever_its_scale(self):
+        change = motion_scripts.LAMP
+        def bright(time):
+            return 8 - 6 * min(max(time - change.begin, 0), 1)
+        times = [i / 10 for i in range(91)]
+        true = [(t, bright(t)) for t in times]
+        for late in (0, 0.05, 0.3):
+            seen = [(t, 1.1 * bright(t - late) + 0.2) for t in times]
+            self.assertAlmostEqual(1000 * motion_errors.delay(seen, true, change, 9, 0.4), 1000 * late, delta=1e-6)
+
+    def test_new_noise_flickers_as_much_as_it_errs_and_what_moves_is_left_out(self):
+        random = numpy.random.default_rng(6)
+        truth = grey(2, (120, 160))
+        before, picture = (truth + 0.2 * random.standard_normal((120, 160, 1)) for _ in range(2))
+        error = motion_errors.errors(picture, truth)[0]
+        self.assertAlmostEqual(motion_errors.flicker(before, picture, truth, truth), error, delta=0.04 * error)
+        self.assertEqual(motion_errors.flicker(picture, picture, truth, truth), 0)
+        moved, jumped = truth.copy(), picture.copy()
+        moved[:60], jumped[:60] = 20, 20
+        self.assertAlmostEqual(motion_errors.flicker(before, jumped, truth, moved),
+                               error * 2.0 ** 2 / 11 ** 2 * (1 + 0.01) / ((2 / 11) ** 2 + 0.01), delta=0.06 * error)
+        self.assertIsNone(motion_errors.flicker(before, picture, truth, 3 * truth))
+
+
+class Motion(unittest.TestCase):
+    """A session of four shots, the truth of shot i being i + 1 everywhere."""
+    TRUTH = Truth([grey(i + 1.0) for i in range(91)], [[0.01, 0.001]] * 91)
+
+    @staticmethod
+    def times(shots, lost=()):
+        return {"shots": [{"shot": i, "frame": 7, "opened": i / 10 - 0.03, "shown": i / 10 - 0.01, "frames": 1, "lost": i in lost}
+                          for i in shots],
+                "frames": [{"moving": True, "width": 160, "took_ms": 20}] * 9, "latency_ms": {"p50": 30, "p95": 50}}
+
+    def test_each_shot_is_held_against_the_truth_of_its_own_moment(self):
+        shown = {0: grey(1.0), 1: grey(2.0), 3: grey(2.0, (2, 3))}
+        entries = motion_run.measured(self.times(range(4), lost=[2])["shots"], shown, self.TRUTH)
+        self.assertEqual([e["shot"] for e in entries], [0, 1, 3])
+        self.assertEqual([e["time"] for e in entries], [0, 0.1, 0.3])
+        # Shot 3 shows 2 in place of 4: half of the mean is missing.
+        for e, error in zip(entries, (0, 0, 0.25 / 1.01)):
+            self.assertAlmostEqual(e["relmse"], error, places=6)
+            self.assertAlmostEqual(e["net_relmse"], error - 0.01, places=6)
+            self.assertAlmostEqual(e["net_trimmed"], error - 0.001, places=6)
+            self.assertAlmostEqual(e["age"], 0.03)
+        self.assertEqual([e["flicker"] for e in entries], [None] * 3)  # all pixels change, and none before shot 3
+
+    def made(self):
+        def run(factor):
+            return motion_run.Run(self.times(range(91)), {i: factor * self.TRUTH.pictures[i] for i in range(91)}, self.TRUTH, 2.5)
+        return {"room": {"a": [run(1.2), run(1.4)], "b": [run(2)]}}
+
+    def test_tables_tell_means_of_phases_and_medians_of_runs(self):
+        table = motion_tables.phases(self.made())
+        self.assertEqual(len(table.data), 2 * len(motion_scripts.PHASES))
+        a, b = table.data[:2]
+        self.assertEqual((a["scene"], a["phase"], a["method"], a["runs"]), ("room", "at rest", "a", 2))
+        self.assertAlmostEqual(a["relmse"], (0.04 + 0.16) / 2 / 1.01 - 0.01, places=6)
+        self.assertAlmostEqual(a["relmse_least"], 0.04 / 1.01 - 0.01, places=6)
+        self.assertAlmostEqual(a["relmse_largest"], 0.16 / 1.01 - 0.01, places=6)
+        self.assertAlmostEqual(b["trimmed"], 1 / 1.01 - 0.001, places=6)
+        self.assertIsNone(b["flicker"])  # no pixel rests in this session
+        self.assertEqual(len(table.rows), len(motion_scripts.PHASES))
+        pace = motion_tables.pace(self.made()).data[0]
+        self.assertAlmostEqual(pace["frames_a_second"], 9 / 4.5)
+        self.assertEqual((pace["width"], pace["latency_p95"], pace["lost"]), (160, 50, 0))
+        self.assertAlmostEqual(pace["age"], 30)
+        self.assertEqual(pace["load"], 2.5)
+
+    def test_the_file_has_all_moments_and_the_plot_is_one(self):
+        made = self.made()
+        table = motion_tables.moments(made)
+        self.assertEqual(len(table.rows), 2)
+        lines = table.csv().splitlines()
+        self.assertEqual(lines[0], "scene,method,time,relmse,trimmed")
+        self.assertEqual(len(lines), 1 + 2 * 91)
+        series = motion_tables.over_time(made, "net_relmse")
+        self.assertAlmostEqual(dict(series["room"]["b"])[2], 1 / 1.01 - 0.01, places=6)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "plot.png")
+            plots.error_in_motion(path, series, "relMSE", motion_scripts.PHASES, {"room": [(0, 0.01), (9, 0.01)]})
+            self.assertEqual(pictures.read(path).shape[2], 3)
+
+    def test_words_are_those_of_the_figures(self):
+        phases, pace = motion_tables.phases(self.made()).data, motion_tables.pace(self.made()).data
+        room, overall = motion_text.findings(phases, pace)
+        self.assertIn("Walk: a has the least error (0.098), b 10 times as much.", room)
+        self.assertNotIn("After the walk", room)
+        self.assertIn("geometric mean of phases and scenes: a 0.098, b 0.99.", overall)
+
+    def test_phases_are_the_whole_script_and_pictures_are_of_motion(self):
+        self.assertEqual(motion_scripts.PHASES[0].begin, 0)
+        for before, after in itertools.pairwise(motion_scripts.PHASES):
+            self.assertEqual(before.end, after.begin)
+        moving = [phase for phase in motion_scripts.PHASES if phase.moves]
+        self.assertEqual([sum(phase.has(m) for m in motion_tables.MOMENTS) for phase in moving], [1, 1, 1])
+        self.assertEqual(motion_scripts.count(10), 91)
+        script = motion_scripts.script(motion_scripts.COURSES["cornell"], shots=10)
+        self.assertEqual([(e["from"], e["to"]) for e in script["events"]], [(p.begin, p.end) for p in moving])
 
 
 class SecondsToError(unittest.TestCase):
