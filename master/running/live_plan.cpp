@@ -108,11 +108,15 @@ void LivePlan::hold(LiveFrame& frame, const FrameKey& key, const FramePlan& befo
 
 std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   if (!dirty_) {
-    if (now - changed_ < kSettle || !open_.empty()) return std::nullopt;
-    moving_ = false;
-    plan_ = planOfRest();
-    states_.restart();
-    return next(now);
+    const bool isSettled = now - changed_ >= kSettle;
+    if (isSettled && open_.empty()) {
+      moving_ = false;
+      plan_ = planOfRest();
+      states_.restart();
+      return next(now);
+    }
+    if (isSettled || !states_.hasNews()) return std::nullopt;
+    firstUnshown_ = now;
   }
   if (open_.size() >= kInMotion) return std::nullopt;
   const std::optional<uint32_t> version = states_.versionOfFrame(true);

@@ -5,7 +5,8 @@
 //            for ever or as many as a still is to have. If somebody may click, the first of them
 //            carries pick planes, which hold for all.
 //   motion   From a change until nothing has changed for kSettle. Each newest state gets one frame,
-//            at motion_quality's step; at most kInMotion are open. So that nothing flickers they
+//            at motion_quality's step, and another one when the method's state has caught up with
+//            it by a step; at most kInMotion are open. So that nothing flickers they
 //            have the random bits of the first one, look through the middle of each pixel, and take
 //            caustics from lights alone. VPLs have half as many candidates. Light that is made for
 //            a view is made for the last few (light_cameras.h). An edited scene is announced as

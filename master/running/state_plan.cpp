@@ -15,7 +15,7 @@ bool StatePlan::change(const Settings& settings, bool sceneChanged) {
       before.method == settings.method && (facts_ == nullptr || facts_->isKept(before, settings));
   if (facts_ != nullptr && sceneChanged) stale_ = facts_->unitsOfAll(settings), ++scene_;
   if (isKept) return false;
-  latest_ = 0, stale_ = 0;
+  latest_ = shown_ = 0, stale_ = 0;
   restart();
   return std::exchange(open_, std::nullopt).has_value();
 }
@@ -61,7 +61,7 @@ std::optional<uint32_t> StatePlan::versionOfFrame(bool moving) {
   if (moving) {
     if (latest_ == 0) return std::nullopt;
     mayStep_ = true;
-    return latest_;
+    return shown_ = latest_;
   }
   if (ready_.empty()) return std::nullopt;
   const uint32_t version = ready_.front();

@@ -44,6 +44,8 @@ class StatePlan {
   void done(const StepKey& step);
   // The version that lights the next frame, which is opened now; nothing while it is not there.
   std::optional<uint32_t> versionOfFrame(bool moving);
+  // There is a version that no frame in motion has shown.
+  bool hasNews() const { return latest_ != 0 && latest_ != shown_; }
 
  private:
   struct Open {
@@ -57,6 +59,7 @@ class StatePlan {
   Settings settings_;
   std::optional<Open> open_;
   uint32_t latest_ = 0;    // version; 0: none that is right
+  uint32_t shown_ = 0;     // by the last frame in motion
   uint32_t versions_ = 0;  // that steps were opened for
   uint32_t nextUnit_ = 0;
   uint32_t series_ = 0;         // of frames at rest
