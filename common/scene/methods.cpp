@@ -62,6 +62,7 @@ constexpr StateFacts kMapState{
     .unitsInMotion = [](const Settings&) { return 1u; },
     .rays = [](const Settings& s) { return 4.0 * s.mapPerFrame; },
     .beginsAnew = true,
+    .isPaced = false,
     .isKept = haveSameMap,
 };
 
@@ -95,6 +96,7 @@ constexpr StateFacts kSelectiveState{
     .unitsInMotion = rowsInMotion,
     .rays = [](const Settings& s) { return 4.0 * s.photonPool / s.photonGroups; },
     .beginsAnew = true,
+    .isPaced = true,
     .isKept = haveSameGroups,
 };
 
@@ -105,6 +107,7 @@ constexpr StateFacts kStateCheckSteps{
     .unitsInMotion = [](const Settings&) { return 2u; },
     .rays = [](const Settings&) { return 1.0; },
     .beginsAnew = false,
+    .isPaced = false,
     .isKept = [](const Settings& a, const Settings& b) { return a.seed == b.seed; }};
 #else
 constexpr size_t kTestMethods = 0;

@@ -36,6 +36,7 @@ struct StateFacts {
   uint32_t (*unitsInMotion)(const Settings& settings);
   double (*rays)(const Settings& settings);  // of a unit, about
   bool beginsAnew;                           // a step of all units needs no state before it
+  bool isPaced;  // steps in motion may have other numbers of units, as many as there is time for
   // Whether the state of one stays right under the other: where not, it begins anew.
   bool (*isKept)(const Settings& before, const Settings& after);
 };

@@ -94,8 +94,9 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   std::optional<int64_t> framesLeft;
   if (setup_.frames && !moving_) framesLeft = *setup_.frames - plan_.opened();
-  const auto step = states_.nextStep(nextFrame_, moving_, framesLeft);
+  const auto step = states_.nextStep(nextFrame_, moving_, framesLeft, quality_.target() / 2);
   if (!step) return std::nullopt;
+  stepOpened_ = now;
   ++nextFrame_;
   return StepOrder{open(now).order, step->key, step->units};
 }

@@ -98,7 +98,7 @@ class LivePlan {
   std::optional<LiveFrame> next(Time now);
   // The next step of the method's state to open: asked before next, and again if that gives none.
   std::optional<StepOrder> nextStep(Time now);
-  void stepDone(const StepKey& step) { states_.done(step); }
+  void stepDone(const StepKey& step, Time now) { states_.done(step, now - stepOpened_); }
   // The first step that is wanted, if older ones are void since this was last asked.
   std::optional<uint32_t> takeVoidSteps() { return std::exchange(voidSteps_, std::nullopt); }
   // A frame is complete. Nothing if it was superseded.
@@ -126,6 +126,7 @@ class LivePlan {
   Delivery atRest_, inMotion_;
   FramePlan plan_;
   StatePlan states_;
+  Time stepOpened_{};
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   bool moving_ = false, dirty_ = false;

@@ -238,7 +238,7 @@ void LiveRun::noteOwner(const ReceivedTile& tile) {
 // On the network thread.
 void LiveRun::stepDone(const StepKey& step) {
   const std::lock_guard lock(mutex_);
-  plan_.stepDone(step);
+  plan_.stepDone(step, Clock::now());
 }
 
 // On the network thread.

@@ -16,19 +16,21 @@ bool StatePlan::change(const Settings& settings, bool sceneChanged) {
   if (facts_ != nullptr && sceneChanged) stale_ = facts_->unitsOfAll(settings), ++scene_;
   if (isKept) return false;
   latest_ = shown_ = 0, stale_ = 0;
+  pace_ = {};
   restart();
   return std::exchange(open_, std::nullopt).has_value();
 }
 
 std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
-                                                   std::optional<int64_t> framesLeft) {
+                                                   std::optional<int64_t> framesLeft,
+                                                   Duration time) {
   if (facts_ == nullptr || open_) return std::nullopt;
   const auto ready = static_cast<int64_t>(ready_.size());
   const bool isWanted = latest_ == 0 ? framesLeft != 0
                         : moving     ? stale_ > 0 && mayStep_
                                      : ready <= 1 && ready < framesLeft.value_or(ready + 1);
   if (!isWanted) return std::nullopt;
-  open_ = stepOf(number, moving);
+  open_ = stepOf(number, moving, time);
   ++versions_;
   mayStep_ = false;
   if (!moving) ++index_;
@@ -36,10 +38,11 @@ std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
   return open_->step;
 }
 
-StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving) const {
+StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving, Duration time) const {
   const bool makesAll = !moving || latest_ == 0;
-  const uint32_t units =
-      makesAll ? facts_->unitsOfAll(settings_) : facts_->unitsInMotion(settings_);
+  const uint32_t all = facts_->unitsOfAll(settings_);
+  const uint32_t usual = makesAll ? all : facts_->unitsInMotion(settings_);
+  const uint32_t units = makesAll || !facts_->isPaced ? usual : pace_.units(usual, all, time);
   StepKey key;
   key.number = number;
   key.from = makesAll && facts_->beginsAnew ? 0 : latest_, key.to = versions_ + 1;
@@ -48,10 +51,11 @@ StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving) const {
   return {{key, static_cast<int>(units)}, makesAll, series_, scene_};
 }
 
-void StatePlan::done(const StepKey& step) {
+void StatePlan::done(const StepKey& step, Duration took) {
   if (!open_ || !(open_->step.key == step)) return;
   const Open done = *std::exchange(open_, std::nullopt);
   latest_ = step.to;
+  if (!done.makesAll) pace_.took(static_cast<uint32_t>(done.step.units), took);
   if (done.scene == scene_) stale_ -= std::min(stale_, static_cast<uint32_t>(done.step.units));
   if (done.makesAll && done.series == series_ && done.scene == scene_) ready_.push_back(step.to);
 }

@@ -6,7 +6,7 @@
 //           beside the frame that i lights.
 //   motion  The latest version lights a frame. After a change of the scene a small step runs beside
 //           each frame, until all of the state has been made anew: the picture lags by as many
-//           frames.
+//           frames. Where the facts say so, the step is as large as there is time for.
 //
 // The first step, and one after settings under which the state is not right any more, makes all of
 // it of nothing.
@@ -20,6 +20,7 @@
 
 #include "common/scene/methods.h"
 #include "common/scene/settings.h"
+#include "master/running/step_pace.h"
 
 namespace ninefold {
 
@@ -40,8 +41,11 @@ class StatePlan {
   };
   // The next step to open, as `number`; nothing while none is wanted. `framesLeft`: at rest, that
   // are still to be lit; none: without end.
-  std::optional<Step> nextStep(uint32_t number, bool moving, std::optional<int64_t> framesLeft);
-  void done(const StepKey& step);
+  // `time`: of a step in motion, for methods whose steps are paced.
+  std::optional<Step> nextStep(uint32_t number, bool moving, std::optional<int64_t> framesLeft,
+                               Duration time = {});
+  // `took`: since it was opened.
+  void done(const StepKey& step, Duration took = {});
   // The version that lights the next frame, which is opened now; nothing while it is not there.
   std::optional<uint32_t> versionOfFrame(bool moving);
   // There is a version that no frame in motion has shown.
@@ -53,11 +57,12 @@ class StatePlan {
     bool makesAll = false;
     uint32_t series = 0, scene = 0;  // as they were when it opened
   };
-  Open stepOf(uint32_t number, bool moving) const;
+  Open stepOf(uint32_t number, bool moving, Duration time) const;
 
   const StateFacts* facts_;
   Settings settings_;
   std::optional<Open> open_;
+  StepPace pace_;
   uint32_t latest_ = 0;    // version; 0: none that is right
   uint32_t shown_ = 0;     // by the last frame in motion
   uint32_t versions_ = 0;  // that steps were opened for

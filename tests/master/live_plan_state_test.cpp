@@ -36,10 +36,10 @@ class LivePlanState : public testing::Test {
   // A picture at rest is there, and nothing is under way.
   uint32_t rest() {
     const StepOrder made = step();
-    plan.stepDone(made.key);
+    plan.stepDone(made.key, now);
     const StepOrder next = step();
     finish(frame());
-    plan.stepDone(next.key);
+    plan.stepDone(next.key, now);
     return next.key.to;
   }
 
@@ -52,7 +52,7 @@ TEST_F(LivePlanState, AFrameIsOpenedWhenItsStateIsThere) {
   const StepOrder first = step();
   EXPECT_EQ(first.units, 6);
   EXPECT_FALSE(plan.next(now));
-  plan.stepDone(first.key);
+  plan.stepDone(first.key, now);
   const StepOrder second = step();
   const LiveFrame lit = frame();
   EXPECT_EQ(lit.order.key.state, first.key.to);
@@ -73,7 +73,7 @@ TEST_F(LivePlanState, AnEditIsShownByTheLatestStateWhileASmallStepFollowsIt) {
   EXPECT_EQ(small.scene, lit.order.scene) << "of the scene as it is now";
   EXPECT_EQ(small.key.randomization, 0u);
   finish(lit);
-  plan.stepDone(small.key);
+  plan.stepDone(small.key, now);
   edit();
   EXPECT_EQ(frame().order.key.state, small.key.to);
 }
@@ -97,15 +97,52 @@ TEST_F(LivePlanState, APictureThatComesToRestHasAStateOfItsScene) {
   EXPECT_FALSE(plan.next(now)) << "it rests, and its state is not there";
   EXPECT_FALSE(plan.isMoving());
   EXPECT_FALSE(plan.nextStep(now)) << "the small step is under way";
-  plan.stepDone(small.key);
+  plan.stepDone(small.key, now);
   const StepOrder all = step();
   EXPECT_EQ(all.units, 6);
   EXPECT_FALSE(plan.next(now));
-  plan.stepDone(all.key);
+  plan.stepDone(all.key, now);
   const LiveFrame first = frame();
   EXPECT_FALSE(first.moving);
   EXPECT_EQ(first.rested, 0);
   EXPECT_EQ(first.order.key.state, all.key.to);
+}
+
+// The hand is still, and the method's state is not yet that of the scene: each step shows.
+TEST_F(LivePlanState, AStateThatCatchesUpIsShownStepByStep) {
+  rest();
+  edit();
+  finish(frame());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_FALSE(plan.next(now)) << "nothing is new";
+    const StepOrder small = step();
+    plan.stepDone(small.key, now);
+    const LiveFrame shown = frame();
+    EXPECT_TRUE(shown.moving);
+    EXPECT_EQ(shown.order.key.state, small.key.to);
+    finish(shown);
+  }
+  EXPECT_FALSE(plan.nextStep(now)) << "all of it is new";
+  pass(LivePlan::kSettle);
+  EXPECT_FALSE(plan.next(now)) << "rest has a state of its own";
+  plan.stepDone(step().key, now);
+  EXPECT_FALSE(frame().moving);
+}
+
+// Groups of photons: of 100 ms for a frame steps get a half.
+TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomFor) {
+  LivePlan::Setup paced = setup();
+  paced.state.settings.method = Method::selective;
+  plan = LivePlan(paced, now);
+  rest();
+  edit();
+  finish(frame());
+  const StepOrder first = step();
+  EXPECT_EQ(first.units, 64);
+  pass(milliseconds(200));
+  plan.stepDone(first.key, now);
+  finish(frame());
+  EXPECT_EQ(step().units, 16);
 }
 
 TEST_F(LivePlanState, OtherSettingsOfTheMethodVoidOpenSteps) {
@@ -127,7 +164,7 @@ TEST_F(LivePlanState, AMethodWithoutAStateHasNone) {
   state.settings.method = Method::instantRadiosity;
   plan.change(state, now);
   EXPECT_TRUE(plan.takeVoidSteps());
-  plan.stepDone(open.key);
+  plan.stepDone(open.key, now);
   EXPECT_FALSE(plan.nextStep(now));
   EXPECT_EQ(frame().order.key.state, 0u);
 }
@@ -136,7 +173,7 @@ TEST_F(LivePlanState, FramesThatCannotBeRenderedTakeTheirStepsWithThem) {
   step();
   plan.giveUp();
   const StepOrder again = step();
-  plan.stepDone(again.key);
+  plan.stepDone(again.key, now);
   EXPECT_EQ(frame().order.key.state, again.key.to);
 }
 

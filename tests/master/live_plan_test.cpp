@@ -420,39 +420,6 @@ TEST_F(LivePlanTest, LightThatNeedsNoViewIsMadeForNone) {
   EXPECT_TRUE(done().order.key.lightCameras.empty());
 }
 
-// The hand is still, and the method's state is not yet that of the scene: each step shows.
-TEST_F(LivePlanTest, AStateThatCatchesUpIsShownStepByStep) {
-  LivePlan::Setup keeping = setup();
-  keeping.state.settings.method = Method::photonMap;
-  plan = LivePlan(keeping, now);
-  const auto step = [&] {
-    const auto order = plan.nextStep(now);
-    EXPECT_TRUE(order);
-    plan.stepDone(order->key);
-    return order->key.to;
-  };
-  step();
-  done();
-  LiveState state = plan.state();
-  state.scene = 1;
-  plan.change(state, now);
-  const uint32_t before = done().order.key.state;
-  for (int i = 0; i < 5; ++i) {
-    EXPECT_FALSE(plan.next(now)) << "nothing is new";
-    const uint32_t version = step();
-    EXPECT_GT(version, before);
-    const LiveFrame frame = done();
-    EXPECT_TRUE(frame.moving);
-    EXPECT_EQ(frame.order.key.state, version);
-    EXPECT_EQ(frame.order.scene, 1u);
-  }
-  step();
-  pass(LivePlan::kSettle);
-  EXPECT_FALSE(plan.next(now)) << "rest has a state of its own, which is to be made";
-  step();
-  EXPECT_FALSE(done().moving);
-}
-
 TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
   const uint32_t before = done().order.job;
   LiveState state = plan.state();
