@@ -6,12 +6,14 @@
 #include "common/base/error.h"
 #include "common/gi/selective/element_nodes.h"
 #include "common/sampling/hash.h"
+#include "common/scene/alpha_test.h"
 #include "common/scene/world.h"
 
 namespace ninefold {
 namespace {
 
 constexpr uint32_t kMostCuts = 4096;
+constexpr uint32_t kHoleRows = 4;
 
 // Point (i, j) of a triangle cut into n: its place in the triangle's rows.
 uint32_t pointOf(uint32_t i, uint32_t j, uint32_t n) { return j * (n + 1) - j * (j - 1) / 2 + i; }
@@ -26,6 +28,11 @@ struct Corners {
   float shortest() const { return std::min({edge(0), edge(1), edge(2)}); }
   float area() const { return 0.5f * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])); }
 };
+
+Corners cornersIn(const Mesh& mesh, const DMat4& toWorld, const Triangle& t) {
+  return {{worldPoint(toWorld, mesh.positions[t.x]), worldPoint(toWorld, mesh.positions[t.y]),
+           worldPoint(toWorld, mesh.positions[t.z])}};
+}
 
 // A node before near ones are put together.
 struct RawNode {
@@ -115,10 +122,7 @@ class Making {
   }
 
  private:
-  Corners cornersOf(const Triangle& t) const {
-    return {{worldPoint(toWorld_, mesh_.positions[t.x]), worldPoint(toWorld_, mesh_.positions[t.y]),
-             worldPoint(toWorld_, mesh_.positions[t.z])}};
-  }
+  Corners cornersOf(const Triangle& t) const { return cornersIn(mesh_, toWorld_, t); }
 
   std::array<uint32_t, 3> endsOf(const Triangle& t, SmoothCorners& corners) const {
     const Vec3 across = glm::cross(mesh_.positions[t.y] - mesh_.positions[t.x],
@@ -172,7 +176,7 @@ class Making {
 
 }  // namespace
 
-ElementBlock::ElementBlock(const Mesh& mesh, const DMat4& toWorld, Metres size)
+ElementBlock::ElementBlock(const Scene& scene, const Mesh& mesh, const DMat4& toWorld, Metres size)
     : mesh_(&mesh), toWorld_(toWorld), size_(size), twins_(mesh) {
   Making making(mesh, toWorld, size, twins_);
   making.cut(cuts_, firstPoint_);
@@ -182,6 +186,31 @@ ElementBlock::ElementBlock(const Mesh& mesh, const DMat4& toWorld, Metres size)
   making.survey(cuts_, firstPoint_, nodeOf_, connected);
   const std::vector<uint32_t> merged = making.merge(connected, areas_);
   for (uint32_t& node : nodeOf_) node = merged[node];
+  const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
+  if (material.alphaMode == AlphaMode::mask) leaveOutHoles(scene, mesh);
+}
+
+// Areas are those on which photons can land: the middles of kHoleRows^2 alike parts of each element
+// tell.
+void ElementBlock::leaveOutHoles(const Scene& scene, const Mesh& mesh) {
+  std::vector<double> areas(areas_.size(), 0);
+  for (uint32_t k = 0; k < cuts_.size(); ++k) {
+    const uint32_t rows = kHoleRows * cuts_[k];
+    if (rows == 0) continue;
+    const float step = 1 / static_cast<float>(rows);
+    const double parts = static_cast<double>(rows) * static_cast<double>(rows);
+    const double area = double{cornersIn(mesh, toWorld_, mesh.triangles[k]).area()} / parts;
+    for (uint32_t j = 0; j < rows; ++j)
+      for (uint32_t i = 0; i < 2 * (rows - j) - 1; ++i) {
+        const float middle = i % 2 == 0 ? 1 / 3.0f : 2 / 3.0f;
+        const float u = step * (static_cast<float>(i / 2) + middle);
+        const float v = step * (static_cast<float>(j) + middle);
+        if (isOpenAt(scene, mesh, k, u, v)) continue;
+        const ElementPlace at = within(k, u, v);
+        for (size_t c = 0; c < 3; ++c) areas[at.nodes[c]] += double{at.weights[c]} * area;
+      }
+  }
+  areas_.assign(areas.begin(), areas.end());
 }
 
 ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {

@@ -25,8 +25,9 @@ SceneElements::SceneElements(const Scene& scene, Metres size, const SceneElement
     const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
     const bool isKept = before != nullptr && i < before->instances() &&
                         before->block(i).isOf(mesh, instance.toWorld, size);
-    blocks_.push_back(isKept ? before->blocks_[i]
-                             : std::make_shared<const ElementBlock>(mesh, instance.toWorld, size));
+    blocks_.push_back(
+        isKept ? before->blocks_[i]
+               : std::make_shared<const ElementBlock>(scene, mesh, instance.toWorld, size));
   }
 }
 

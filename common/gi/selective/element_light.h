@@ -13,7 +13,6 @@
 // Proved:  tests/gi/element_test.cpp.
 // Threads: const after construction.   Owner: shares the scene's meshes.
 // Errors:  throws Error for a flux that no lamp of the scene can have.
-// Fails:   masked texels count as area: leaves get less light than they should.
 #pragma once
 
 #include <memory>
