@@ -79,15 +79,16 @@ double ProfileSampling::choosePhi(double share, size_t band, double t) const {
   return phi(low) + x * (phi(high) - phi(low));
 }
 
-double ProfileSampling::shareBelowHorizon() const {
-  double share = 0;
-  const std::vector<float>& vertical = profile_->vertical;
-  for (size_t i = 0; i + 1 < vertical.size(); ++i) {
-    const double from = double(vertical[i]), to = double(vertical[i + 1]);
-    const double within = std::clamp((90 - from) / (to - from), 0.0, 1.0);
-    share += within * (below_[i + 1] - below_[i]);
+double ProfileSampling::shareOnAxisSide() const {
+  constexpr double kHorizon = 90 * kDegree;
+  const size_t last = profile_->horizontal.size() - 1;
+  double sum = 0;
+  for (size_t i = 0; i + 1 < below_.size() && theta(i) < kHorizon; ++i) {
+    const double m0 = around(i, last), m1 = around(i + 1, last);
+    const double t = std::min((kHorizon - theta(i)) / (theta(i + 1) - theta(i)), 1.0);
+    sum += bandIntegral(theta(i), std::min(theta(i + 1), kHorizon), m0, m0 + t * (m1 - m0));
   }
-  return solidAngle() > 0 ? share / solidAngle() : 0.5;
+  return solidAngle() > 0 ? sum / solidAngle() : 0.5;
 }
 
 Vec3 ProfileSampling::sample(Vec3 axis, Vec3 across, Vec2 u) const {

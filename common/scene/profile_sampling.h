@@ -22,8 +22,8 @@ class ProfileSampling {
   explicit ProfileSampling(const LightProfile& profile);
 
   double solidAngle() const { return below_.back(); }  // Omega [sr]
-  // Share of the light that goes to the axis' side.
-  double shareBelowHorizon() const;
+  // Share of the light that goes less than 90 degrees off the axis.
+  double shareOnAxisSide() const;
 
   // Only if Omega > 0. axis, across: as profileTowards takes them. u in [0, 1)^2, multiples of
   // 2^-24, which stand for the middles of their cells.

@@ -16,8 +16,9 @@ float fluxOf(const Emitters& emitters) {
 Vec3 mainWay(const Emitters& emitters, const PunctualLight& light) {
   if (light.kind == LightKind::spot) return light.direction;
   if (light.kind != LightKind::goniometric) return Vec3(0);
-  const double along = emitters.samplingOf(light).shareBelowHorizon();
-  return along > 0.5 ? light.direction : along < 0.5 ? -light.direction : Vec3(0);
+  const double along = emitters.samplingOf(light).shareOnAxisSide();
+  if (std::abs(along - 0.5) < 0.01) return Vec3(0);
+  return along > 0.5 ? light.direction : -light.direction;
 }
 
 // A light exactly in a ceiling would be hidden by it. Those that shine in some direction move there,
