@@ -44,7 +44,7 @@ class Words {
   double numberFrom(const char* what, double low, double high) {
     const double value = number(what);
     if (!(value >= low && value <= high))
-      fail("line {}: {} is {}, must be {} to {}", line_, what, value, low, high);
+      fail("line {}: {} is {:g}, must be {:g} to {:g}", line_, what, value, low, high);
     return value;
   }
 
@@ -159,7 +159,7 @@ void beginAtZero(std::vector<Column>& columns) {
   columns.pop_back();  // 450 is 90 again
   const auto beyond = std::ranges::find_if(columns, [](const Column& c) { return c.angle >= 360; });
   for (auto column = beyond; column != columns.end(); ++column) column->angle -= 360;
-  std::ranges::rotate(columns, beyond);
+  std::rotate(columns.begin(), beyond, columns.end());
   Column zero = columns.front();
   if (zero.angle > 0) {
     const Column& last = columns.back();
@@ -243,7 +243,7 @@ IesFile readIes(std::string_view text) {
   const float most = *std::ranges::max_element(candela);
   const double peak = double(most) * factor * ballast;
   if (!(peak <= kBrightest))
-    fail("its factors make {} cd, more than {}: they are damaged", peak, kBrightest);
+    fail("its factors make {:g} cd, more than {:g}: they are damaged", peak, kBrightest);
 
   fillProfile(vertical, columns, candela, most, file.profile);
   file.peak = static_cast<float>(peak);

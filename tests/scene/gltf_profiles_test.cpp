@@ -189,7 +189,7 @@ TEST(GltfProfiles, SayWhatIsWrongAndWhere) {
   has(ofUri("/etc/passwd"), "not a path beneath the scene's folder");
   has(ofUri("http://x.org/a.ies"), "not a path beneath the scene's folder");
   has(ofUri("data:,hello"), "not a photometric file");
-  has(Lamps("{}").add(R"({"light": 0})"),
+  has(Lamps(R"({"extras": 1})").add(R"({"light": 0})"),
       "light profile '0': it has neither 'uri' nor 'bufferView'");
   has(Lamps("3").add(R"({"light": 0})"), "neither 'uri' nor 'bufferView'");
   has(Lamps(R"({"bufferView": 9})").add(R"({"light": 0})"), "buffer view 9 does not exist");

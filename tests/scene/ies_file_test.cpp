@@ -162,7 +162,7 @@ TEST(IesFile, WhatIsWrongIsSaidInOneLineWithItsPlace) {
   refused([](IesText& f) { f.columns = "2.5"; }, "is 2.5, no whole number");
   refused([](IesText& f) { f.columns = "0"; }, "the number of horizontal angles is 0");
   refused([](IesText& f) { f.rows = "4"; }, "line 7: a vertical angle is 0 after 180");
-  refused([](IesText& f) { f.rows = "2"; }, "from 0 to 90, must be 0 alone");
+  refused([](IesText& f) { f.rows = "2"; }, "from 180 to 180, must be 0 alone");
   refused([](IesText& f) { f.lamps = "many"; },
           "the number of lamps is 'many', which is no number");
   refused([](IesText& f) { f.lumens = "nan"; }, "the lumens of a lamp is 'nan'");
