@@ -34,6 +34,7 @@ void toWire(const SceneEdit& edit, pb::Edit& out) {
     toWire(e.position, *light.mutable_position());
     toWire(e.direction, *light.mutable_direction());
     toWire(e.intensity, *light.mutable_intensity());
+    toWire(e.across, *light.mutable_across());
   }
   for (const MaterialEdit& e : edit.materials) {
     pb::MaterialEdit& material = *out.add_materials();
@@ -53,8 +54,8 @@ SceneEdit fromWire(const pb::Edit& in) {
   SceneEdit edit;
   for (const pb::ObjectEdit& e : in.objects()) edit.objects.push_back(fromWire(e));
   for (const pb::LightEdit& e : in.lights())
-    edit.lights.push_back(
-        {e.light(), fromWire(e.position()), fromWire(e.direction()), fromWire(e.intensity())});
+    edit.lights.push_back({e.light(), fromWire(e.position()), fromWire(e.direction()),
+                           fromWire(e.intensity()), fromWire(e.across())});
   for (const pb::MaterialEdit& e : in.materials())
     edit.materials.push_back({e.material(), fromWire(e.base_color()), e.metallic(), e.roughness(),
                               e.transmission(), e.ior(), fromWire(e.emission())});

@@ -36,7 +36,7 @@ inline constexpr bool kIsPlain<Triangle> = sizeof(Triangle) == 12;
 // The last value of each enum that travels.
 inline constexpr uint8_t lastOf(Wrap) { return static_cast<uint8_t>(Wrap::mirror); }
 inline constexpr uint8_t lastOf(AlphaMode) { return static_cast<uint8_t>(AlphaMode::blend); }
-inline constexpr uint8_t lastOf(LightKind) { return static_cast<uint8_t>(LightKind::directional); }
+inline constexpr uint8_t lastOf(LightKind) { return static_cast<uint8_t>(LightKind::goniometric); }
 
 class WriteArchive {
  public:
@@ -67,6 +67,10 @@ class WriteArchive {
       out_.number(uint64_t{list.size()});
       for (const T& element : list) put(element);
     }
+  }
+  template <typename T>
+  void put(const SharedList<T>& list) {
+    put(static_cast<const std::vector<T>&>(list));
   }
   template <typename List>
   void putAll(const List& list) {
@@ -109,6 +113,10 @@ class ReadArchive {
       list.clear();
       for (size_t i = 0; i < count; ++i) get(list.emplace_back());
     }
+  }
+  template <typename T>
+  void get(SharedList<T>& list) {
+    get(list.own());
   }
   template <typename List>
   void getAll(List& list) {
@@ -161,7 +169,12 @@ void describe(A& a, Of<Instance> auto& instance) {
 template <typename A>
 void describe(A& a, Of<PunctualLight> auto& light) {
   a(light.name, light.kind, light.position, light.direction, light.intensity, light.innerCone,
-    light.outerCone);
+    light.outerCone, light.across, light.profile);
+}
+
+template <typename A>
+void describe(A& a, Of<LightProfile> auto& profile) {
+  a(profile.name, profile.vertical, profile.horizontal, profile.values);
 }
 
 template <typename A>
@@ -172,7 +185,7 @@ void describe(A& a, Of<Camera> auto& camera) {
 // Everything but images and meshes.
 template <typename A>
 void describe(A& a, Of<Scene> auto& scene) {
-  a(scene.name, scene.materials, scene.instances, scene.lights, scene.cameras);
+  a(scene.name, scene.materials, scene.instances, scene.lights, scene.profiles, scene.cameras);
   a(scene.environment, scene.origin, scene.bounds.low, scene.bounds.high);
 }
 

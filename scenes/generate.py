@@ -11,7 +11,7 @@ import pathlib
 from generator import glb
 
 NAMES = ("cornell", "table_room", "egg_room", "invisible_date", "office", "conference", "u_office", "keyhole",
-         "three_turns")
+         "three_turns", "wall_washers")
 
 
 def main():

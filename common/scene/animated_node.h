@@ -26,7 +26,8 @@ struct AnimatedNode {
   AnimationTrack translation, rotation, scale;  // if not fixed
   double largestScale = 1;                      // of any axis at any key, without its sign
   bool hasInstances = false;
-  int light = -1, camera = -1;  // indices into the scene's lists; -1 = none
+  int firstLight = 0, lights = 0;  // a run of the scene's lights
+  int camera = -1;                 // index into the scene's list; -1 = none
 };
 
 }  // namespace ninefold

@@ -104,11 +104,14 @@ SceneEdit animationAt(const Scene& scene, double time) {
     const AnimatedNode& node = scene.animated[i];
     if (node.hasInstances)
       moved.objects.push_back({node.node, motionOf(node, worlds[i], scene.origin)});
-    if (node.light < 0) continue;
-    LightEdit light = editOf(scene, static_cast<uint32_t>(node.light));
-    light.position = Vec3(DVec3(worlds[i][3]) - scene.origin);
-    light.direction = unitOr(-DVec3(worlds[i][2]), light.direction);
-    moved.lights.push_back(light);
+    for (int l = node.firstLight; l < node.firstLight + node.lights; ++l) {
+      LightEdit light = editOf(scene, static_cast<uint32_t>(l));
+      light.position = Vec3(DVec3(worlds[i][3]) - scene.origin);
+      light.direction = unitOr(-DVec3(worlds[i][2]), light.direction);
+      if (scene.lights[static_cast<size_t>(l)].kind == LightKind::goniometric)
+        light.across = acrossAxis(light.direction, unitOr(DVec3(worlds[i][0]), light.across));
+      moved.lights.push_back(light);
+    }
   }
   SceneEdit ordered;
   merge(ordered, moved);

@@ -62,7 +62,7 @@ void growTo(Bounds& bounds, Vec3 p) {
 
 LightEdit editOf(const Scene& scene, uint32_t light) {
   const PunctualLight& l = scene.lights[light];
-  return {light, l.position, l.direction, l.intensity};
+  return {light, l.position, l.direction, l.intensity, l.across};
 }
 
 MaterialEdit editOfMaterial(const Scene& scene, uint32_t material) {
@@ -95,6 +95,10 @@ void checkEdit(const Scene& scene, const SceneEdit& edit) {
       fail("edit: a light is too far away");
     if (!(std::abs(glm::length(light.direction) - 1) < 1e-3f))
       fail("edit: a light's direction is not of length 1");
+    if (scene.lights[light.light].kind == LightKind::goniometric &&
+        !(std::abs(glm::length(light.across) - 1) < 1e-3f &&
+          glm::length(glm::cross(light.across, light.direction)) > 1e-3f))
+      fail("edit: where a light's profile begins is not of length 1, or along its axis");
   }
   for (const MaterialEdit& m : edit.materials) {
     checkIndex("material", m.material, scene.materials);
@@ -120,6 +124,7 @@ Scene edited(const Scene& asRead, const SceneEdit& all) {
   for (const LightEdit& e : all.lights) {
     PunctualLight& light = scene.lights[e.light];
     light.position = e.position, light.direction = e.direction, light.intensity = e.intensity;
+    if (light.kind == LightKind::goniometric) light.across = acrossAxis(e.direction, e.across);
   }
   for (const MaterialEdit& e : all.materials) {
     Material& m = scene.materials[e.material];

@@ -3,7 +3,7 @@
 // given to somebody who comes late. All who have the same edits have the same scene, bit for bit.
 //
 //   objects    toWorld = motion * toWorld as read, for all instances of a node
-//   lights     punctual ones: place, direction, intensity (off = 0)
+//   lights     punctual ones: place, direction, how they are turned about it, intensity (off = 0)
 //   materials  the numbers that a person turns; maps stay
 //
 // The scene's bounds, and with them b and r, stay while things move inside of them. When something
@@ -33,6 +33,8 @@ struct LightEdit {
   Vec3 position{0};    // [m]
   Vec3 direction{0, 0, -1};
   Vec3 intensity{0};  // as PunctualLight
+  // Of goniometric ones, as PunctualLight; need not be perpendicular to direction, but not along it.
+  Vec3 across{1, 0, 0};
   bool operator==(const LightEdit&) const = default;
 };
 

@@ -29,12 +29,14 @@ TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics) {
           colorAt(mesh, t, barycentrics.x, barycentrics.y).w};
 }
 
-Flux punctualFlux(const PunctualLight& light, float R) {
+Flux punctualFlux(const PunctualLight& light, float R, const std::vector<double>& solidAngles) {
   switch (light.kind) {
     case LightKind::point:
       return 4 * kPi * light.intensity;
     case LightKind::spot:
       return spotSolidAngle(light) * light.intensity;
+    case LightKind::goniometric:
+      return static_cast<float>(solidAngles[static_cast<size_t>(light.profile)]) * light.intensity;
     case LightKind::directional:
       break;
   }

@@ -13,8 +13,9 @@ namespace ninefold {
 // `barycentrics` of the triangle's second and third corner.
 TexturePlace placeAt(const Mesh& mesh, uint32_t triangle, Vec2 barycentrics);
 
-// Flux of a punctual light in a scene of radius R [m].
-Flux punctualFlux(const PunctualLight& light, float R);
+// Flux of a punctual light in a scene of radius R [m]. solidAngles: Omega of each profile of the
+// scene [sr], see light_profile.h.
+Flux punctualFlux(const PunctualLight& light, float R, const std::vector<double>& solidAngles);
 
 // The radiance of emissive triangles, one side.
 class TriangleRadiance {

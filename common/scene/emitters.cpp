@@ -28,6 +28,8 @@ EmitterKind kindOf(LightKind kind) {
       return EmitterKind::point;
     case LightKind::spot:
       return EmitterKind::spot;
+    case LightKind::goniometric:
+      return EmitterKind::goniometric;
     case LightKind::directional:
       break;
   }
@@ -131,8 +133,10 @@ Radiance emittedRadiance(const Scene& scene, int material, const TexturePlace& a
 
 bool Emitters::anyIn(const Scene& scene) {
   const float R = scene.bounds.radius();
+  std::vector<double> solidAngles;
+  for (const LightProfile& profile : scene.profiles) solidAngles.push_back(solidAngleOf(profile));
   for (const PunctualLight& light : scene.lights)
-    if (isPower(maxComponent(punctualFlux(light, R)))) return true;
+    if (isPower(maxComponent(punctualFlux(light, R, solidAngles)))) return true;
   TriangleRadiance radiance(scene);
   const auto isDark = [](const Emitter&, float power) { return !isPower(power); };
   for (uint32_t i = 0; i < scene.instances.size(); ++i)
@@ -141,7 +145,9 @@ bool Emitters::anyIn(const Scene& scene) {
 }
 
 Emitters::Emitters(const Scene& scene, Radiance environment)
-    : scene_(&scene), environment_(environment) {
+    : scene_(&scene),
+      profiles_(scene.profiles.begin(), scene.profiles.end()),
+      environment_(environment) {
   std::vector<float> power;
   TriangleRadiance radiance(scene);
   Places places;
@@ -152,10 +158,12 @@ Emitters::Emitters(const Scene& scene, Radiance environment)
   }
   firstOfInstance_.push_back(static_cast<uint32_t>(emitters_.size()));
   const float R = scene.bounds.radius();
+  std::vector<double> solidAngles;
+  for (const ProfileSampling& profile : profiles_) solidAngles.push_back(profile.solidAngle());
   for (uint32_t i = 0; i < scene.lights.size(); ++i) {
     Emitter e;
     e.kind = kindOf(scene.lights[i].kind), e.light = i;
-    e.flux = punctualFlux(scene.lights[i], R);
+    e.flux = punctualFlux(scene.lights[i], R, solidAngles);
     append(e, maxComponent(e.flux), power);
   }
   Emitter sky;
@@ -206,7 +214,11 @@ int Emitters::find(uint32_t instance, uint32_t triangle) const {
   return twice == doubles_.end() ? -1 : static_cast<int>(twice->second);
 }
 
-Intensity Emitters::intensity(const PunctualLight& light, Vec3 direction) {
+Intensity Emitters::intensity(const Scene& scene, const PunctualLight& light, Vec3 direction) {
+  if (light.kind == LightKind::goniometric)
+    return profileTowards(scene.profiles[static_cast<size_t>(light.profile)], light.direction,
+                          light.across, direction) *
+           light.intensity;
   if (light.kind != LightKind::spot) return light.intensity;
   const float outer = std::cos(light.outerCone);
   const float width = std::max(0.001f, std::cos(light.innerCone) - outer);

@@ -5,6 +5,7 @@
 //   triangle     Phi = pi L A (twice that if double-sided); L of a texture is averaged
 //   point        Phi = 4 pi I
 //   spot         Phi = I integrated over its cone with glTF's falloff
+//   goniometric  Phi = I Omega, see light_profile.h
 //   directional  Phi = E0 pi R^2
 //   environment  Phi = L 4 pi pi R^2  (constant radiance from outside)
 //
@@ -22,11 +23,12 @@
 #include <vector>
 
 #include "common/sampling/distribution.h"
+#include "common/scene/profile_sampling.h"
 #include "common/scene/scene.h"
 
 namespace ninefold {
 
-enum class EmitterKind : uint8_t { triangle, point, spot, directional, environment };
+enum class EmitterKind : uint8_t { triangle, point, spot, directional, goniometric, environment };
 
 struct Emitter {
   EmitterKind kind = EmitterKind::triangle;
@@ -86,8 +88,12 @@ class Emitters {
   Radiance radianceOf(int material, const TexturePlace& at) const {
     return emittedRadiance(*scene_, material, at);
   }
-  // I(omega) of a punctual light towards unit `direction` (from the light) [W/sr].
-  static Intensity intensity(const PunctualLight& light, Vec3 direction);
+  // I(omega) of a punctual light of the scene towards unit `direction` (from the light) [W/sr].
+  static Intensity intensity(const Scene& scene, const PunctualLight& light, Vec3 direction);
+  // Of a goniometric light: samples its directions.
+  const ProfileSampling& samplingOf(const PunctualLight& light) const {
+    return profiles_[static_cast<size_t>(light.profile)];
+  }
 
  private:
   using Places = std::unordered_map<uint64_t, uint32_t>;  // entries by a hash of their corners
@@ -99,6 +105,7 @@ class Emitters {
   std::vector<Emitter> emitters_;          // triangles first, by instance, then by triangle
   std::vector<uint32_t> firstOfInstance_;  // where an instance's triangles begin, and the end
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> doubles_;  // (instance, triangle): its entry
+  std::vector<ProfileSampling> profiles_;                      // one for each of the scene's
   Distribution byPower_;
   Radiance environment_{0};
 };

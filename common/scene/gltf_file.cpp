@@ -183,7 +183,7 @@ GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folde
     fail("{} bytes, but a glTF file has less than 4 GiB: put the data into .bin files",
          file.size());
   const std::string_view json = checkedJson(file);
-  const TokenizedGltf tokenized = tokenizeUris(json);
+  TokenizedGltf tokenized = tokenizeUris(json);
   std::vector<unsigned char> changed;
   if (isBinaryGltf(file) && !tokenized.uris.empty())
     file = changed = withJson(file, json, tokenized.json);
@@ -208,7 +208,7 @@ GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folde
   if (const std::string unread = unreadOf(tokenized.json); !unread.empty())
     warn("left out, as nothing reads it: {}", unread);
   auto bad = restoreUris(tokenized, source, *model);
-  return {std::move(model), std::move(bad)};
+  return {std::move(model), std::move(bad), std::move(tokenized.uris)};
 }
 
 }  // namespace ninefold

@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/scene/scene_folder.h"
 
@@ -21,6 +22,7 @@ namespace ninefold {
 struct GltfFile {
   std::shared_ptr<const tinygltf::Model> model;
   std::map<int, std::string> badImages;  // by index: why it cannot be had
+  std::vector<std::string> uris;         // of the tokens that extensions have, see gltf_uri.h
 };
 
 // Throws Error, which names it, for an unknown required extension or another version than 2. One

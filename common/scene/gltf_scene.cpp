@@ -12,6 +12,7 @@
 #include "common/scene/gltf_animation.h"
 #include "common/scene/gltf_file.h"
 #include "common/scene/gltf_mesh.h"
+#include "common/scene/gltf_profiles.h"
 #include "common/scene/gltf_transform.h"
 #include "common/scene/gltf_value.h"
 #include "common/scene/reader.h"
@@ -56,9 +57,11 @@ DMat4 translation(DVec3 by) {
 
 class SceneBuilder {
  public:
-  SceneBuilder(const GltfFile& file, const std::optional<std::string>& clip)
+  SceneBuilder(const GltfFile& file, const SceneFolder& folder,
+               const std::optional<std::string>& clip)
       : model_(file.model.get()),
         meshes_(file, draft_.scene),
+        profiles_(file, folder, draft_.scene),
         animations_(*model_, clip),
         seen_(model_->nodes.size(), 0) {}
 
@@ -83,10 +86,13 @@ class SceneBuilder {
   void noteDeformed(int node);
   void addCamera(const tinygltf::Node& node, const DMat4& toWorld);
   void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
+  void addProfiled(const tinygltf::Node& node, const tinygltf::Value& use, const DMat4& toWorld);
+  void keepLight(PunctualLight light, const DMat4& toWorld);
 
   const tinygltf::Model* model_;
   SceneDraft draft_;
   GltfMeshes meshes_;
+  GltfProfiles profiles_;
   GltfAnimations animations_;
   std::vector<char> seen_;
   std::vector<Skinned> skinned_;
@@ -173,10 +179,12 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
   if (node.camera >= 0) addCamera(node, toWorld);
   if (const auto* e = extensionOf(node, "KHR_lights_punctual"))
     addLight(node, integerOr(*e, "light", -1), toWorld);
+  if (const auto* e = extensionOf(node, "EXT_lights_ies")) addProfiled(node, *e, toWorld);
   if (mover >= 0) {
     AnimatedNode& moved = animations_[mover];
     moved.hasInstances = isCarried && draft_.scene.instances.size() > instances;
-    if (draft_.scene.lights.size() > lights) moved.light = static_cast<int>(lights);
+    moved.firstLight = static_cast<int>(lights);
+    moved.lights = static_cast<int>(draft_.scene.lights.size() - lights);
     if (draft_.scene.cameras.size() > cameras) moved.camera = static_cast<int>(cameras);
   }
   for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
@@ -261,13 +269,31 @@ void SceneBuilder::addLight(const tinygltf::Node& node, int index, const DMat4& 
     light.kind = LightKind::directional;
   else if (from.type != "point")
     fail("light {} is of the unknown type '{}'", index, from.type);
-  light.direction = unitOr(-DVec3(toWorld[2]), Vec3(0, 0, -1));
   const auto strength = static_cast<float>(from.intensity);
   light.intensity = Vec3(strength);
   for (int c = 0; c < 3 && from.color.size() == 3; ++c)
     light.intensity[c] *= static_cast<float>(from.color[static_cast<size_t>(c)]);
   if (light.kind == LightKind::spot) setCone(from, light);
-  draft_.scene.lights.push_back(light);
+  keepLight(std::move(light), toWorld);
+}
+
+// The matrix turns it, and mirrors what it sends if the matrix mirrors; its size is of no account.
+void SceneBuilder::addProfiled(const tinygltf::Node& node, const tinygltf::Value& use,
+                               const DMat4& toWorld) {
+  const GltfProfiles::Light from = profiles_.use(use, mirrors(toWorld));
+  PunctualLight light;
+  light.name =
+      node.name.empty() ? draft_.scene.profiles[static_cast<size_t>(from.profile)].name : node.name;
+  light.kind = LightKind::goniometric;
+  light.profile = from.profile, light.intensity = from.intensity;
+  keepLight(std::move(light), toWorld);
+  PunctualLight& kept = draft_.scene.lights.back();
+  kept.across = acrossAxis(kept.direction, unitOr(DVec3(toWorld[0]), kept.across));
+}
+
+void SceneBuilder::keepLight(PunctualLight light, const DMat4& toWorld) {
+  light.direction = unitOr(-DVec3(toWorld[2]), Vec3(0, 0, -1));
+  draft_.scene.lights.push_back(std::move(light));
   draft_.lightPositions.emplace_back(toWorld[3]);
 }
 
@@ -276,7 +302,7 @@ void SceneBuilder::addLight(const tinygltf::Node& node, int index, const DMat4& 
 SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder,
                     const std::optional<std::string>& clip) {
   const GltfFile parsed = parseGltf(file, folder);
-  return SceneBuilder(parsed, clip).build();
+  return SceneBuilder(parsed, folder, clip).build();
 }
 
 }  // namespace ninefold

@@ -7,6 +7,7 @@
 #include "common/base/error.h"
 #include "common/base/written_file.h"
 #include "common/image/encode.h"
+#include "common/scene/ies_file.h"
 
 namespace ninefold {
 namespace {
@@ -16,6 +17,7 @@ using Json = nlohmann::json;
 constexpr int kFloat = 5126, kUnsigned = 5125;   // glTF's component types
 constexpr int kNearest = 9728, kLinear = 9729;   // filters
 constexpr int kWraps[] = {10497, 33071, 33648};  // by Wrap
+constexpr const char* kIesType = "application/x-ies-lm-63";
 constexpr const char* kAlphaModes[] = {"OPAQUE", "MASK", "BLEND"};
 
 Json listOf(Vec3 v) { return {v.x, v.y, v.z}; }
@@ -32,7 +34,9 @@ class Writer {
       json_["materials"].push_back(describe(material));
     addObjects();
     for (const Camera& camera : scene_.cameras) addCamera(camera);
-    for (const PunctualLight& light : scene_.lights) addLight(light);
+    for (const LightProfile& profile : scene_.profiles) addProfile(profile);
+    for (const PunctualLight& light : scene_.lights)
+      light.kind == LightKind::goniometric ? addProfiled(light) : addLight(light);
     json_["scene"] = 0;
     json_["scenes"] = Json::array({{{"name", scene_.name}, {"nodes", roots_}}});
     if (scene_.exposure) json_["scenes"][0]["extras"]["exposure"] = *scene_.exposure;
@@ -214,6 +218,25 @@ class Writer {
     const bool steep = std::abs(light.direction.y) > 0.99f;
     addNode(std::move(node),
             lookingAlong(light.position, light.direction, steep ? Vec3(1, 0, 0) : Vec3(0, 1, 0)));
+  }
+
+  void addProfile(const LightProfile& profile) {
+    const std::string text = iesText(profile);
+    const int view = addView(text.data(), text.size());
+    uses("EXT_lights_ies");
+    json_["extensions"]["EXT_lights_ies"]["lights"].push_back(
+        {{"name", profile.name}, {"bufferView", view}, {"mimeType", kIesType}});
+  }
+
+  void addProfiled(const PunctualLight& light) {
+    const float strength = maxComponent(light.intensity);
+    Json node{{"name", light.name}};
+    node["extensions"]["EXT_lights_ies"] = {
+        {"light", light.profile},
+        {"multiplier", strength},
+        {"color", listOf(strength > 0 ? light.intensity / strength : Vec3(1))}};
+    addNode(std::move(node), lookingAlong(light.position, light.direction,
+                                          glm::cross(light.across, light.direction)));
   }
 
   // Head, JSON chunk, binary chunk, as glTF 2.0 says.

@@ -21,6 +21,7 @@
 #include "common/math/camera.h"
 #include "common/math/units.h"
 #include "common/scene/animated_node.h"
+#include "common/scene/light_profile.h"
 
 namespace ninefold {
 
@@ -111,16 +112,19 @@ struct Instance {
   DMat4 toWorld{1};  // affine, invertible, may mirror
 };
 
-enum class LightKind : uint8_t { point, spot, directional };
+enum class LightKind : uint8_t { point, spot, directional, goniometric };
 
-// Punctual lights: no surface, so nothing ever hits them.
+// Punctual lights: no surface, so nothing ever hits them. Candela and lux of files are read as W/sr
+// and W/m^2.
 struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::point;
-  Vec3 position{0};                             // [m]
-  Vec3 direction{0, 0, -1};                     // unit, where the light goes
-  Vec3 intensity{1};                            // point, spot: I [W/sr]; directional: E0 [W/m^2]
+  Vec3 position{0};          // [m]
+  Vec3 direction{0, 0, -1};  // unit, where the light goes
+  Vec3 intensity{1};         // I where it is largest [W/sr]; directional: E0 [W/m^2]
   float innerCone = 0, outerCone = 0.7853982f;  // half angles [rad], 0 <= inner <= outer <= pi/2
+  Vec3 across{1, 0, 0};  // goniometric: unit, perpendicular to direction, see light_profile.h
+  int profile = -1;      // goniometric: index into Scene::profiles
 };
 
 struct Scene {
@@ -130,6 +134,7 @@ struct Scene {
   SharedList<Mesh> meshes;
   std::vector<Instance> instances;
   std::vector<PunctualLight> lights;
+  SharedList<LightProfile> profiles;
   std::vector<Camera> cameras;        // at least one after reading
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
   std::string deformed;               // the first object whose shape the animation changes

@@ -82,7 +82,7 @@ void checkInstances(const Scene& scene) {
 void checkLights(const Scene& scene) {
   for (size_t i = 0; i < scene.lights.size(); ++i) {
     const PunctualLight& light = scene.lights[i];
-    if (light.kind > LightKind::directional) fail("light {}: unknown kind", i);
+    if (light.kind > LightKind::goniometric) fail("light {}: unknown kind", i);
     if (!isFinite(light.position)) fail("light {}: its position is not a finite number", i);
     if (!isUnit(light.direction)) fail("light {}: its direction is not of unit length", i);
     const Vec3 I = light.intensity;
@@ -91,7 +91,23 @@ void checkLights(const Scene& scene) {
     const bool cone = light.innerCone >= 0 && light.innerCone <= light.outerCone &&
                       light.outerCone <= 0.5f * kPi + 1e-4f;
     if (!cone) fail("light {}: its cone must have 0 <= inner <= outer <= pi/2", i);
+    if (light.kind != LightKind::goniometric) continue;
+    if (light.profile < 0 || static_cast<size_t>(light.profile) >= scene.profiles.size())
+      fail("light {}: profile {} does not exist", i, light.profile);
+    if (!isUnit(light.across) || !(std::abs(glm::dot(light.across, light.direction)) < 1e-3f))
+      fail("light {}: where its profile begins is not a unit vector across its axis", i);
   }
+}
+
+void checkProfiles(const Scene& scene) {
+  size_t values = 0;
+  for (size_t i = 0; i < scene.profiles.size(); ++i) {
+    const LightProfile& profile = scene.profiles[i];
+    checkProfile(profile, "light profile " + std::to_string(i) + " '" + profile.name + "'");
+    values += profile.values.size();
+  }
+  if (values > kMaxProfileValues)
+    fail("light profiles of {} values, more than {}: use fewer", values, kMaxProfileValues);
 }
 
 void checkCameras(const Scene& scene) {
@@ -128,6 +144,7 @@ void validate(const Scene& scene) {
     checkMesh(scene, scene.meshes[i],
               "mesh " + std::to_string(i) + " '" + scene.meshes[i].name + "'");
   checkInstances(scene);
+  checkProfiles(scene);
   checkLights(scene);
   checkCameras(scene);
   if (!isFinite(scene.environment) || glm::any(glm::lessThan(scene.environment, Vec3(0))))

@@ -35,7 +35,8 @@ Camera along(const std::vector<Camera>& path, double s) {
 
 LightEdit between(const LightEdit& a, const LightEdit& b, float s) {
   return {b.light, blend(a.position, b.position, s),
-          glm::normalize(blend(a.direction, b.direction, s)), blend(a.intensity, b.intensity, s)};
+          glm::normalize(blend(a.direction, b.direction, s)), blend(a.intensity, b.intensity, s),
+          b.across};
 }
 
 MaterialEdit between(const MaterialEdit& a, const MaterialEdit& b, float s) {

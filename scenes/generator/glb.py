@@ -1,7 +1,7 @@
 """Writes a scene as one glTF 2.0 binary.
 
 Layout of the binary chunk: positions, normals, texture coordinates, 16-bit indices, 32-bit indices, motions
-(one view each, accessors side by side), then the images.
+(one view each, accessors side by side), then the images, then photometric files.
 """
 
 import json
@@ -21,6 +21,7 @@ class _Views:
     def __init__(self):
         self.pieces = {name: bytearray() for name in self.NAMES}
         self.images = []
+        self.profiles = []
 
     def put(self, name, data):
         piece = self.pieces[name]
@@ -43,9 +44,9 @@ class _Views:
             index[name] = len(views)
             views.append(view)
             chunk.extend(self.pieces[name] + b"\0" * (-len(self.pieces[name]) % 4))
-        for image in self.images:
-            views.append({"buffer": 0, "byteOffset": len(chunk), "byteLength": len(image)})
-            chunk.extend(image + b"\0" * (-len(image) % 4))
+        for blob in self.images + self.profiles:
+            views.append({"buffer": 0, "byteOffset": len(chunk), "byteLength": len(blob)})
+            chunk.extend(blob + b"\0" * (-len(blob) % 4))
         return bytes(chunk), views, index
 
 
@@ -160,7 +161,19 @@ def _nodes(scene, mesh_index):
         if p.scale != (1, 1, 1):
             node["scale"] = list(p.scale)
         nodes.append(node)
+    profiles = _profiles(scene)
+    for lamp in scene.lamps:
+        use = {"light": profiles.index(lamp.profile)}
+        if lamp.colour != (1, 1, 1):
+            use["color"] = list(lamp.colour)
+        # -z goes down, x to the north.
+        node = {"name": lamp.name, "translation": list(lamp.at), "rotation": [-0.5, 0.5, 0.5, 0.5]}
+        nodes.append({**node, "extensions": {"EXT_lights_ies": use}})
     return nodes
+
+
+def _profiles(scene):
+    return list(dict.fromkeys(lamp.profile for lamp in scene.lamps))
 
 
 def _animation(document, scene):
@@ -188,11 +201,13 @@ def encode(scene):
             primitives = [document.primitive(m, mesh) for m, mesh in p.model.meshes.items()]
             meshes.append({"name": p.model.name, "primitives": primitives})
     animation = _animation(document, scene)
+    document.views.profiles = [profile.encode() for profile in _profiles(scene)]
     chunk, views, view_index = document.views.finish()
     for accessor in document.accessors:
         accessor["bufferView"] = view_index[accessor["bufferView"]]
     nodes = _nodes(scene, mesh_index)
-    first_image = len(views) - len(document.textures)
+    first_profile = len(views) - len(document.views.profiles)
+    first_image = first_profile - len(document.textures)
     content = {
         "asset": {"version": "2.0", "generator": "scenes/generate.py of Ninefold"},
         "scene": 0,
@@ -216,7 +231,17 @@ def encode(scene):
             {"name": name, "mimeType": "image/png", "bufferView": first_image + i}
             for i, name in enumerate(document.textures)
         ]
+    if scene.lamps:
+        content["extensions"] = {
+            "EXT_lights_ies": {
+                "lights": [
+                    {"bufferView": first_profile + i, "mimeType": "application/x-ies-lm-63"}
+                    for i in range(len(document.views.profiles))
+                ]
+            }
+        }
     used = sorted({e for m in document.materials for e in m.get("extensions", {})})
+    used += ["EXT_lights_ies"] if scene.lamps else []
     if used:
         content["extensionsUsed"] = used
     return _container(content, chunk)

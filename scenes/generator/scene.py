@@ -50,12 +50,23 @@ class Motion:
     offsets: Tuple[Tuple[float, float, float], ...]
 
 
+@dataclass(frozen=True)
+class Lamp:
+    """A point that shines as a photometric file says, straight down; its horizontal angle 0 is north (-z)."""
+
+    name: str
+    profile: str  # the text of the file
+    at: Tuple[float, float, float]
+    colour: Tuple[float, float, float]
+
+
 class Scene:
     def __init__(self, name):
         self.name = name
         self.placements = []
         self.cameras = []
         self.motions = []
+        self.lamps = []
         self.exposure = 0  # [EV] that suits the views
 
     def place(self, model, at=(0, 0, 0), turn=0, name=None, tilt=0, scale=1):
@@ -70,6 +81,9 @@ class Scene:
         assert times[0] == 0 and offsets[0] == (0, 0, 0)
         self.motions.append(Motion(name, tuple(times), tuple(offsets)))
 
+    def lamp(self, name, profile, at, colour=(1, 1, 1)):
+        self.lamps.append(Lamp(name, profile, _round(at), colour))
+
     def camera(self, name, eye, target, fov):
         """`fov`: vertical, in degrees. The image is meant to be 4:3."""
         d = vec.unit(vec.sub(target, eye))
@@ -81,11 +95,11 @@ class Scene:
         )
 
     def statistics(self):
-        """(unique triangles, triangles after instancing, lights = emitting parts of things)."""
+        """(unique triangles, triangles after instancing, lights = emitting parts of things, and lamps)."""
         models = {id(p.model): p.model for p in self.placements}
         lights = sum(any(m.radiance) for p in self.placements for m in p.model.meshes)
         return (
             sum(m.triangle_count() for m in models.values()),
             sum(p.model.triangle_count() for p in self.placements),
-            lights,
+            lights + len(self.lamps),
         )

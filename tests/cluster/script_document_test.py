@@ -61,7 +61,7 @@ class Document(ClusterTest):
         fields = re.findall(r"^\| `(\w+)`", DOCUMENT, re.M)
         self.assertGreater(len(fields), 8)
         shown = "".join(text for kind, text in BLOCKS if kind == "json")
-        missing = [f for f in fields if f'"{f}"' not in shown and f != "light"]  # no shipped scene has a punctual light
+        missing = [f for f in fields if f'"{f}"' not in shown and f != "light"]  # a light is not in its scene
         self.assertEqual(missing, [])
 
 

@@ -16,10 +16,10 @@ using Input = std::vector<uint8_t>;
 // A triangle with everything that the reader looks at: texture, camera, light, extensions, sparse
 // data, animation.
 const std::string kRich = R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0,1,2]}],
-"extensionsUsed":["KHR_lights_punctual","EXT_mesh_gpu_instancing"],
-"extensions":{"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"color":[1,1,1],"spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}}]}},
+"extensionsUsed":["KHR_lights_punctual","EXT_mesh_gpu_instancing","EXT_lights_ies"],
+"extensions":{"EXT_lights_ies":{"lights":[{"uri":"data:,TILT=NONE%0A1 -1 1 2 1 1 2 0 0 0%0A1 1 0%0A0 90 0 9 3"},{"bufferView":0}]},"KHR_lights_punctual":{"lights":[{"type":"spot","intensity":3,"color":[1,1,1],"spot":{"innerConeAngle":0.1,"outerConeAngle":0.5}}]}},
 "nodes":[{"mesh":0,"rotation":[0,0,0,1],"scale":[1,2,3],"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":0}}}},
-{"camera":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{"extensions":{"KHR_lights_punctual":{"light":0}},"children":[3]},{"mesh":0}],
+{"camera":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,5,1]},{"extensions":{"KHR_lights_punctual":{"light":0},"EXT_lights_ies":{"light":0,"multiplier":2,"color":[1,0.5,0]}},"children":[3]},{"mesh":0}],
 "animations":[{"channels":[{"sampler":0,"target":{"node":2,"path":"translation"}},{"sampler":0,"target":{"node":3,"path":"scale"}}],
 "samplers":[{"input":1,"output":0,"interpolation":"LINEAR"}]}],
 "cameras":[{"type":"perspective","perspective":{"yfov":0.7,"znear":0.1}}],

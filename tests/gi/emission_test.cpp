@@ -17,7 +17,7 @@ namespace {
 
 using testing::SceneBuilder;
 
-enum class Kind { area, doubleSided, point, spot, directional, environment };
+enum class Kind { area, doubleSided, point, spot, directional, goniometric, environment };
 
 Scene lit(Kind kind) {
   SceneBuilder b;
@@ -35,8 +35,22 @@ Scene lit(Kind kind) {
                : kind == Kind::spot ? LightKind::spot
                                     : LightKind::directional;
   if (kind == Kind::point || kind == Kind::spot || kind == Kind::directional) b.light(light);
+  if (kind == Kind::goniometric)
+    b.goniometric(light, {0, 30, 90, 120}, {0, 90, 360}, [](float theta, float phi) {
+      return theta == 120 ? 0.0f : phi == 90 ? 1.0f : theta == 30 ? 0.0f : 0.25f;
+    });
   if (kind == Kind::environment) b.environment(Radiance(2));
   return b.build();
+}
+
+// Of the rows of the goniometric light: the integral over phi, in degrees. Its columns 0 and 360 are
+// alike, and phi = 90 is 1 but for the last row: 360 (1 + a)/2 with a = 1/4, 0, 1/4, and 0.
+double rowIntegral(double theta) {
+  const double rows[] = {225, 180, 225, 0}, at[] = {0, 30, 90, 120};
+  for (int i = 0; i < 3; ++i)
+    if (theta <= at[i + 1])
+      return rows[i] + (rows[i + 1] - rows[i]) * (theta - at[i]) / (at[i + 1] - at[i]);
+  return 0;
 }
 
 // Flux by quadrature or formula [W], independent of the table.
@@ -53,6 +67,15 @@ double wholeFlux(const Scene& scene, Kind kind) {
       return pi * R * R * 3;
     case Kind::environment:
       return 4 * pi * pi * R * R * 2;
+    case Kind::goniometric: {
+      double sum = 0;
+      constexpr int kSteps = 100000;
+      for (int i = 0; i < kSteps; ++i) {
+        const double theta = 120 * (i + 0.5) / kSteps;
+        sum += 3 * rowIntegral(theta) * (pi / 180) * std::sin(theta * pi / 180);
+      }
+      return sum * (120 * pi / 180) / kSteps;
+    }
     default:
       break;
   }
@@ -88,7 +111,7 @@ Mean meanFlux(Emit&& emit) {
 
 TEST(Emission, MeanFluxIsTheEmittersPower) {
   for (const Kind kind : {Kind::area, Kind::doubleSided, Kind::point, Kind::spot, Kind::directional,
-                          Kind::environment}) {
+                          Kind::goniometric, Kind::environment}) {
     const Scene scene = lit(kind);
     const Tracer tracer(scene, Isa::automatic);
     Settings settings;

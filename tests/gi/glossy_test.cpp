@@ -34,6 +34,7 @@ PunctualLight spotAt(Vec3 position, Vec3 direction) {
 
 // E at the middle x of the plate, which looks down, from the floor y = 0 within 1 m of the middle.
 double irradianceFromFloor(const PunctualLight& spot, Vec3 x) {
+  const Scene noProfiles;
   Bsdf metal;
   metal.f0 = Vec3(0.8f), metal.alpha = kRoughness * kRoughness, metal.reflects = true;
   const auto local = [](Vec3 w) { return Vec3(w.x, w.z, w.y); };
@@ -45,7 +46,8 @@ double irradianceFromFloor(const PunctualLight& spot, Vec3 x) {
       const Vec3 y((float(i) + 0.5f) * cell - 1, 0, (float(j) + 0.5f) * cell - 1);
       const Vec3 toLight = spot.position - y, toX = x - y;
       const Vec3 l = glm::normalize(toLight), v = glm::normalize(toX);
-      const float arrives = Emitters::intensity(spot, -l).x / glm::dot(toLight, toLight);
+      const float arrives =
+          Emitters::intensity(noProfiles, spot, -l).x / glm::dot(toLight, toLight);
       const Vec3 passes = y + x.y / spot.position.y * toLight - x;
       const bool shadow = std::abs(passes.x) < kHalf && std::abs(passes.z) < kHalf;
       if (arrives <= 0 || shadow) continue;

@@ -102,6 +102,17 @@ TEST(Irradiance, PunctualLightsAreExact) {
               1e-5);
   EXPECT_EQ(irradianceAt(withLight(), Vec3(3, 0, 0), Vec3(0, 1, 0)).mean, 0);
 
+  // A goniometric light: f = theta/180 towards +x, half of that towards -x.
+  SceneBuilder b;
+  addSpeck(b);
+  lamp.across = Vec3(1, 0, 0);
+  b.goniometric(lamp, {0, 180}, {0, 180, 360},
+                [](float theta, float phi) { return theta / (phi == 180 ? 360 : 180); });
+  const Scene scene = b.build();
+  const double theta = std::acos(cosine) / std::acos(-1.0);
+  EXPECT_NEAR(irradianceAt(scene, x, Vec3(0, 1, 0)).mean, 5 * cosine / d2 * theta, 1e-5);
+  EXPECT_NEAR(irradianceAt(scene, -x, Vec3(0, 1, 0)).mean, 5 * cosine / d2 * theta / 2, 1e-5);
+
   lamp.kind = LightKind::directional, lamp.direction = glm::normalize(Vec3(1, -1, 0));
   EXPECT_NEAR(irradianceAt(withLight(), x, Vec3(0, 1, 0)).mean, 5 * std::sqrt(0.5), 1e-5);
 }

@@ -82,6 +82,19 @@ class SceneBuilder {
     scene_.lights.push_back(l);
     return *this;
   }
+  // A goniometric light whose f is value(theta, phi), in degrees.
+  template <typename Value>
+  SceneBuilder& goniometric(PunctualLight light, std::vector<float> vertical,
+                            std::vector<float> horizontal, Value value) {
+    LightProfile p{"profile", std::move(vertical), std::move(horizontal), {}};
+    for (const float theta : p.vertical)
+      for (const float phi : p.horizontal) p.values.push_back(value(theta, phi));
+    light.kind = LightKind::goniometric;
+    light.profile = static_cast<int>(scene_.profiles.size());
+    light.across = acrossAxis(light.direction, light.across);
+    scene_.profiles.push_back(std::move(p));
+    return this->light(light);
+  }
   SceneBuilder& environment(Radiance l) {
     scene_.environment = l;
     return *this;

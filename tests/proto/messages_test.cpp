@@ -50,7 +50,7 @@ SceneEdit oddEdit() {
   ObjectEdit object{7, DMat4(1)};
   for (int i = 0; i < 12; ++i) object.motion[i / 3][i % 3] = 0.1 * (i + 1);
   edit.objects.push_back(object);
-  edit.lights.push_back({2, Vec3(1, 2, 3), Vec3(0, -1, 0), Vec3(4, 5, 6)});
+  edit.lights.push_back({2, Vec3(1, 2, 3), Vec3(0, -1, 0), Vec3(4, 5, 6), Vec3(0, 0, 1)});
   edit.materials.push_back({3, Vec3(0.1f, 0.2f, 0.3f), 0.4f, 0.5f, 0.6f, 1.7f, Vec3(8, 9, 10)});
   return edit;
 }

@@ -53,7 +53,10 @@ Scene someScene() {
   scene.meshes[2].normals.clear(), scene.meshes[2].tangents.clear(), scene.meshes[2].uv0.clear();
   Instance instance{"table", 1, 7, scaled(2)};
   scene.instances = {instance, Instance{}};
-  scene.lights = {{"lamp", LightKind::spot, Vec3(1), Vec3(0, -1, 0), Vec3(9), 0.1f, 0.2f}};
+  scene.lights = {{"lamp", LightKind::spot, Vec3(1), Vec3(0, -1, 0), Vec3(9), 0.1f, 0.2f},
+                  {"measured", LightKind::goniometric, Vec3(2), Vec3(0, -1, 0), Vec3(7), 0, 0,
+                   Vec3(0, 0, 1), 0}};
+  scene.profiles = {{"profile", {0, 30, 90}, {0, 360}, {1, 1, 0.5f, 0.5f, 0, 0.25f}}};
   scene.cameras = {Camera{}};
   scene.environment = Vec3(0.5f);
   scene.origin = DVec3(1e6, -2, 3);
@@ -92,6 +95,14 @@ TEST(SceneBlobs, ASceneComesBackBitForBit) {
   EXPECT_EQ(scene.meshes[2].triangles, someScene().meshes[2].triangles);
   EXPECT_EQ(scene.instances[0].toWorld, scaled(2));
   EXPECT_EQ(scene.lights[0].outerCone, 0.2f);
+  EXPECT_EQ(scene.lights[1].kind, LightKind::goniometric);
+  EXPECT_EQ(scene.lights[1].across, Vec3(0, 0, 1));
+  EXPECT_EQ(scene.lights[1].profile, 0);
+  ASSERT_EQ(scene.profiles.size(), 1u);
+  EXPECT_EQ(scene.profiles[0].name, "profile");
+  EXPECT_EQ(scene.profiles[0].vertical, someScene().profiles[0].vertical);
+  EXPECT_EQ(scene.profiles[0].horizontal, someScene().profiles[0].horizontal);
+  EXPECT_EQ(scene.profiles[0].values, someScene().profiles[0].values);
   EXPECT_EQ(scene.origin, DVec3(1e6, -2, 3));
 }
 

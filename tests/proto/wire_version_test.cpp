@@ -110,6 +110,7 @@ Scene someScene() {
   scene.meshes.push_back(mesh);
   scene.instances.resize(1);
   scene.lights.resize(1);
+  scene.profiles.push_back({"profile", {0, 90}, {0, 360}, {1, 1, 0.5f, 0.5f}});
   scene.cameras.resize(1);
   scene.bounds.add(Vec3(-1)), scene.bounds.add(Vec3(1));
   return scene;

@@ -19,6 +19,7 @@ Scene glowing(Vec3 radiance) {
 }
 
 Flux totalFlux(const Emitters& emitters) {
+  const Scene noProfiles;
   Flux sum(0);
   for (size_t i = 0; i < emitters.size(); ++i) sum += emitters[i].flux;
   return sum;
@@ -27,13 +28,14 @@ Flux totalFlux(const Emitters& emitters) {
 // Integral over directions of what a punctual light sends out.
 Flux integrate(const PunctualLight& light) {
   constexpr int kRings = 400, kSectors = 400;
+  const Scene noProfiles;
   Flux sum(0);
   for (int i = 0; i < kRings; ++i)
     for (int j = 0; j < kSectors; ++j) {
       const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / kRings;
       const float phi = 2 * kPi * (static_cast<float>(j) + 0.5f) / kSectors;
       const float r = std::sqrt(1 - z * z);
-      sum += Emitters::intensity(light, Vec3(r * std::cos(phi), r * std::sin(phi), z));
+      sum += Emitters::intensity(noProfiles, light, Vec3(r * std::cos(phi), r * std::sin(phi), z));
     }
   return sum * (4 * kPi / (kRings * kSectors));
 }

@@ -63,7 +63,7 @@ TEST(GltfCone, EqualAnglesHaveASharpEdge) {
       readSpot(R"(, "spot": {"innerConeAngle": 0.5, "outerConeAngle": 0.5})").scene.lights[0];
   light.direction = Vec3(0, 0, 1);
   const auto at = [&](float angle) {
-    return Emitters::intensity(light, Vec3(std::sin(angle), 0, std::cos(angle))).x;
+    return Emitters::intensity(Scene{}, light, Vec3(std::sin(angle), 0, std::cos(angle))).x;
   };
   EXPECT_EQ(at(0), 100);
   EXPECT_EQ(at(0.497f), 100);

@@ -14,7 +14,7 @@ import unittest
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 sys.path.insert(0, str(SCENES))
 
-from generator import cornell, glb, keyhole, three_turns  # noqa: E402
+from generator import cornell, glb, keyhole, three_turns, wall_washers  # noqa: E402
 
 # Triangles after instancing and lights, as the paper's tests had them (cornell, u_office and what follows: our own).
 EXPECTED = {
@@ -27,6 +27,7 @@ EXPECTED = {
     "u_office": (19000, 1),
     "keyhole": (74, 1),
     "three_turns": (4400, 1),
+    "wall_washers": (48, 2),
 }
 _WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 _CODE = {5126: "f", 5123: "H", 5125: "I"}
@@ -77,7 +78,8 @@ class Scenes(unittest.TestCase):
 
     def test_have_the_promised_size_and_lights(self):
         for name, file in self.each():
-            triangles = lights = 0
+            triangles = 0
+            lights = sum("EXT_lights_ies" in node.get("extensions", {}) for node in file.json["nodes"])
             for i, mesh in enumerate(file.json["meshes"]):
                 for p in mesh["primitives"]:
                     count = file.json["accessors"][p["indices"]]["count"] // 3
@@ -118,7 +120,7 @@ class Scenes(unittest.TestCase):
             for thing in file.json["buffers"] + file.json.get("images", []):
                 self.assertNotIn("uri", thing)
             glass = [m for m in file.json["materials"] if m["name"] == "glass"]
-            self.assertEqual(len(glass), 0 if name in ("cornell", "keyhole") else 1)
+            self.assertEqual(len(glass), 0 if name in ("cornell", "keyhole", "wall_washers") else 1)
             for material in glass:
                 self.assertGreater(
                     material["extensions"]["KHR_materials_volume"]["thicknessFactor"], 0
@@ -126,7 +128,7 @@ class Scenes(unittest.TestCase):
 
     def test_come_from_this_generator(self):
         """Those without textures stand for all: they are made in a moment."""
-        for scene in (cornell, keyhole, three_turns):
+        for scene in (cornell, keyhole, three_turns, wall_washers):
             made = scene.build()
             self.assertEqual(glb.encode(made), (SCENES / f"{made.name}.glb").read_bytes())
 

@@ -35,7 +35,7 @@ LightSample sampleEnvironment(const Transport& t, float P, const ShadingPoint& p
   return s;
 }
 
-std::optional<LightSample> samplePunctual(const PunctualLight& light, float P,
+std::optional<LightSample> samplePunctual(const Transport& t, const PunctualLight& light, float P,
                                           const ShadingPoint& p) {
   LightSample s;
   if (light.kind == LightKind::directional) {
@@ -49,7 +49,7 @@ std::optional<LightSample> samplePunctual(const PunctualLight& light, float P,
   const float d2 = glm::dot(towards, towards);
   if (d2 <= 0) return std::nullopt;
   s.w = towards / std::sqrt(d2);
-  s.weight = Emitters::intensity(light, -s.w) / (d2 * P);
+  s.weight = Emitters::intensity(t.scene, light, -s.w) / (d2 * P);
   s.origin = offsetOrigin(p.surface, s.w), s.segment = light.position - s.origin;
   return s;
 }
@@ -67,7 +67,7 @@ std::optional<LightSample> sampleLight(const Transport& t, size_t stream, const 
     return sampleTriangle(t, e, choice->index, choice->probability, p, place);
   if (e.kind == EmitterKind::environment)
     return sampleEnvironment(t, choice->probability, p, place);
-  return samplePunctual(t.lights[e.light], choice->probability, p);
+  return samplePunctual(t, t.lights[e.light], choice->probability, p);
 }
 
 Vec3 lightTransmittance(const Transport& t, const ShadingPoint& p, const MediumStack& media,

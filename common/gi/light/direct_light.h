@@ -3,7 +3,8 @@
 //
 //   area          pdf = (P/A) d^2 / cos_y     weight = L / pdf
 //   environment   pdf = P / (4 pi)            weight = L / pdf
-//   point, spot   pdf = 0                     weight = I(w) / (d^2 P)
+//   point, spot, goniometric
+//                 pdf = 0                     weight = I(w) / (d^2 P)
 //   directional   pdf = 0                     weight = E0 / P
 //
 //   P, A   probability of the emitter, area of its triangle [m^2]

@@ -25,27 +25,31 @@ std::optional<Source> chooseSource(const Transport& t, size_t stream, Vec2 u01) 
 // Local sources: light that spreads from one point.
 struct LocalSource {
   Vec3 position{0};
-  Vec3 normal{0};  // Lambertian: emitting side; spot: axis; point: unused
+  Vec3 normal{0};  // Lambertian: emitting side; spot, goniometric: axis; point: unused
   float error = 0;
-  enum class Kind { lambert, sphere, cone } kind = Kind::lambert;
-  float oneMinusCos = 2;  // cone
-  Flux flux{0};           // lambert: whole flux over P
+  enum class Kind { lambert, sphere, cone, table } kind = Kind::lambert;
+  float oneMinusCos = 2;         // cone
+  Flux flux{0};                  // lambert, table: whole flux over P
+  const Scene* scene = nullptr;  // punctual
   const PunctualLight* light = nullptr;
+  const ProfileSampling* table = nullptr;
   float probability = 1;  // punctual: P
 
   // Emitted intensity divided by P [W/sr].
   Vec3 intensity(Vec3 w) const {
     if (kind == Kind::lambert) return std::max(glm::dot(w, normal), 0.0f) * kInvPi * flux;
-    return Emitters::intensity(*light, w) / probability;
+    return Emitters::intensity(*scene, *light, w) / probability;
   }
   float ordinaryPdf(Vec3 w) const {
     const float cosine = glm::dot(w, normal);
     if (kind == Kind::lambert) return cosineHemispherePdf(cosine);
     if (kind == Kind::sphere) return kSpherePdf;
+    if (kind == Kind::table) return table->pdf(light->direction, light->across, w);
     return 1 - cosine <= oneMinusCos ? conePdf(oneMinusCos) : 0.0f;
   }
   Vec3 ordinarySample(Vec2 u) const {
     if (kind == Kind::sphere) return squareToSphere(u);
+    if (kind == Kind::table) return table->sample(light->direction, light->across, u);
     const Basis frame(normal);
     return frame.toWorld(kind == Kind::lambert ? squareToCosineHemisphere(u)
                                                : squareToCone(u, oneMinusCos));
@@ -66,8 +70,14 @@ LocalSource localSource(const Transport& t, const Source& s, bool backSide) {
     return local;
   }
   const PunctualLight& light = t.lights[e.light];
-  local.light = &light, local.position = light.position, local.normal = light.direction;
+  local.scene = &t.scene, local.light = &light;
+  local.position = light.position, local.normal = light.direction;
   local.probability = s.probability;
+  if (e.kind == EmitterKind::goniometric) {
+    local.kind = LocalSource::Kind::table, local.table = &t.emitters.samplingOf(light);
+    local.flux = e.flux / s.probability;
+    return local;
+  }
   local.kind = e.kind == EmitterKind::point ? LocalSource::Kind::sphere : LocalSource::Kind::cone;
   const float halfSine = std::sin(0.5f * light.outerCone);
   local.oneMinusCos = 2 * halfSine * halfSine;
@@ -230,8 +240,10 @@ Particle emitLocal(const Transport& t, const Source& s, Vec2 u) {
   const bool back = takeBackSide(*s.emitter, u.x);
   const LocalSource source = localSource(t, s, back);
   const Vec3 w = source.ordinarySample(u);
+  const bool inProportion =
+      source.kind == LocalSource::Kind::lambert || source.kind == LocalSource::Kind::table;
+  if (inProportion) return {source.origin(w), w, source.flux};
   const float pdf = source.ordinaryPdf(w);
-  if (source.kind == LocalSource::Kind::lambert) return {source.origin(w), w, source.flux};
   return {source.origin(w), w, pdf > 0 ? source.intensity(w) / pdf : Vec3(0)};
 }
 

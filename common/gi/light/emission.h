@@ -4,6 +4,7 @@
 //   triangle     A uniform, cos/pi         flux = sides pi A L / P
 //   point        uniform directions        flux = 4 pi I / P
 //   spot         uniform in the cone       flux = 2 pi (1-cos outer) I(omega) / P
+//   goniometric  I(omega)/(I Omega)        flux = I Omega / P, see profile_sampling.h
 //   directional  disk of the scene's R     flux = pi R^2 E0 / P
 //   environment  directions, then disk     flux = 4 pi pi R^2 L / P
 // P: probability of the emitter in its stream (light_streams.h). A sample of an emitter that is off

@@ -12,13 +12,21 @@ float fluxOf(const Emitters& emitters) {
   return flux;
 }
 
-// A light exactly in a ceiling would be hidden by it. Spots move to where they shine, points to the
-// front of the surface.
-std::vector<PunctualLight> offSurfaces(const Tracer& tracer) {
+// Where more of a punctual light goes to: along its axis, against it, or no way in particular.
+Vec3 mainWay(const Emitters& emitters, const PunctualLight& light) {
+  if (light.kind == LightKind::spot) return light.direction;
+  if (light.kind != LightKind::goniometric) return Vec3(0);
+  const double along = emitters.samplingOf(light).shareOnAxisSide();
+  if (std::abs(along - 0.5) < 0.01) return Vec3(0);
+  return along > 0.5 ? light.direction : -light.direction;
+}
+
+// A light exactly in a ceiling would be hidden by it. Those that shine in some direction move there,
+// others to the front of the surface.
+std::vector<PunctualLight> offSurfaces(const Tracer& tracer, const Emitters& emitters) {
   std::vector<PunctualLight> lights = tracer.scene().lights;
   for (PunctualLight& light : lights)
-    light.position =
-        tracer.clearOf(light.position, light.kind == LightKind::spot ? light.direction : Vec3(0));
+    light.position = tracer.clearOf(light.position, mainWay(emitters, light));
   return lights;
 }
 
@@ -55,7 +63,7 @@ Transport::Transport(const Tracer& t, const Settings& s, const Transport* begun)
       shader(t.scene()),
       emitters(t.scene(), s.environment),
       streams(emitters, begun != nullptr ? &begun->emitters : nullptr),
-      lights(offSurfaces(t)),
+      lights(offSurfaces(t, emitters)),
       needs(needsOf(t.scene(), s.environment)),
       radius(isLit(begun) ? begun->radius : t.scene().bounds.radius()),
       lampFlux(isLit(begun) ? begun->lampFlux : fluxOf(emitters)),

@@ -8,11 +8,24 @@
 namespace ninefold {
 namespace {
 
-Vpl punctualVpl(const PunctualLight& light) {
+Vpl::Kind kindOf(LightKind kind) {
+  switch (kind) {
+    case LightKind::point:
+      return Vpl::Kind::point;
+    case LightKind::spot:
+      return Vpl::Kind::spot;
+    case LightKind::goniometric:
+      return Vpl::Kind::goniometric;
+    case LightKind::directional:
+      break;
+  }
+  return Vpl::Kind::directional;
+}
+
+Vpl punctualVpl(const Transport& t, uint32_t index) {
+  const PunctualLight& light = t.lights[index];
   Vpl vpl;
-  vpl.kind = light.kind == LightKind::point  ? Vpl::Kind::point
-             : light.kind == LightKind::spot ? Vpl::Kind::spot
-                                             : Vpl::Kind::directional;
+  vpl.kind = kindOf(light.kind), vpl.light = index;
   vpl.position = light.position;
   vpl.normal = light.kind == LightKind::directional ? -light.direction : light.direction;
   vpl.power = light.intensity;
@@ -33,7 +46,7 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
     return vpl;
   }
   if (e.kind != EmitterKind::triangle) {
-    Vpl vpl = punctualVpl(t.lights[e.light]);
+    Vpl vpl = punctualVpl(t, e.light);
     vpl.power *= share;
     return vpl;
   }

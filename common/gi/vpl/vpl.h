@@ -3,7 +3,8 @@
 // Kinds and their part of the irradiance at x. Symbols as in vpl_gather.h, which also has what
 // shading normals change. w: unit direction from x to the VPL.
 //   surface      V (Phi/pi) min(cos_x cos_y / d^2, b)   area emitters, D vertices of light paths
-//   point, spot  V I(w) cos_x / d^2                     never bounded
+//   point, spot, goniometric
+//                V I(w) cos_x / d^2                     never bounded
 //   directional  V E0 cos_x                             sun, and samples of the environment
 //
 // Source:  Keller 1997; Wald et al. 2002, section 4.
@@ -19,16 +20,17 @@
 namespace ninefold {
 
 struct Vpl {
-  enum class Kind : uint8_t { surface, point, spot, directional } kind = Kind::surface;
+  enum class Kind : uint8_t { surface, point, spot, goniometric, directional } kind = Kind::surface;
   bool emits = false;    // surface: on an emitter (path length 1 at x)
   bool reverse = false;  // surface: found from the camera
   Vec3 position{0};      // directional: unused
   // surface: of the emitting side; spot: axis; directional: where the light comes from
   Vec3 normal{0};
   float bound = std::numeric_limits<float>::infinity();  // surface: of its geometry term [1/m^2]
-  Vec3 power{0};    // surface: Phi/pi [W/sr]; point, spot: I [W/sr]; directional: E0 [W/m^2]
+  Vec3 power{0};    // surface: Phi/pi [W/sr]; directional: E0 [W/m^2]; others: I [W/sr]
   float error = 0;  // of position, see SurfacePoint
   float coneScale = 0, coneOffset = 0;  // spot: falloff = clamp(cos * scale + offset)^2
+  uint32_t light = 0;                   // goniometric: index into Transport::lights
   int diffuseCount = 0;  // surface: D vertices of the light path, this one too; 0 on an emitter
   int glossy = -1;       // surface: what its S lobe sends on, in VplSet::glossy; -1: nothing
   MediumStack media;     // surface: around the VPL

@@ -1,7 +1,7 @@
 // vpl_gather.h: irradiance at many receivers from the virtual point lights of one light set.
 //
 //   E(x) = sum_i V(x, y_i) (Phi_i/pi) min(G, b) cos_s/cos_x        surface VPLs [W/m^2]
-//          + sum_i V I_i(w) cos_s / d^2                            point and spot lights
+//          + sum_i V I_i(w) cos_s / d^2                            point, spot, goniometric lights
 //          + sum_i V E0_i cos_s                                    directional lights
 //          + sum_i V Phi_i A_i min(G, b) cos_s/cos_x               glossy lobes (glossy_vpl.h)
 //

@@ -43,6 +43,17 @@ void punctualWeights(const Vpl& vpl, const Receivers& r, size_t first, float* we
   }
 }
 
+void goniometricWeights(const Transport& t, const Vpl& vpl, const Receivers& r, size_t first,
+                        float* weight) {
+  punctualWeights(vpl, r, first, weight);
+  const PunctualLight& light = t.lights[vpl.light];
+  const LightProfile& profile = t.scene.profiles[static_cast<size_t>(light.profile)];
+  for (size_t lane = 0; lane < kPacket; ++lane)
+    if (weight[lane] > 0)
+      weight[lane] *= profileTowards(profile, light.direction, light.across,
+                                     glm::normalize(r.position(first + lane) - vpl.position));
+}
+
 void directionalWeights(const Vpl& vpl, const Receivers& r, size_t first, float* weight) {
   const Vec3 w = vpl.normal;
 #pragma GCC ivdep
@@ -54,11 +65,14 @@ void directionalWeights(const Vpl& vpl, const Receivers& r, size_t first, float*
   }
 }
 
-void packetWeights(const Vpl& vpl, const Receivers& receivers, size_t first, float* weight) {
+void packetWeights(const Transport& t, const Vpl& vpl, const Receivers& receivers, size_t first,
+                   float* weight) {
   if (vpl.kind == Vpl::Kind::surface)
     surfaceWeights(vpl, receivers, first, weight);
   else if (vpl.kind == Vpl::Kind::directional)
     directionalWeights(vpl, receivers, first, weight);
+  else if (vpl.kind == Vpl::Kind::goniometric)
+    goniometricWeights(t, vpl, receivers, first, weight);
   else
     punctualWeights(vpl, receivers, first, weight);
 }
@@ -75,7 +89,7 @@ void VplWeights::fill(const Transport& t, std::span<const Vpl> vpls, int pathVer
       continue;
     }
     for (size_t first = 0; first < size; first += kPacket)
-      packetWeights(vpls[v], receivers, begin + first, at(v, first));
+      packetWeights(t, vpls[v], receivers, begin + first, at(v, first));
   }
 }
 

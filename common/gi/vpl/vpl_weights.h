@@ -3,6 +3,7 @@
 //
 //   surface            min(G, b) cos_s/cos_x   [1/m^2]
 //   point, spot        falloff(w) cos_s / d^2  [1/m^2]
+//   goniometric        f(w) cos_s / d^2        [1/m^2]   f: light_profile.h
 //   directional        cos_s                   [1]
 //
 // 0 where a cosine is not positive, where d = 0, and where the path would be too long.
