@@ -134,7 +134,7 @@ TEST(Methods, GroupsGoByTheSettingsOfTheirPhotons) {
   const MethodFacts& facts = factsOf(Method::selective);
   const Settings s = settingsOf(facts);
   EXPECT_EQ(facts.state->unitsOfAll(s), 306u);
-  EXPECT_EQ(facts.state->unitsInMotion(s), 32u);
+  EXPECT_EQ(facts.state->unitsInMotion(s), 64u);
   const auto isKept = [&](const std::function<void(Settings&)>& change) {
     Settings after = s;
     change(after);
