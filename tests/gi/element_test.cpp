@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "common/base/error.h"
 #include "common/gi/selective/element_light.h"
 #include "common/gi/selective/packed_flux.h"
 #include "common/sampling/sampler.h"
@@ -162,6 +163,25 @@ TEST(ElementBlock, FindsAPlaceForEachPointOfATriangle) {
     }
     EXPECT_NEAR(sum, 1, 1e-4);
   }
+}
+
+TEST(SceneElements, SayWhenTheyAreTooMany) {
+  SceneBuilder b;
+  const int white = b.material(testing::matte(Vec3(0.5f)));
+  for (int i = 0; i < 12; ++i) b.quad(white, Vec3(0, 0, i), Vec3(1, 0, 0), Vec3(0, 1, 0));
+  const Scene scene = b.build();
+  const auto said = [&](Metres size) -> std::string {
+    try {
+      SceneElements(scene, size, nullptr);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said(0.01f), "");
+  EXPECT_NE(said(0.0016f).find("corners of mesh elements: raise --element-size"),
+            std::string::npos);
+  EXPECT_NE(said(0.0002f).find("are too many, at most are"), std::string::npos);
 }
 
 class Pool {

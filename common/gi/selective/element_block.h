@@ -43,7 +43,7 @@ struct ElementPlace {
 
 class ElementBlock {
  public:
-  static constexpr size_t kMostNodes = size_t{1} << 25;
+  static constexpr size_t kMostNodes = size_t{1} << 23;  // of all of a scene, too: some 500 MB
 
   ElementBlock(const Scene& scene, const Mesh& mesh, const DMat4& toWorld, Metres size);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/base/error.h"
 #include "common/gi/selective/packed_flux.h"
 #include "common/state/fixed_point.h"
 
@@ -20,6 +21,7 @@ double quantumOf(const std::vector<std::optional<GroupRow>>& rows) {
 
 SceneElements::SceneElements(const Scene& scene, Metres size, const SceneElements* before)
     : meshes_(scene.meshes) {
+  size_t nodes = 0;
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
@@ -28,6 +30,10 @@ SceneElements::SceneElements(const Scene& scene, Metres size, const SceneElement
     blocks_.push_back(
         isKept ? before->blocks_[i]
                : std::make_shared<const ElementBlock>(scene, mesh, instance.toWorld, size));
+    nodes += blocks_.back()->nodes();
+    if (nodes > ElementBlock::kMostNodes)
+      fail("the scene has more than {} corners of mesh elements: raise --element-size",
+           ElementBlock::kMostNodes);
   }
 }
 
