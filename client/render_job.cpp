@@ -108,7 +108,7 @@ RenderJob::Done RenderJob::run(const FrameKey& frame, const msg::TaskItem& item,
 msg::Stepped RenderJob::step(const StepKey& step, uint32_t unit, const StatePages& state,
                              Time (*now)()) const {
   const Time start = now();
-  const StepResult made = light_->renderer.step(state, step, unit);
+  const StepResult made = renderer_.step(state, step, unit);
   msg::Stepped result;
   result.jobVersion = jobVersion_;
   result.number = step.number;

@@ -62,7 +62,7 @@ std::shared_ptr<const FrameLight> Renderer::light(const FrameKey& frame, int set
 }
 
 StepResult Renderer::step(const StatePages& pages, const StepKey& step, uint32_t unit) const {
-  return impl_->light->method->step(pages, step, unit);
+  return impl_->light->method->step(pages, step, unit, impl_->view);
 }
 
 std::shared_ptr<const MethodState> Renderer::digest(const StatePages& pages,

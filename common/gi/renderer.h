@@ -36,7 +36,8 @@ class Renderer {
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
                                           const MethodState* state = nullptr) const;
 
-  // Of the method's state, as in method.h. They depend on no camera.
+  // Of the method's state, as in method.h. A step sees this camera, in this size. What a client is
+  // sent names the job, which has them, so that all units of a step see the same.
   StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit) const;
   std::shared_ptr<const MethodState> digest(const StatePages& pages,
                                             const MethodState* before = nullptr) const;

@@ -4,7 +4,7 @@
 
 namespace ninefold {
 
-StepResult GiMethod::step(const StatePages&, const StepKey&, uint32_t) const {
+StepResult GiMethod::step(const StatePages&, const StepKey&, uint32_t, const View&) const {
   fail("a step of a method that has no state");
 }
 

@@ -5,7 +5,7 @@
 //   light      of one interleaved set: a pure function of (scene, settings, key, set, views, state)
 //   render     one task, lit by it
 //   step       one unit of a step of the method's state: a pure function of (scene, settings, key,
-//              unit, pages); only methods whose facts name a state
+//              unit, view, pages); only methods whose facts name a state
 //   digest     the pages made ready to be asked: a function of the pages alone
 //
 // A method is made once per scene and settings, on each client alike. Methods never include each
@@ -71,8 +71,10 @@ class GiMethod {
                       TileResult& out) const = 0;
   virtual std::unique_ptr<Scratch> makeScratch() const = 0;
 
-  // `pages`: of version step.from. `unit`: counted as step.firstUnit is.
-  virtual StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit) const;
+  // `pages`: of version step.from. `unit`: counted as step.firstUnit is. `view`: of the picture when
+  // the step was opened; it counts only for methods whose light needs it.
+  virtual StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                          const View& view) const;
   // `before`: of an earlier version under the same method, or null. It may save work; it must not
   // change the result.
   virtual std::shared_ptr<const MethodState> digest(const StatePages& pages,

@@ -50,7 +50,8 @@ std::shared_ptr<const FrameLight> PhotonMap::light(const FrameKey& frame, int se
 
 std::unique_ptr<Scratch> PhotonMap::makeScratch() const { return std::make_unique<MapScratch>(); }
 
-StepResult PhotonMap::step(const StatePages& pages, const StepKey& step, uint32_t unit) const {
+StepResult PhotonMap::step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                           const View&) const {
   const MapLayout layout(t_.settings);
   StepResult result;
   const auto photons = shootUnit(t_, step.randomization, unit, layout, result.rays);

@@ -31,7 +31,8 @@ class PhotonMap final : public LayeredMethod {
                                           std::span<const View> views,
                                           const MethodState* state) const override;
   std::unique_ptr<Scratch> makeScratch() const override;
-  StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit) const override;
+  StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                  const View& view) const override;
   std::shared_ptr<const MethodState> digest(const StatePages& pages,
                                             const MethodState* before) const override;
 

@@ -26,7 +26,8 @@ SumChange amountOf(uint64_t hash, uint32_t place) {
 
 }  // namespace
 
-StepResult StateCheck::step(const StatePages& pages, const StepKey& step, uint32_t unit) const {
+StepResult StateCheck::step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                            const View&) const {
   const uint64_t hash = hashWords(t_.settings.seed, step.randomization, unit, pages.hash());
   Records own(sizeof hash);
   std::memcpy(own.data(), &hash, sizeof hash);
