@@ -15,6 +15,7 @@
 #include <array>
 
 #include "common/image/layers.h"
+#include "common/scene/method_trial.h"
 
 namespace ninefold {
 namespace {
@@ -62,6 +63,20 @@ constexpr StateFacts kMapState{
     .rays = [](const Settings& s) { return 4.0 * s.mapPerFrame; },
     .beginsAnew = true,
     .isKept = haveSameMap,
+};
+
+double trialRays(const Settings& s) {
+  return radiosityRays(s, kTrialPixels) + bidirectionalRays(s, kTrialPixels);
+}
+
+// Both methods find all light under all settings: what was chosen is never wrong.
+constexpr StateFacts kTrial{
+    .unitsOfAll = [](const Settings&) { return kTrialUnits; },
+    .unitsInMotion = nullptr,
+    .rays = trialRays,
+    .beginsAnew = true,
+    .isKept = [](const Settings&, const Settings&) { return true; },
+    .describe = describeTrial,
 };
 
 #ifdef NINEFOLD_TEST_METHODS
@@ -120,6 +135,17 @@ constexpr std::array kTable{
                 .rays = mapRays,
                 .state = &kMapState,
                 .bias = "light that has bounced is blurred over as wide as its nearest photons"},
+    MethodFacts{.method = Method::automatic,
+                .name = "auto",
+                .title = "automatic",
+                .help = "instant radiosity or bidirectional, whichever a short trial prefers",
+                .parts = kVpls | kCausticPhotons | kReverseVpls,
+                .isUnfiltered = false,
+                .lightNeedsView = true,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = bidirectionalRays,
+                .state = &kTrial},
 #ifdef NINEFOLD_TEST_METHODS
     MethodFacts{.method = Method::stateCheck,
                 .name = "state-check",

@@ -14,6 +14,7 @@
 
 #include "common/scene/needs.h"
 #include "common/scene/settings.h"
+#include "common/state/state_pages.h"
 
 namespace ninefold {
 
@@ -31,12 +32,16 @@ inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 // steps.
 struct StateFacts {
   // Units of a step: of one that makes all of the state anew, and of one while the picture moves.
+  // unitsInMotion null: one step lights all frames of a series at rest, and the latest version those
+  // in motion.
   uint32_t (*unitsOfAll)(const Settings& settings);
   uint32_t (*unitsInMotion)(const Settings& settings);
   double (*rays)(const Settings& settings);  // of a unit, about
   bool beginsAnew;                           // a step of all units needs no state before it
   // Whether the state of one stays right under the other: where not, it begins anew.
   bool (*isKept)(const Settings& before, const Settings& after);
+  // What a version tells people, for the log; null: nothing.
+  std::string (*describe)(const StatePages& pages) = nullptr;
 };
 
 struct MethodFacts {

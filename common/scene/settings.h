@@ -19,6 +19,7 @@ enum class Method : uint8_t {
   pathTrace,
   bidirectional,
   photonMap,
+  automatic,
 #ifdef NINEFOLD_TEST_METHODS
   stateCheck,  // for tests alone (gi/state_check)
 #endif

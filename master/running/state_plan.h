@@ -8,6 +8,9 @@
 //           each frame, until all of the state has been made anew: the picture lags by as many
 //           frames.
 //
+//           A state that serves all frames of a series is made once at rest; in motion the latest
+//           stays, and no step is made.
+//
 // The first step, and one after settings under which the state is not right any more, makes all of
 // it of nothing.
 //
@@ -52,6 +55,8 @@ class StatePlan {
     uint32_t series = 0, scene = 0;  // as they were when it opened
   };
   Open stepOf(uint32_t number, bool moving) const;
+  // One step lights all frames of a series at rest.
+  bool servesAll() const { return facts_->unitsInMotion == nullptr; }
 
   const StateFacts* facts_;
   Settings settings_;
