@@ -7,6 +7,8 @@
 //     n = 64 p                       path tracing: 32 vertices, each with a ray to a light
 //     n = p (11 + d) + d + 4 f       photon map: d direct VPLs, and eight rays that tell how much
 //                                    surface is around; a unit of its state: 4 rays a path
+//     n = as bidirectional           auto, at most; a unit of its state: a set, and some pixels, by
+//                                    both of the methods that it tries
 #include "common/scene/methods.h"
 
 #include <fmt/format.h>
@@ -138,14 +140,15 @@ constexpr std::array kTable{
     MethodFacts{.method = Method::automatic,
                 .name = "auto",
                 .title = "automatic",
-                .help = "instant radiosity or bidirectional, whichever a short trial prefers",
+                .help = "one of both kinds of instant radiosity, as a short trial tells",
                 .parts = kVpls | kCausticPhotons | kReverseVpls,
                 .isUnfiltered = false,
                 .lightNeedsView = true,
                 .freeSets = false,
                 .missesPunctualCaustics = false,
                 .rays = bidirectionalRays,
-                .state = &kTrial},
+                .state = &kTrial,
+                .isChoice = true},
 #ifdef NINEFOLD_TEST_METHODS
     MethodFacts{.method = Method::stateCheck,
                 .name = "state-check",

@@ -36,6 +36,7 @@ struct StateFacts {
   // in motion.
   uint32_t (*unitsOfAll)(const Settings& settings);
   uint32_t (*unitsInMotion)(const Settings& settings);
+  bool servesAll() const { return unitsInMotion == nullptr; }
   double (*rays)(const Settings& settings);  // of a unit, about
   bool beginsAnew;                           // a step of all units needs no state before it
   // Whether the state of one stays right under the other: where not, it begins anew.
@@ -58,6 +59,7 @@ struct MethodFacts {
   bool missesPunctualCaustics;  // cannot meet point, spot or directional lights by smooth surfaces
   double (*rays)(const Settings& settings, double pixels);  // of a task; see methods.cpp
   const StateFacts* state = nullptr;                        // null: no state
+  bool isChoice = false;       // its pictures are those of another method, which its state tells
   const char* bias = nullptr;  // what stays wrong however many frames are averaged; null: nothing
 
   bool has(uint8_t part) const { return (parts & part) == part; }

@@ -55,8 +55,6 @@ class StatePlan {
     uint32_t series = 0, scene = 0;  // as they were when it opened
   };
   Open stepOf(uint32_t number, bool moving) const;
-  // One step lights all frames of a series at rest.
-  bool servesAll() const { return facts_->unitsInMotion == nullptr; }
 
   const StateFacts* facts_;
   Settings settings_;

@@ -163,11 +163,11 @@ void Server::finishStep(uint32_t number, Time now) {
   tally_.inSteps += now - step.since;
   try {
     sendVersion(state_.complete(number), now);
+    describe(step.order.settings);
   } catch (const Error& error) {
     failure_ = error.what();
     return;
   }
-  describe(step.order.settings);
   if (duty_.stepDone) duty_.stepDone(step.order.key);
 }
 

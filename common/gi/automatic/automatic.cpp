@@ -117,12 +117,14 @@ StepResult Automatic::step(const StatePages&, const StepKey& step, uint32_t unit
   seen.pixels = static_cast<float>(view.width) * static_cast<float>(view.height);
   for (size_t i = 0; i < tried_.size(); ++i) seen.sides[i] = trySide(i, unit, view);
   StepResult result;
-  result.deltas.push_back(toRecords(unit, seen));
+  result.deltas.push_back(toRecord(unit, seen));
   return result;
 }
 
-std::shared_ptr<const MethodState> Automatic::digest(const StatePages&, const MethodState*) const {
+std::shared_ptr<const MethodState> Automatic::digest(const StatePages& pages,
+                                                     const MethodState*) const {
   auto chosen = std::make_shared<Chosen>();
+  chosen->which = verdictOf(pages).chosen;
   return chosen;
 }
 
