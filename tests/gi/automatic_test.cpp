@@ -3,8 +3,6 @@
 // after equal time: docs/performance.md.
 #include <gtest/gtest.h>
 
-#include <map>
-
 #include "common/gi/whole_state.h"
 #include "common/scene/method_trial.h"
 #include "common/scene/methods.h"
@@ -35,7 +33,7 @@ void expectChoice(const std::string& scene, Method expected) {
   Shipped s(scene);
   for (const uint64_t seed : {1, 2, 3}) {
     s.settings.seed = seed;
-    EXPECT_EQ(factsOf(s.chosen()).name, factsOf(expected).name) << scene << ", seed " << seed;
+    EXPECT_STREQ(factsOf(s.chosen()).name, factsOf(expected).name) << scene << ", seed " << seed;
   }
 }
 

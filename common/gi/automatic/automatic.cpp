@@ -98,6 +98,7 @@ TrialUnit::Side Automatic::trySide(size_t which, uint32_t unit, const View& view
   uint64_t rays = 0;
   for (int i = 0; i < kSpots; ++i) {
     Task task = spotOf(t_, view, i);
+    if (task.rect->count() == 0) continue;  // a picture smaller than the pattern
     task.frame = key, task.frame.randomization = kFirstRandomization;  // the same for all units
     tried_[which]->render(view, task, *light, *scratch, tile);
     addLuminance(tile, side.radiance);
