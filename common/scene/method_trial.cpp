@@ -25,6 +25,8 @@ TrialUnit fromRecord(const Page& page) {
   if (bytes == nullptr || bytes->size() % sizeof(float) != 0) fail("no record of a trial");
   std::vector<float> numbers(bytes->size() / sizeof(float));
   std::memcpy(numbers.data(), bytes->data(), bytes->size());
+  for (float& n : numbers)
+    if (!std::isfinite(n)) n = 0;  // as in pictures
   if (numbers.size() < kHead || (numbers.size() - kHead) % kTried.size() != 0)
     fail("a record of a trial has {} numbers", numbers.size());
   TrialUnit seen;

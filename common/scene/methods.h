@@ -32,8 +32,8 @@ inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 // steps.
 struct StateFacts {
   // Units of a step: of one that makes all of the state anew, and of one while the picture moves.
-  // unitsInMotion null: one step lights all frames of a series at rest, and the latest version those
-  // in motion.
+  // Without unitsInMotion one step serves all frames of a series at rest, and those in motion until
+  // the next rest.
   uint32_t (*unitsOfAll)(const Settings& settings);
   uint32_t (*unitsInMotion)(const Settings& settings);
   bool servesAll() const { return unitsInMotion == nullptr; }

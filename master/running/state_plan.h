@@ -8,8 +8,8 @@
 //           each frame, until all of the state has been made anew: the picture lags by as many
 //           frames.
 //
-//           A state that serves all frames of a series is made once at rest; in motion the latest
-//           stays, and no step is made.
+// A state that serves all frames (StateFacts::servesAll) is made once for a series at rest. In motion
+// the latest stays.
 //
 // The first step, and one after settings under which the state is not right any more, makes all of
 // it of nothing.

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "common/base/error.h"
 #include "common/scene/methods.h"
@@ -121,6 +122,16 @@ TEST(MethodTrial, PagesTellWhatUnitsTell) {
   const std::string text = describeTrial(pagesOf(t.units()));
   EXPECT_NE(text.find(factsOf(kTried[1]).name), std::string::npos) << text;
   EXPECT_NE(text.find("9 times its squared error"), std::string::npos) << text;
+}
+
+TEST(MethodTrial, ValuesThatAreNoLightCountAsBlack) {
+  auto units = Trial{}.units(), black = units;
+  for (uint32_t u = 0; u < kUnits; ++u) {
+    units[u].sides[1].radiance[0] = std::numeric_limits<float>::quiet_NaN();
+    units[u].sides[1].radiance[1] = std::numeric_limits<float>::infinity();
+    black[u].sides[1].radiance[0] = black[u].sides[1].radiance[1] = 0;
+  }
+  EXPECT_EQ(verdictOf(pagesOf(units)).sides[1].error, verdictOf(pagesOf(black)).sides[1].error);
 }
 
 TEST(MethodTrial, PagesThatAreNoRecordAreRefused) {
