@@ -1,6 +1,7 @@
 #include "common/gi/methods.h"
 
 #include "common/base/error.h"
+#include "common/gi/automatic/automatic.h"
 #include "common/gi/bidirectional/bidirectional.h"
 #include "common/gi/photon_map/photon_map.h"
 #include "common/gi/radiosity/radiosity.h"
@@ -12,8 +13,11 @@
 
 namespace ninefold {
 
-std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* begun) {
-  switch (t.settings.method) {
+namespace {
+
+// method: of those that the switch below knows.
+std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const GiMethod* begun) {
+  switch (method) {
     case Method::instantRadiosity:
       return std::make_unique<const Radiosity>(t, dynamic_cast<const Radiosity*>(begun));
     case Method::pathTrace:
@@ -24,12 +28,25 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
       return std::make_unique<const PhotonMap>(t);
     case Method::selective:
       return std::make_unique<const Selective>(t);
+    case Method::automatic: {
+      const auto* before = dynamic_cast<const Automatic*>(begun);
+      Automatic::Tried tried;
+      for (size_t i = 0; i < tried.size(); ++i)
+        tried[i] = make(kTried[i], t, before != nullptr ? before->tried(i) : nullptr);
+      return std::make_unique<const Automatic>(t, std::move(tried));
+    }
 #ifdef NINEFOLD_TEST_METHODS
     case Method::stateCheck:
       return std::make_unique<const StateCheck>(t);
 #endif
   }
-  fail("method {} has no computing half", static_cast<int>(t.settings.method));
+  fail("method {} has no computing half", static_cast<int>(method));
+}
+
+}  // namespace
+
+std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* begun) {
+  return make(t.settings.method, t, begun);
 }
 
 }  // namespace ninefold

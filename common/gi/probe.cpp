@@ -111,6 +111,7 @@ std::string probeClass(Isa isa) {
   settings.camera = scene.cameras.front();
   uint64_t hash = 0;
   for (const MethodFacts& facts : allMethods()) {
+    if (facts.isChoice) continue;
     settings.method = facts.method;
     hash = addPicture(hash, tracer, settings);
   }

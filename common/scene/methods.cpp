@@ -8,6 +8,8 @@
 //     n = p (11 + d) + d + 4 f       photon map: d direct VPLs, and eight rays that tell how much
 //                                    surface is around; a unit of its state: 4 rays a path
 //     n = p (3 + d) + d + 4 f        selective photons; a unit of its state: 4 rays a photon
+//     n = as bidirectional           auto, at most; a unit of its state: a set, and some pixels, by
+//                                    both of the methods that it tries
 #include "common/scene/methods.h"
 
 #include <fmt/format.h>
@@ -16,6 +18,7 @@
 #include <array>
 
 #include "common/image/layers.h"
+#include "common/scene/method_trial.h"
 
 namespace ninefold {
 namespace {
@@ -100,6 +103,21 @@ constexpr StateFacts kSelectiveState{
     .isKept = haveSameGroups,
 };
 
+double trialRays(const Settings& s) {
+  return radiosityRays(s, kTrialPixels) + bidirectionalRays(s, kTrialPixels);
+}
+
+// Both methods find all light under all settings: what was chosen is never wrong.
+constexpr StateFacts kTrial{
+    .unitsOfAll = [](const Settings&) { return kTrialUnits; },
+    .unitsInMotion = nullptr,
+    .rays = trialRays,
+    .beginsAnew = true,
+    .isPaced = false,
+    .isKept = [](const Settings&, const Settings&) { return true; },
+    .describe = describeTrial,
+};
+
 #ifdef NINEFOLD_TEST_METHODS
 constexpr size_t kTestMethods = 1;
 constexpr StateFacts kStateCheckSteps{
@@ -170,6 +188,18 @@ constexpr std::array kTable{
                 .rays = selectiveRays,
                 .state = &kSelectiveState,
                 .bias = "light that has bounced is blurred over as wide as mesh elements are"},
+    MethodFacts{.method = Method::automatic,
+                .name = "auto",
+                .title = "automatic",
+                .help = "one of both kinds of instant radiosity, as a short trial tells",
+                .parts = kVpls | kCausticPhotons | kReverseVpls,
+                .isUnfiltered = false,
+                .lightNeedsView = true,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = bidirectionalRays,
+                .state = &kTrial,
+                .isChoice = true},
 #ifdef NINEFOLD_TEST_METHODS
     MethodFacts{.method = Method::stateCheck,
                 .name = "state-check",

@@ -14,6 +14,7 @@
 
 #include "common/scene/needs.h"
 #include "common/scene/settings.h"
+#include "common/state/state_pages.h"
 
 namespace ninefold {
 
@@ -32,13 +33,18 @@ inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 // steps.
 struct StateFacts {
   // Units of a step: of one that makes all of the state anew, and of one while the picture moves.
+  // Without unitsInMotion one step serves all frames of a series at rest, and those in motion until
+  // the next rest.
   uint32_t (*unitsOfAll)(const Settings& settings);
   uint32_t (*unitsInMotion)(const Settings& settings);
+  bool servesAll() const { return unitsInMotion == nullptr; }
   double (*rays)(const Settings& settings);  // of a unit, about
   bool beginsAnew;                           // a step of all units needs no state before it
   bool isPaced;  // steps in motion may have other numbers of units, as many as there is time for
   // Whether the state of one stays right under the other: where not, it begins anew.
   bool (*isKept)(const Settings& before, const Settings& after);
+  // What a version tells people, for the log; null: nothing.
+  std::string (*describe)(const StatePages& pages) = nullptr;
 };
 
 struct MethodFacts {
@@ -55,6 +61,7 @@ struct MethodFacts {
   bool missesPunctualCaustics;  // cannot meet point, spot or directional lights by smooth surfaces
   double (*rays)(const Settings& settings, double pixels);  // of a task; see methods.cpp
   const StateFacts* state = nullptr;                        // null: no state
+  bool isChoice = false;       // its pictures are those of another method, which its state tells
   const char* bias = nullptr;  // what stays wrong however many frames are averaged; null: nothing
 
   bool has(uint8_t part) const { return (parts & part) == part; }

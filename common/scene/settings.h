@@ -20,6 +20,7 @@ enum class Method : uint8_t {
   bidirectional,
   photonMap,
   selective,
+  automatic,
 #ifdef NINEFOLD_TEST_METHODS
   stateCheck,  // for tests alone (gi/state_check)
 #endif

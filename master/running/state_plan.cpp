@@ -26,9 +26,10 @@ std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
                                                    Duration time) {
   if (facts_ == nullptr || open_) return std::nullopt;
   const auto ready = static_cast<int64_t>(ready_.size());
-  const bool isWanted = latest_ == 0 ? framesLeft != 0
-                        : moving     ? stale_ > 0 && mayStep_
-                                     : ready <= 1 && ready < framesLeft.value_or(ready + 1);
+  const bool isWanted = latest_ == 0          ? framesLeft != 0
+                        : facts_->servesAll() ? !moving && ready == 0
+                        : moving              ? stale_ > 0 && mayStep_
+                                 : ready <= 1 && ready < framesLeft.value_or(ready + 1);
   if (!isWanted) return std::nullopt;
   open_ = stepOf(number, moving, time);
   ++versions_;
@@ -69,7 +70,7 @@ std::optional<uint32_t> StatePlan::versionOfFrame(bool moving) {
   }
   if (ready_.empty()) return std::nullopt;
   const uint32_t version = ready_.front();
-  ready_.pop_front();
+  if (!facts_->servesAll()) ready_.pop_front();
   return version;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/log.h"
+#include "common/scene/methods.h"
 #include "proto/tile_names.h"
 
 namespace ninefold {
@@ -162,11 +163,21 @@ void Server::finishStep(uint32_t number, Time now) {
   tally_.inSteps += now - step.since;
   try {
     sendVersion(state_.complete(number), now);
+    describe(step.order.settings);
   } catch (const Error& error) {
     failure_ = error.what();
     return;
   }
   if (duty_.stepDone) duty_.stepDone(step.order.key);
+}
+
+// A line in the log, when the latest version tells people something else than the one before.
+void Server::describe(const Settings& settings) {
+  const StateFacts* facts = factsOf(settings.method).state;
+  if (facts == nullptr || facts->describe == nullptr) return;
+  std::string text = facts->describe(state_.latest());
+  if (text != described_) log("{}", text);
+  described_ = std::move(text);
 }
 
 void Server::sendVersion(const std::vector<msg::StateDelta>& messages, Time now) {

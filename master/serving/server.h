@@ -139,6 +139,7 @@ class Server {
   std::string explainClient(ClientId id, const ClientSession& session, Time now) const;
   void count(const ReceivedTile& tile);
   void finishStep(uint32_t number, Time now);
+  void describe(const Settings& settings);
   void sendVersion(const std::vector<msg::StateDelta>& messages, Time now);
   void dropSteps(uint32_t firstWanted, Time now);
   void announce(const JobOrder& order);
@@ -164,6 +165,7 @@ class Server {
   };
   std::map<uint32_t, OpenStep> openSteps_;
   StateKeeper state_;
+  std::string described_;                   // what its version told people
   std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   std::string failure_;

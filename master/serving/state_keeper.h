@@ -43,6 +43,7 @@ class StateKeeper {
   // No version before `oldest` is named any more.
   void forget(uint32_t oldest);
 
+  const StatePages& latest() const { return pagesOf(version()); }
   uint32_t version() const { return versions_.empty() ? 0 : versions_.rbegin()->first; }
   // The oldest version; null if that is the empty one.
   std::shared_ptr<const Snapshot> snapshot();

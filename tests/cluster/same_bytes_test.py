@@ -3,9 +3,12 @@
 By every method; but what is about the wire, a frozen process or an instruction set is so by the default one alone.
 """
 import pathlib
+import re
 import unittest
 
 from programs import ClusterTest, eventually, is_running, methods, signal
+
+CHOICE = "auto"  # the method that is one of the others
 
 
 class SameBytes(ClusterTest):
@@ -36,9 +39,18 @@ class SameBytes(ClusterTest):
             self.same_by(method, [(1, 1), (3, 1), (1, 2)], "--filter-at", "clients", frames=2)
 
     def test_another_seed_or_method_is_another_picture(self):
-        hashes = {self.render("--local-clients", 1, "--seed", seed, "--method", method, frames=2)["image_hash"]
-                  for seed in (1, 2) for method in methods()}
-        self.assertEqual(len(hashes), 2 * len(methods()))
+        hashes = {self.hash_by(method, seed) for seed in (1, 2) for method in methods() if method != CHOICE}
+        self.assertEqual(len(hashes), 2 * (len(methods()) - 1))
+
+    def test_the_choice_of_a_trial_has_the_picture_of_the_method_that_it_names(self):
+        master = self.master("--local-clients", 2, "--method", CHOICE, frames=2)
+        stats = self.finish(master)
+        chosen = re.search(r"method auto: ([a-z-]+), as ", master.text)
+        self.assertIsNotNone(chosen, master.text)
+        self.assertEqual(stats["image_hash"], self.hash_by(chosen[1], 1))
+
+    def hash_by(self, method, seed):
+        return self.render("--local-clients", 1, "--seed", seed, "--method", method, frames=2)["image_hash"]
 
     def test_a_killed_client_does_not_show(self):
         self.SIZE = "48x36"  # so many frames must not take long by any method

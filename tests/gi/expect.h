@@ -39,10 +39,11 @@ inline Estimator estimator(const MethodFacts& facts, int side = 8, int pathLengt
   return e;
 }
 
-// One of every method.
+// One of every method that has light of its own.
 inline std::vector<Estimator> estimators(int side = 8, int pathLength = 0) {
   std::vector<Estimator> all;
-  for (const MethodFacts& facts : allMethods()) all.push_back(estimator(facts, side, pathLength));
+  for (const MethodFacts& facts : allMethods())
+    if (!facts.isChoice) all.push_back(estimator(facts, side, pathLength));
   return all;
 }
 

@@ -50,10 +50,13 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames,
   Rendered out{settings.width, settings.height, {}, {}, {}};
   out.pixels.assign(static_cast<size_t>(settings.width * settings.height), Vec3(0));
   TileResult tile;
+  const StateFacts* steps = factsOf(settings.method).state;
+  std::shared_ptr<const MethodState> state;
   for (uint32_t frame = 0; frame < static_cast<uint32_t>(frames); ++frame) {
     const FrameKey key{frame, frame, frame, settings.photonRadius * tracer.scene().bounds.radius(),
                        lightCameras};
-    const auto state = wholeState(renderer, settings, frame, &out.rays);
+    if (state == nullptr || !steps->servesAll())
+      state = wholeState(renderer, settings, frame, &out.rays);
     double sum = 0;
     for (int phase = 0; phase < settings.interleave.sets(); ++phase) {
       const auto lights = renderer.light(

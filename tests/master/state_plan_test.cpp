@@ -145,6 +145,55 @@ TEST_F(StatePlanTest, AnotherViewKeepsTheState) {
   EXPECT_TRUE(p.versionOfFrame(true));
 }
 
+// A state that serves all frames of a series: the trial of the method auto.
+class TrialPlanTest : public StatePlanTest {
+ protected:
+  TrialPlanTest() { settings.method = Method::automatic; }
+};
+
+TEST_F(TrialPlanTest, AtRestOneStepLightsAllFrames) {
+  StatePlan p = plan();
+  EXPECT_FALSE(p.versionOfFrame(false));
+  const auto trial = step(p);
+  ASSERT_TRUE(trial);
+  EXPECT_EQ(trial->units, all());
+  p.done(trial->key);
+  for (int frame = 0; frame < 3; ++frame) {
+    EXPECT_EQ(p.versionOfFrame(false), trial->key.to);
+    EXPECT_FALSE(step(p));
+  }
+}
+
+TEST_F(TrialPlanTest, InMotionTheLatestStaysAndTheNextRestTriesAnew) {
+  StatePlan p = plan();
+  const auto first = step(p);
+  p.done(first->key);
+  Settings other = settings;
+  other.camera.eye.x += 1;
+  EXPECT_FALSE(p.change(other, true));
+  EXPECT_EQ(p.versionOfFrame(true), first->key.to);
+  EXPECT_FALSE(step(p, true)) << "not even after an edit of the scene";
+  p.restart();
+  EXPECT_FALSE(p.versionOfFrame(false)) << "of another view";
+  const auto second = step(p);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->key.from, 0u);
+  EXPECT_EQ(second->key.firstUnit, 0u) << "what was tried before does not count";
+  EXPECT_EQ(p.versionOfFrame(true), first->key.to) << "if it moves again meanwhile";
+  p.done(second->key);
+  EXPECT_EQ(p.versionOfFrame(false), second->key.to);
+}
+
+TEST_F(TrialPlanTest, MotionAtTheStartWaitsForATrial) {
+  StatePlan p = plan();
+  EXPECT_FALSE(p.versionOfFrame(true));
+  const auto trial = step(p, true);
+  ASSERT_TRUE(trial);
+  EXPECT_EQ(trial->units, all());
+  p.done(trial->key);
+  EXPECT_EQ(p.versionOfFrame(true), trial->key.to);
+}
+
 TEST_F(StatePlanTest, AStepThatCannotBeDoneIsMadeAgain) {
   StatePlan p = plan();
   ASSERT_TRUE(step(p));

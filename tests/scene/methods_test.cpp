@@ -89,7 +89,7 @@ TEST(Methods, LightIsSharedByViewsUnlessItIsMadeForOne) {
 // it has no part in may change.
 TEST(Methods, AStateIsKeptUnderOtherViewsAndBegunAnewForOtherSeeds) {
   for (const MethodFacts& facts : allMethods()) {
-    if (facts.state == nullptr) continue;
+    if (facts.state == nullptr || facts.state->servesAll()) continue;
     const Settings s = settingsOf(facts);
     EXPECT_GE(facts.state->unitsOfAll(s), facts.state->unitsInMotion(s)) << facts.name;
     EXPECT_GE(facts.state->unitsInMotion(s), 1u) << facts.name;
@@ -107,6 +107,16 @@ TEST(Methods, AStateIsKeptUnderOtherViewsAndBegunAnewForOtherSeeds) {
       EXPECT_FALSE(facts.state->isKept(s, other)) << facts.name;
     }
   }
+}
+
+// What a trial chose stays right whatever is changed: each of the methods finds all light.
+TEST(Methods, AChoiceIsKeptUnderAllSettings) {
+  const StateFacts& trial = *factsOf(Method::automatic).state;
+  Settings s, other;
+  other.seed += 1, other.pathLength = 3, other.environment = Radiance(1);
+  EXPECT_TRUE(trial.isKept(s, other));
+  EXPECT_TRUE(trial.beginsAnew);
+  EXPECT_GT(trial.unitsOfAll(s), 1u);
 }
 
 TEST(Methods, ThePoolGoesByTheSettingsOfItsPhotons) {
