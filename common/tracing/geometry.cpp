@@ -110,7 +110,7 @@ void InstanceGeometry::surface(uint32_t triangle, float u, float v, SurfacePoint
   const Triangle& t = mesh_->triangles[triangle];
   const Tracer::Corners at = corners(triangle);
   const Vec3 weights = clampedWeights(u, v);
-  p.triangle = triangle;
+  p.triangle = triangle, p.u = weights.y, p.v = weights.z;
   p.material = mesh_->material;
   p.position = pointOnTriangle(at.a, at.b, at.c, weights.y, weights.z);
   const Plane& plane = planes_[triangle];

@@ -44,6 +44,7 @@ struct SurfacePoint {
   Vec2 uv0{0}, uv1{0};
   Vec4 color{1};  // of the vertices: linear, times the material's colour and opacity
   uint32_t instance = 0, triangle = 0;
+  float u = 0, v = 0;  // barycentrics of the second and third corner, within the triangle
   int material = 0;
   float error = 0;  // bound of the distance of `position` from the exact surface [m]
   std::array<SolidContact, kMaxContacts> contacts;

@@ -20,6 +20,8 @@ struct Receiver {
   uint32_t pixel = 0;  // names the pixel in the whole image: x + width * y
   float gain = 1;      // 1 / probability of the lobe choices behind it; E is multiplied by it
   int absorber = -1;   // material of the absorbing solid that it lies in; -1 = none
+  uint32_t object = 0, triangle = 0;  // where it lies: instance, and triangle of its mesh ...
+  float u = 0, v = 0;                 // ... at barycentrics of the second and third corner
 };
 
 // A diffuse point as it gathers light. pixel, absorber: as above.
@@ -28,6 +30,8 @@ inline Receiver receiverAt(const ShadingPoint& x, uint32_t pixel, int absorber) 
   r.position = x.surface.position, r.ng = x.ng, r.ns = x.ns;
   r.origin = offsetOrigin(x.surface, x.ng);
   r.pixel = pixel, r.absorber = absorber;
+  r.object = x.surface.instance, r.triangle = x.surface.triangle;
+  r.u = x.surface.u, r.v = x.surface.v;
   return r;
 }
 
@@ -43,6 +47,7 @@ class Receivers {
     ox[i] = r.origin.x, oy[i] = r.origin.y, oz[i] = r.origin.z;
     gain[i] = r.gain, er[i] = 0, eg[i] = 0, eb[i] = 0;
     pixel[i] = r.pixel, absorber[i] = r.absorber;
+    object[i] = r.object, triangle[i] = r.triangle, u[i] = r.u, v[i] = r.v;
     absorbs_ |= r.absorber >= 0;
   }
   size_t size() const { return size_; }
@@ -60,7 +65,8 @@ class Receivers {
 
   // Receiver i without irradiance.
   Receiver at(size_t i) const {
-    return {position(i), ng(i), ns(i), origin(i), pixel[i], gain[i], absorber[i]};
+    return {position(i), ng(i),     ns(i),       origin(i), pixel[i], gain[i],
+            absorber[i], object[i], triangle[i], u[i],      v[i]};
   }
 
   // Copies the last receiver up to the next multiple of sixteen; size() stays.
@@ -78,6 +84,8 @@ class Receivers {
   std::vector<float> er, eg, eb;  // gathered irradiance [W/m^2], without gain
   std::vector<uint32_t> pixel;
   std::vector<int32_t> absorber;
+  std::vector<uint32_t> object, triangle;  // as above
+  std::vector<float> u, v;
 
  private:
   static constexpr size_t kRoom = 16;  // lanes of a packet
@@ -86,9 +94,11 @@ class Receivers {
     const size_t room = std::max<size_t>(64 * kRoom, 2 * pixel.size());
     for (auto* plane : planes()) plane->resize(room);
     pixel.resize(room), absorber.resize(room);
+    object.resize(room), triangle.resize(room);
   }
-  std::array<std::vector<float>*, 16> planes() {
-    return {&px, &py, &pz, &gx, &gy, &gz, &sx, &sy, &sz, &ox, &oy, &oz, &gain, &er, &eg, &eb};
+  std::array<std::vector<float>*, 18> planes() {
+    return {&px, &py, &pz, &gx,   &gy, &gz, &sx, &sy, &sz,
+            &ox, &oy, &oz, &gain, &er, &eg, &eb, &u,  &v};
   }
 
   size_t size_ = 0;
