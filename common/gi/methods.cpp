@@ -20,7 +20,7 @@ std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* b
     case Method::bidirectional:
       return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
     case Method::photonMap:
-      return std::make_unique<const PhotonMap>(t);
+      return std::make_unique<const PhotonMap>(t, dynamic_cast<const PhotonMap*>(begun));
 #ifdef NINEFOLD_TEST_METHODS
     case Method::stateCheck:
       return std::make_unique<const StateCheck>(t);

@@ -129,6 +129,7 @@ struct Scene {
   std::vector<Material> materials;
   SharedList<Mesh> meshes;
   std::vector<Instance> instances;
+  std::vector<Instance> photonInstances;  // what photons of a pool meet, see photon_scene.h
   std::vector<PunctualLight> lights;
   std::vector<Camera> cameras;        // at least one after reading
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it

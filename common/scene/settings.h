@@ -28,6 +28,7 @@ enum class PartitionRule : uint8_t { balance, equal };
 enum class MapDistribution : uint8_t { random, frame, turn, nets };  // photon_map/shooting.h
 enum class MapIndex : uint8_t { grid, tree };
 enum class MapDirect : uint8_t { off, on };
+enum class MapEstimate : uint8_t { pixels, vertices };
 
 struct Settings {
   Method method = Method::instantRadiosity;
@@ -47,6 +48,8 @@ struct Settings {
   MapDirect mapDirect = MapDirect::off;  // whether the light straight from lamps is the pool's
   MapDistribution mapDistribution = MapDistribution::nets;
   MapIndex mapIndex = MapIndex::grid;
+  MapEstimate mapEstimate = MapEstimate::pixels;  // where photons tell the light
+  int mapSubdivision = 3;      // levels of the mesh whose vertices they tell it at
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row
   float bound = 30;            // c of b = c/R^2

@@ -2,6 +2,7 @@
 
 #include "common/base/log.h"
 #include "common/scene/methods.h"
+#include "common/scene/photon_scene.h"
 #include "common/scene/reader.h"
 #include "proto/scene_blobs.h"
 
@@ -48,6 +49,15 @@ Delivery deliveryOf(const Options& options) {
   return delivery;
 }
 
+// As it goes to clients.
+Scene withPhotonScene(const Options& options, Scene scene) {
+  if (!options.photonScene) return scene;
+  addPhotonScene(scene, readScene(*options.photonScene));
+  log("photons meet {}, and light is shown up to {:g} m off it", *options.photonScene,
+      options.settings.mapDistance * scene.bounds.radius() / 8);
+  return scene;
+}
+
 }  // namespace
 
 Job makeJob(const Options& options) {
@@ -71,7 +81,7 @@ Job makeJob(const Options& options) {
   job.sceneRadius = scene.bounds.radius();
   job.exposure = options.exposure.value_or(scene.exposure.value_or(0));
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
-  std::vector<Blob> blobs = packScene(scene);
+  std::vector<Blob> blobs = packScene(withPhotonScene(options, scene));
   job.sceneHash = hashOf(blobs);
   job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, job.delivery);
   if (isLive(options)) job.scene = std::move(read);

@@ -45,7 +45,9 @@ std::vector<Vec3> irradiance(const World& world, const PhotonPool& pool,
     for (size_t i = 0; i < receivers.size(); ++i) all.push_back(receivers.irradiance(i));
     receivers.clear();
   };
-  for (const Receiver& r : points) {
+  for (Receiver r : points) {
+    const Hit hit = world.tracer.closest(r.position + 1e-3f * r.ng, -r.ng, 2e-3f);
+    r.object = hit.instance, r.triangle = hit.triangle;
     receivers.add(r);
     if (alone) gather();
   }

@@ -32,6 +32,7 @@ Settings oddSettings() {
   s.mapPhotons = 4194304, s.mapPerFrame = 1, s.mapNearest = 65536, s.mapDistance = 1.5f;
   s.mapDirect = MapDirect::on, s.mapDistribution = MapDistribution::turn;
   s.mapIndex = MapIndex::tree;
+  s.mapEstimate = MapEstimate::vertices, s.mapSubdivision = 6;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;

@@ -109,6 +109,7 @@ Scene someScene() {
   mesh.triangles = {Triangle(0, 1, 2)};
   scene.meshes.push_back(mesh);
   scene.instances.resize(1);
+  scene.photonInstances.resize(1);
   scene.lights.resize(1);
   scene.cameras.resize(1);
   scene.bounds.add(Vec3(-1)), scene.bounds.add(Vec3(1));

@@ -1,9 +1,12 @@
 #include "common/gi/photon_map/photon_map.h"
 
-#include "common/gi/photon_map/map_gather.h"
+#include <mutex>
+
 #include "common/gi/photon_map/shooting.h"
+#include "common/gi/photon_map/vertex_gather.h"
 #include "common/gi/vpl/direct_vpls.h"
 #include "common/gi/vpl/indirect_vpls.h"
+#include "common/scene/settings_check.h"
 
 namespace ninefold {
 namespace {
@@ -12,17 +15,33 @@ constexpr int kOriginPathsLog2 = 5;  // of photons that start at lit surfaces, f
 
 struct MapState final : MethodState {
   std::shared_ptr<const PhotonPool> pool;
+
+  // Light at vertices, which all frames of this version and randomization share. At rest a version
+  // has one frame, and in motion randomizations stay: one table is enough.
+  std::shared_ptr<VertexLight> lightAtVertices(size_t entries, uint32_t randomization) const {
+    const std::lock_guard lock(mutex_);
+    if (vertices_ == nullptr || randomization_ != randomization)
+      vertices_ = std::make_shared<VertexLight>(entries), randomization_ = randomization;
+    return vertices_;
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  mutable std::shared_ptr<VertexLight> vertices_;  // guarded by mutex_, as is the next
+  mutable uint32_t randomization_ = 0;
 };
 
 // The VPLs stand on lamps alone.
 struct MapLight final : LightSet {
   std::shared_ptr<const PhotonPool> pool;  // null: no photon
   uint32_t randomization = 0;
+  std::shared_ptr<VertexLight> vertices;  // null: E is found at pixels, or there is no pool
 };
 
 struct MapScratch final : LayeredScratch {
   LightSetScratch gather;
   MapGatherScratch map;
+  VertexGatherScratch vertices;
 };
 
 // Caustic photons of a set.
@@ -36,12 +55,23 @@ CausticPhotons causticsOf(const Transport& t, const FrameKey& frame, int set, Ra
 
 }  // namespace
 
+PhotonMap::PhotonMap(const Transport& transport, const PhotonMap* begun)
+    : LayeredMethod(transport), world_(t_, begun != nullptr ? &begun->world_ : nullptr) {
+  checkWith(t_.scene, t_.settings);
+  if (t_.settings.mapEstimate == MapEstimate::vertices)
+    vertices_ = std::make_unique<const MapVertices>(t_);
+}
+
 std::shared_ptr<const FrameLight> PhotonMap::light(const FrameKey& frame, int set,
                                                    std::span<const View>,
                                                    const MethodState* state) const {
   auto light = std::make_shared<MapLight>();
   light->randomization = frame.randomization;
-  if (state != nullptr) light->pool = static_cast<const MapState*>(state)->pool;
+  if (const auto* map = static_cast<const MapState*>(state)) {
+    light->pool = map->pool;
+    if (vertices_)
+      light->vertices = map->lightAtVertices(vertices_->entries(), frame.randomization);
+  }
   if (t_.emitters.empty()) return light;
   if (t_.settings.mapDirect == MapDirect::off) addDirectVpls(t_, frame, set, 1, light->vpls);
   light->photons = causticsOf(t_, frame, set, light->rays);
@@ -53,7 +83,7 @@ std::unique_ptr<Scratch> PhotonMap::makeScratch() const { return std::make_uniqu
 StepResult PhotonMap::step(const StatePages& pages, const StepKey& step, uint32_t unit) const {
   const MapLayout layout(t_.settings);
   StepResult result;
-  const auto photons = shootUnit(t_, step.randomization, unit, layout, result.rays);
+  const auto photons = shootUnit(world_.transport(), step.randomization, unit, layout, result.rays);
   result.deltas = layout.replace(pages, layout.partOf(unit), photons);
   return result;
 }
@@ -78,7 +108,11 @@ void PhotonMap::query(const FrameLight& frameLight, const ReceiverSamples& sampl
   if (t_.settings.compensate && t_.settings.mapDirect == MapDirect::off)
     compensate(t_, samples, pathVertices, {.emission = true, .onward = false, .glossy = false},
                scratch.gather.compensation, receivers, rays, [](int, Receivers&) {});
-  if (light.pool != nullptr)
+  if (light.pool == nullptr) return;
+  if (light.vertices != nullptr && pathVertices == 1)
+    gatherAtVertices(t_, *light.pool, *vertices_, *light.vertices, light.randomization, scratch.map,
+                     scratch.vertices, receivers, rays);
+  else
     gatherPool(t_, *light.pool, pathVertices, light.randomization, scratch.map, receivers, rays);
 }
 
