@@ -18,9 +18,9 @@ namespace ninefold {
 // Raised whenever the meaning of any message, or the format of tiles, scenes or states changes.
 inline constexpr uint32_t kProtocol = 4;
 
-inline constexpr std::string_view kMessagesDigest = "8af7c8671ea4ca7c";
+inline constexpr std::string_view kMessagesDigest = "9fb133e92517ab84";
 inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
-inline constexpr std::string_view kScenesDigest = "fde0a0c2619dbf8c";
+inline constexpr std::string_view kScenesDigest = "2e48dee2da84c098";
 inline constexpr std::string_view kStatesDigest = "bc7f3e420652a9f2";
 
 }  // namespace ninefold

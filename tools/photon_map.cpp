@@ -209,8 +209,7 @@ Scene sceneOf(const Wanted& w) {
   Scene scene = w.surfaces > 0 ? MapBox::make(cutsOf(w.surfaces))
                                : readScene(w.options.scene, w.options.clip);
   if (w.photonsMeet > 0) addPhotonScene(scene, MapBox::make(cutsOf(w.photonsMeet)));
-  if (w.options.photonScene) addPhotonScene(scene, readScene(*w.options.photonScene));
-  return scene;
+  return withPhotonScene(std::move(scene), w.options.photonScene);
 }
 
 int run(int argc, char** argv) {

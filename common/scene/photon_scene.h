@@ -8,8 +8,11 @@
 //
 // Source:  Jozwowski 2002, 4.4 (scene simplification).
 // Proved:  tests/scene/photon_scene_test.cpp; tests/gi/photon_scene_test.cpp (light).
-// Threads: pure functions.   Errors: as validate() of reader.h, when both are too much together.
+// Threads: reentrant.   Errors: as readScene and validate() of reader.h.
 #pragma once
+
+#include <optional>
+#include <string>
 
 #include "common/scene/scene.h"
 
@@ -17,6 +20,8 @@ namespace ninefold {
 
 // Adds `simple` to what goes to clients with `scene`.
 void addPhotonScene(Scene& scene, const Scene& simple);
+// The scene with that of the file; as it is without one.
+Scene withPhotonScene(Scene scene, const std::optional<std::string>& file);
 
 // What photons meet; only for a scene with photonInstances.
 Scene photonSceneOf(const Scene& scene);

@@ -138,7 +138,7 @@ TEST(MapVertices, HaveOneNameEach) {
 TEST(MapVertices, AroundAPointGiveThePoint) {
   for (int levels = 0; levels <= 6; ++levels) {
     const World w(wave(), levels);
-    const float most = 0.36f / static_cast<float>(1u << levels);  // of a small triangle's side
+    const float most = 0.37f / static_cast<float>(1u << levels);  // of a small triangle's side
     for (uint64_t k = 0; k < 2000; ++k) {
       const auto triangle =
           static_cast<uint32_t>(hashWords(k, 1) % w.scene.meshes[0].triangles.size());

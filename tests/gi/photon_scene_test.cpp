@@ -59,7 +59,7 @@ TEST(PhotonScene, LampsAreThoseOfTheSceneThatIsSeen) {
     return sum;
   };
   const double point = 4 * double(kPi) * 0.5, area = double(kPi) * 0.2 * 3;
-  EXPECT_NEAR(straight(), point + area, 0.02 * (point + area));
+  EXPECT_NEAR(straight(), point + area, 0.03 * (point + area));
   scene.lights[0].intensity = Vec3(0);
   EXPECT_NEAR(straight(), area, 0.02 * area);
 }
