@@ -125,13 +125,15 @@ TEST(PhotonGather, LeavesOutLongerPaths) {
   }
 }
 
-// f of one point.
-float cover(const World& world, Vec3 x, float r, float height = 0.05f, float turn = 0.3f) {
+// f of one point on the first instance, which is seen from its back if `turned`.
+float cover(const World& world, Vec3 x, float r, float height = 0.05f, float turn = 0.3f,
+            bool turned = false) {
   SurfaceCover surface;
   RayCounts rays;
   SurfaceCover::Disks disks;
   disks.centre = x, disks.normal = Vec3(0, 1, 0);
   disks.least = disks.most = r, disks.height = height, disks.turn = turn;
+  disks.own = 0, disks.turned = turned;
   surface.shoot(world.transport, disks, rays);
   return surface.share(x, Vec3(0, 1, 0), r);
 }
@@ -185,7 +187,7 @@ TEST(SurfaceCover, ALowCeilingDoesNotCount) {
 TEST(SurfaceCover, ASheetSeenFromItsBackCounts) {
   SceneBuilder b;
   b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-2, 0, -2), Vec3(4, 0, 0), Vec3(0, 0, 4));
-  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f), 1);
+  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f, 0.05f, 0.3f, true), 1);
 }
 
 // Two rooms with a wall between them, a lamp in one. On the other side of the wall it is dark: hits

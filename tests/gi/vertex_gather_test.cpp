@@ -207,7 +207,6 @@ TEST(VertexGather, TendsToTheEstimateAtPixels) {
       error += double(e[i].x - at[i].x) * double(e[i].x - at[i].x);
       sum += double(at[i].x) * double(at[i].x);
     }
-    std::cout << levels << " " << error / sum << " " << light.count() << "\n";
     EXPECT_TRUE(levels == 1 || error / sum < 0.5 * before) << levels;
     before = error / sum;
   }
