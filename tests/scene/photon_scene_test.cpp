@@ -13,7 +13,7 @@ namespace {
 
 TextureImage onePixel(uint8_t value) {
   TextureImage image;
-  image.width = image.height = image.channels = 1;
+  image.width = image.height = image.channels = 1, image.srgb = true;
   image.texels = {value};
   return image;
 }
