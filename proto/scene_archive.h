@@ -185,7 +185,8 @@ void describe(A& a, Of<Camera> auto& camera) {
 // Everything but images and meshes.
 template <typename A>
 void describe(A& a, Of<Scene> auto& scene) {
-  a(scene.name, scene.materials, scene.instances, scene.lights, scene.profiles, scene.cameras);
+  a(scene.name, scene.materials, scene.instances, scene.photonInstances);
+  a(scene.lights, scene.profiles, scene.cameras);
   a(scene.environment, scene.origin, scene.bounds.low, scene.bounds.high);
 }
 

@@ -4,6 +4,7 @@
 // Threads: reentrant.   Errors: as Renderer.
 #pragma once
 
+#include "common/gi/eye/layer_receivers.h"
 #include "common/gi/renderer.h"
 #include "common/image/image.h"
 #include "common/scene/settings.h"
@@ -16,6 +17,23 @@ inline FrameKey pictureKey(const Settings& settings, const Scene& scene) {
   key.photonRadius = settings.photonRadius * scene.bounds.radius();
   key.state = 1;
   return key;
+}
+
+// Calls each(receivers) for all that a picture asks of the light, task by task, layer by layer.
+template <typename Each>
+void forAllReceivers(const Transport& t, const Each& each) {
+  const View view = viewOf(t, t.settings);
+  const TileGrid grid(t.settings.width, t.settings.height, t.settings.interleave);
+  LayerReceivers layers;
+  TileResult result;
+  for (int phase = 0; phase < t.settings.interleave.sets(); ++phase)
+    for (int tile = 0; tile < grid.tiles(); ++tile) {
+      TaskContext context(t, view, Task{pictureKey(t.settings, t.scene), tile, phase, 0}, result,
+                          1);
+      layers.find(context);
+      for (int layer = 0; layer < kLayers; ++layer)
+        if (hasLayer(result.layerMask, layer)) each(layers.of(layer));
+    }
 }
 
 inline Vec3 composed(const TileResult& tile, size_t pixel) {

@@ -1,16 +1,18 @@
 // map_stages.h: what the stages of a frame of the photon map cost, in one thread.
 //
-//   shoot     the paths of one unit, shooting.h
+//   shoot     the paths of one unit, shooting.h, in what photons meet, photon_world.h
 //   balance   the k-d tree of all hits, photon_tree.h
 //   build     the grid of all hits, photon_cells.h
 //   update    the grid as it was: the hits of the oldest unit out, those of the new one in
-//   estimate  E of all receivers of the picture from the pool, map_gather.h. Eye paths are traced
-//             outside of the time.
+//   estimate  E of all receivers of the picture from the pool, map_gather.h or vertex_gather.h. Eye
+//             paths are traced outside of the time.
+//   vertices  with light at vertices: what that costs in other ways, map_vertex_stages.h
 //   rest      light() and render() of the whole picture with an empty pool: eye paths, direct light
 //             where that is not the pool's, caustic photons
 //
 // Medians of some repeats, processor time of the thread. In each repeat the pool goes on by a unit;
-// `estimate` and `rest`, which take far longer than the others, are of each fifth.
+// `estimate` and `rest`, which take far longer than the others, are of each fifth, `vertices` of
+// the first.
 //
 // Threads: one thread's.   Errors: none.
 #pragma once
@@ -19,19 +21,21 @@
 #include <array>
 #include <vector>
 
-#include "common/base/cpu_time.h"
-#include "common/gi/eye/layer_receivers.h"
 #include "common/gi/photon_map/map_gather.h"
+#include "common/gi/photon_map/photon_world.h"
 #include "common/gi/photon_map/shooting.h"
 #include "common/gi/renderer.h"
 #include "tools/map_picture.h"
+#include "tools/map_vertex_stages.h"
+#include "tools/thread_time.h"
 
 namespace ninefold {
 
 struct MapStages {
   double shoot = 0, balance = 0, build = 0, update = 0, estimate = 0, rest = 0;  // [ms]
-  size_t hits = 0;     // of the whole pool, in the last repeat
-  double perUnit = 0;  // mean number of hits of a unit
+  size_t hits = 0;                    // of the whole pool, in the last repeat
+  double perUnit = 0;                 // mean number of hits of a unit
+  std::vector<VertexStage> vertices;  // none with the estimate at pixels
 };
 
 class StageTimer {
@@ -39,6 +43,7 @@ class StageTimer {
   StageTimer(const Tracer& tracer, const Settings& settings)
       : settings_(settings),
         transport_(tracer, settings),
+        world_(transport_, nullptr),
         renderer_(tracer, settings),
         layout_(settings),
         parts_(layout_.parts()) {
@@ -52,7 +57,7 @@ class StageTimer {
     for (int i = 0; i < repeats; ++i, ++unit_) {
       MapStages one = renew();
       const bool isSeen = i % 5 == 0;
-      if (isSeen) look(one);
+      if (isSeen) look(one, all);
       const std::array values{one.shoot,  one.balance,  one.build,
                               one.update, one.estimate, one.rest};
       for (size_t stage = 0; stage < (isSeen ? 6 : 4); ++stage)
@@ -71,16 +76,9 @@ class StageTimer {
     std::nth_element(values.begin(), middle, values.end());
     return *middle;
   }
-  // Processor time that work() takes [ms].
-  template <typename Work>
-  static double timeOf(const Work& work) {
-    const Duration start = threadCpuTime();
-    work();
-    return 1e3 * seconds(threadCpuTime() - start);
-  }
 
   std::vector<MapPhoton> shot(uint32_t unit) {
-    return shootUnit(transport_, 0, unit, layout_, rays_);
+    return shootUnit(world_.transport(), 0, unit, layout_, rays_);
   }
   // The hits of a unit take the place of those before; their names are new.
   void put(std::vector<MapPhoton> photons) {
@@ -99,47 +97,46 @@ class StageTimer {
   MapStages renew() {
     MapStages one;
     std::vector<MapPhoton> photons;
-    one.shoot = timeOf([&] { photons = shot(unit_); });
+    one.shoot = threadTime([&] { photons = shot(unit_); });
     one.perUnit = static_cast<double>(photons.size());
     Part& part = parts_[layout_.partOf(unit_)];
     const std::vector<NamedPoint> old = part.points;
     put(std::move(photons));
-    one.update = timeOf([&] {
+    one.update = threadTime([&] {
       for (const NamedPoint& p : old) cells_.erase(p);
       for (const NamedPoint& p : part.points) cells_.insert(p);
     });
     std::vector<NamedPoint> all = points();
     one.hits = all.size();
-    one.build = timeOf([&] { const PhotonCells cells{all}; });
-    one.balance = timeOf([&] { const PhotonTree tree{std::move(all)}; });
+    one.build = threadTime([&] { const PhotonCells cells{all}; });
+    one.balance = threadTime([&] { const PhotonTree tree{std::move(all)}; });
     return one;
   }
 
   // The picture.
-  void look(MapStages& one) {
+  void look(MapStages& one, MapStages& all) {
     std::vector<MapPhoton> pool;
     for (const Part& part : parts_)
       pool.insert(pool.end(), part.photons.begin(), part.photons.end());
-    one.estimate = estimateTime(PhotonPool(std::move(pool), settings_.mapIndex));
+    const PhotonPool photons(std::move(pool), settings_.mapIndex);
+    if (settings_.mapEstimate == MapEstimate::vertices) {
+      VertexStages stages(transport_, photons);
+      const VertexStage asked = stages.asked();
+      if (all.vertices.empty()) all.vertices = stages.measure(), all.vertices.push_back(asked);
+      one.estimate = asked.ms;
+    } else {
+      one.estimate = estimateTime(photons);
+    }
     const FrameKey key = pictureKey(settings_, transport_.scene);
     RgbImage picture;
-    one.rest = timeOf([&] { renderPicture(renderer_, settings_, key, nullptr, picture); });
+    one.rest = threadTime([&] { renderPicture(renderer_, settings_, key, nullptr, picture); });
   }
 
   double estimateTime(const PhotonPool& pool) {
-    const View view = viewOf(transport_, settings_);
-    const TileGrid grid(settings_.width, settings_.height, settings_.interleave);
     double time = 0;
-    for (int phase = 0; phase < settings_.interleave.sets(); ++phase)
-      for (int tile = 0; tile < grid.tiles(); ++tile) {
-        const Task task{pictureKey(settings_, transport_.scene), tile, phase, 0};
-        TaskContext context(transport_, view, task, tile_, 1);
-        layers_.find(context);
-        for (int layer = 0; layer < kLayers; ++layer)
-          if (hasLayer(tile_.layerMask, layer))
-            time += timeOf(
-                [&] { gatherPool(transport_, pool, 1, 0, scratch_, layers_.of(layer), rays_); });
-      }
+    forAllReceivers(transport_, [&](Receivers& receivers) {
+      time += threadTime([&] { gatherPool(transport_, pool, 1, 0, scratch_, receivers, rays_); });
+    });
     return time;
   }
 
@@ -150,14 +147,13 @@ class StageTimer {
 
   Settings settings_;
   Transport transport_;
+  PhotonWorld world_;
   Renderer renderer_;
   MapLayout layout_;
   std::vector<Part> parts_;
   PhotonCells cells_;
   uint32_t unit_ = 0, nextName_ = 0;
   RayCounts rays_;
-  TileResult tile_;
-  LayerReceivers layers_;
   MapGatherScratch scratch_;
 };
 

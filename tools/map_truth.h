@@ -1,8 +1,9 @@
 // map_truth.h: a scene at one moment, and its picture as it ought to be.
 //
-// The truth is the picture of the photon map with a pool of many paths, direct light by virtual
-// lights, and m = 100 sqrt(paths/2000): light is blurred over (2000/paths)^(1/4) of the radius that
-// 2,000 paths and m = 100 blur it over. It is noise-free to 1/sqrt(m) of the bounced light.
+// The truth is the picture of the photon map with a pool of many paths in the scene that is seen,
+// E at pixels, direct light by virtual lights, and m = 100 sqrt(paths/2000). So light is blurred
+// over (2000/paths)^(1/4) of the radius that 2,000 paths and m = 100 blur it over. It is noise-free
+// to 1/sqrt(m) of the bounced light.
 //
 // Truths may be kept in a folder, for runs of the same scene. A file's name has what they depend
 // on, but for the scene, the camera and flags that are no photons'.
@@ -60,6 +61,7 @@ inline Settings truthSettings(Settings s, int paths) {
     s.mapPerFrame = paths / parts;
   s.mapNearest = static_cast<int>(std::lround(100 * std::sqrt(paths / 2000.0)));
   s.mapDirect = MapDirect::off, s.mapDistribution = MapDistribution::nets;
+  s.mapEstimate = MapEstimate::pixels;
   s.seed += 1'000'003;
   return s;
 }
@@ -68,7 +70,9 @@ class MapTruth {
  public:
   // folder: where truths are kept; empty: nowhere.
   MapTruth(const Scene& scene, const Settings& settings, int paths, std::string folder)
-      : scene_(scene), settings_(truthSettings(settings, paths)), folder_(std::move(folder)) {}
+      : scene_(scene), settings_(truthSettings(settings, paths)), folder_(std::move(folder)) {
+    scene_.photonInstances.clear();
+  }
 
   // lamp: where the first one is then; nothing: where the scene has it.
   RgbImage at(int frame, const std::optional<Vec3>& lamp) const {
@@ -86,7 +90,7 @@ class MapTruth {
     return fmt::format("{}/truth_{}x{}_{}_paths_length_{}_seed_{}_{}.exr", folder_, s.width,
                        s.height, s.mapPhotons, s.pathLength, s.seed, frame);
   }
-  const Scene& scene_;
+  Scene scene_;
   Settings settings_;
   std::string folder_;
 };

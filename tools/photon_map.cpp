@@ -11,6 +11,7 @@
 #include "common/base/standard_streams.h"
 #include "common/image/image_file.h"
 #include "common/scene/methods.h"
+#include "common/scene/photon_scene.h"
 #include "common/scene/settings_table.h"
 #include "master/options/options.h"
 #include "tools/map_box.h"
@@ -31,6 +32,8 @@ constexpr const char* kHelp =
     "fluctuate, how wrong they are and how late, as JSON. One thread.\n\n"
     "  --box N         no scene file: a room with two boxes and a point light, of N surfaces: 16,\n"
     "                  64, 256, 1024, ... 65536\n"
+    "  --photon-box N  photons meet the room of N surfaces, or with --photon-scene FILE that "
+    "scene\n"
     "  --repeats N     of timing each stage, medians are given (default 25; 0: no timing)\n"
     "  --light HOW     frames, of which each has one unit shot anew: still, or circle or jump "
     "with\n"
@@ -47,12 +50,17 @@ constexpr const char* kHelp =
     "  and the flags of ninefold-master, see there, that say what the picture is\n\n"
     "stages [ms of processor time]: shoot one unit; balance the k-d tree; build the grid; update\n"
     "the grid by one unit; estimate E of the whole picture, eye paths not included; rest: of the\n"
-    "picture, with an empty pool. total: shoot, the index that --map-index names, estimate, "
+    "picture, with an empty pool. vertices, with --map-estimate vertices: estimates, and their "
+    "time,\n"
+    "at all corners of small triangles, at those turned to the eye, at each vertex once, both, "
+    "and\n"
+    "at those that pixels ask for. total: shoot, the index that --map-index names, estimate, "
     "rest.\n"
     "Exit status: 0 done, 1 a failure (one line on stderr), 2 wrong usage.\n";
 
 struct Wanted {
-  int surfaces = 0;  // of the box; 0: a scene file
+  int surfaces = 0;     // of the box; 0: a scene file
+  int photonsMeet = 0;  // surfaces of another box; 0: the same
   int repeats = 25, every = 1, truth = 100'000, runs = 4;
   std::string light, pictures, truths;
   Options options;
@@ -68,6 +76,7 @@ int cutsOf(int surfaces) {
 Wanted wantedOf(Words words) {
   Wanted w;
   w.surfaces = words.takeWhole("box", 0, kBoxSurfaces, 65536);
+  w.photonsMeet = words.takeWhole("photon-box", 0, kBoxSurfaces, 65536);
   w.repeats = words.takeWhole("repeats", w.repeats, 0, 100'000);
   w.every = words.takeWhole("every", w.every, 1, 100'000);
   w.truth =
@@ -85,6 +94,8 @@ Wanted wantedOf(Words words) {
   if (!factsOf(o.settings.method).has(kMapPhotons)) failUsage("needs --method photon-map");
   if (!w.light.empty() && w.light != "still" && w.light != "circle" && w.light != "jump")
     failUsage("--light {}: must be still, circle or jump", w.light);
+  if (w.photonsMeet > 0 && (w.surfaces == 0 || w.options.photonScene))
+    failUsage("--photon-box goes with --box, and without --photon-scene");
   if (w.surfaces == 0 && (w.light == "circle" || w.light == "jump"))
     failUsage("--light {}: only the lamp of --box N moves", w.light);
   if (w.light != "jump" && !w.light.empty() && *o.stop.frames < 2)
@@ -102,13 +113,17 @@ Json settingsOf(const Settings& s) {
           {"map_distance", s.mapDistance},
           {"map_direct", textOf(s.mapDirect)},
           {"map_distribution", textOf(s.mapDistribution)},
-          {"map_index", textOf(s.mapIndex)}};
+          {"map_index", textOf(s.mapIndex)},
+          {"map_estimate", textOf(s.mapEstimate)},
+          {"map_subdivision", s.mapSubdivision}};
 }
 
 Json stagesOf(const Scene& scene, const Settings& settings, int repeats) {
   const Tracer tracer(scene, Isa::automatic);
   const MapStages s = StageTimer(tracer, settings).measure(repeats);
   const bool balances = settings.mapIndex == MapIndex::tree;
+  Json vertices;
+  for (const VertexStage& v : s.vertices) vertices[v.name] = Json{{"count", v.count}, {"ms", v.ms}};
   return {{"repeats", repeats},
           {"hits", s.hits},
           {"hits_per_unit", s.perUnit},
@@ -118,6 +133,7 @@ Json stagesOf(const Scene& scene, const Settings& settings, int repeats) {
           {"update_ms", s.update},
           {"estimate_ms", s.estimate},
           {"rest_ms", s.rest},
+          {"vertices", vertices},
           {"total_ms", s.shoot + (balances ? s.balance : s.build) + s.estimate + s.rest}};
 }
 
@@ -146,16 +162,23 @@ Json fluctuationOf(const MapMotion& motion, const Wanted& w) {
           {"flicker", f.flicker},   {"relmse_mean", mean},    {"relmse", f.relMse}};
 }
 
+Scene sceneOf(const Wanted& w) {
+  Scene scene = w.surfaces > 0 ? MapBox::make(cutsOf(w.surfaces))
+                               : readScene(w.options.scene, w.options.clip);
+  if (w.photonsMeet > 0) addPhotonScene(scene, MapBox::make(cutsOf(w.photonsMeet)));
+  return withPhotonScene(std::move(scene), w.options.photonScene);
+}
+
 int run(int argc, char** argv) {
   const Words words(argc, argv);
   if (words.has("--help") || words.has("-h")) return writeOutput(kHelp), 0;
   if (words.has("--version")) return writeOutput(versionText(kProgram)), 0;
   const Wanted w = wantedOf(words);
-  const Scene scene = w.surfaces > 0 ? MapBox::make(cutsOf(w.surfaces))
-                                     : readScene(w.options.scene, w.options.clip);
+  const Scene scene = sceneOf(w);
   Settings settings = makeSettings(w.options, scene);
   Json all{{"scene", scene.name}, {"settings", settingsOf(settings)}};
   if (w.surfaces > 0) all["surfaces"] = w.surfaces;
+  if (w.photonsMeet > 0) all["photons_meet"] = w.photonsMeet;
   if (w.repeats > 0) all["stages"] = stagesOf(scene, settings, w.repeats);
   if (!w.light.empty()) {
     settings.jitter = false;

@@ -19,6 +19,7 @@
 #include "common/scene/camera_choice.h"
 #include "common/scene/methods.h"
 #include "common/scene/needs.h"
+#include "common/scene/photon_scene.h"
 #include "common/scene/reader.h"
 #include "master/options/options.h"
 #include "master/running/frame_plan.h"
@@ -32,6 +33,10 @@
 
 namespace ninefold {
 namespace {
+
+Scene sceneOf(const Options& options) {
+  return withPhotonScene(readScene(options.scene, options.clip), options.photonScene);
+}
 
 constexpr const char* kProgram = "ninefold-replay-task";
 constexpr const char* kHelp =
@@ -142,7 +147,8 @@ void warnOfAnotherClass(const msg::Hello& client, Isa isa) {
 
 TaskAgain fromRecording(const CommandLine& line, const TaskPlace& place) {
   for (const std::string& word : line.rest)
-    if (word.starts_with("--") && !word.starts_with("--isa") && !word.starts_with("--clip"))
+    if (word.starts_with("--") && !word.starts_with("--isa") && !word.starts_with("--clip") &&
+        !word.starts_with("--photon-scene"))
       failUsage("{}: with --recording the picture is the recorded one; leave it out", word);
   if (line.lightCameras)
     failUsage("--light-cameras: with --recording they are the recorded ones; leave it out");
@@ -151,7 +157,7 @@ TaskAgain fromRecording(const CommandLine& line, const TaskPlace& place) {
   const Isa isa = isaNamed(options.isa == "auto" ? found.client.isa : options.isa);
   warnOfAnotherClass(found.client, isa);
 
-  const std::vector<Blob> blobs = packScene(readScene(options.scene, options.clip));
+  const std::vector<Blob> blobs = packScene(sceneOf(options));
   if (!std::ranges::equal(blobs, found.scene, {}, &Blob::info))
     fail("{}: is not the scene of {}; give the file that the master had then", options.scene,
          *line.recording);
@@ -201,7 +207,7 @@ TaskAgain fromFlags(const CommandLine& line, const TaskPlace& place) {
   FramePlan plan(job.firstPhotonRadius, job.settings.interleave.sets(), options.converging);
   FrameKey frame = frameOf(*line.frame, place.frame, plan);
   const float weight = plan.neighbourWeight(place.frame);
-  const Scene scene = readScene(options.scene, options.clip);
+  const Scene scene = sceneOf(options);
   if (line.lightCameras) frame.lightCameras = camerasOf(scene, *line.lightCameras);
   // Any version but 0, which has no pages.
   if (factsOf(job.settings.method).state != nullptr) frame.state = frame.randomization + 1;

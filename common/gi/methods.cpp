@@ -25,7 +25,7 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
     case Method::bidirectional:
       return std::make_unique<const Bidirectional>(t, dynamic_cast<const Bidirectional*>(begun));
     case Method::photonMap:
-      return std::make_unique<const PhotonMap>(t);
+      return std::make_unique<const PhotonMap>(t, dynamic_cast<const PhotonMap*>(begun));
     case Method::selective:
       return std::make_unique<const Selective>(t);
     case Method::automatic: {

@@ -55,6 +55,7 @@ bool haveSameMap(const Settings& before, const Settings& after) {
   a.vplRoulette = after.vplRoulette, a.resampling = after.resampling;
   a.cameraPoints = after.cameraPoints, a.partition = after.partition;
   a.mapNearest = after.mapNearest, a.mapDistance = after.mapDistance, a.mapIndex = after.mapIndex;
+  a.mapEstimate = after.mapEstimate, a.mapSubdivision = after.mapSubdivision;
   const bool hadLamps = before.directVpls > 0, hasLamps = after.directVpls > 0;
   if (hadLamps == hasLamps || before.mapDirect == MapDirect::off) a.directVpls = after.directVpls;
   return a == after;

@@ -45,6 +45,8 @@ std::string replayLine(const Scene& scene, const Settings& s, const FrameKey& fr
   forEachSetting([&](const auto& row) {
     if (row.isUsedBy(s.method)) line += flagOf(row, s.*row.member);
   });
+  if (!scene.photonInstances.empty() && factsOf(s.method).has(kMapPhotons))
+    line += " --photon-scene FILE";
   return line;
 }
 

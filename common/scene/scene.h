@@ -133,6 +133,7 @@ struct Scene {
   std::vector<Material> materials;
   SharedList<Mesh> meshes;
   std::vector<Instance> instances;
+  std::vector<Instance> photonInstances;  // what photons of a pool meet, see photon_scene.h
   std::vector<PunctualLight> lights;
   SharedList<LightProfile> profiles;
   std::vector<Camera> cameras;        // at least one after reading

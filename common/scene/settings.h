@@ -31,6 +31,7 @@ enum class MapDistribution : uint8_t { random, frame, turn, nets };  // photon_m
 enum class MapIndex : uint8_t { grid, tree };
 enum class MapDirect : uint8_t { off, on };
 enum class ElementRule : uint8_t { linear, buckets };  // selective/element_light.h
+enum class MapEstimate : uint8_t { pixels, vertices };
 
 struct Settings {
   Method method = Method::instantRadiosity;
@@ -55,6 +56,8 @@ struct Settings {
   int pilotRatio = 16;        // R: all photons of a group over its pilots
   float elementSize = 0.08f;  // h: side of an element, as a fraction of R
   ElementRule elementRule = ElementRule::linear;
+  MapEstimate mapEstimate = MapEstimate::pixels;  // where photons tell the light
+  int mapSubdivision = 3;      // levels of the mesh whose vertices they tell it at
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row
   float bound = 30;            // c of b = c/R^2

@@ -1,5 +1,7 @@
 #include "common/scene/settings_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/base/error.h"
@@ -11,6 +13,7 @@ namespace {
 constexpr int64_t kMostCandidates = 1 << 20, kMostDensityRays = 1 << 26;
 constexpr int kLongestSums = 64;
 constexpr int kMostParts = 65536;
+constexpr uint64_t kMostMapTriangles = 1 << 23;
 
 // The largest divisor of n that is not above `wanted`.
 int nearestDivisor(int n, int wanted) {
@@ -77,6 +80,20 @@ void checkTogether(const Settings& s) {
   if (facts.has(kReverseVpls)) checkReverse(s, facts);
   if (facts.has(kMapPhotons)) checkMap(s);
   if (facts.has(kElementPhotons)) checkGroups(s);
+}
+
+void checkWith(const Scene& scene, const Settings& s) {
+  if (s.mapEstimate != MapEstimate::vertices) return;
+  uint64_t triangles = 0;
+  for (const Instance& instance : scene.instances)
+    triangles += scene.meshes[static_cast<size_t>(instance.mesh)].triangles.size();
+  const auto cut = [&](int levels) { return triangles << 2 * levels; };
+  if (cut(s.mapSubdivision) <= kMostMapTriangles) return;
+  int fits = s.mapSubdivision - 1;
+  while (fits >= 0 && cut(fits) > kMostMapTriangles) --fits;
+  fail("map-subdivision is {}: the scene's {} triangles become {}, at most are {}: {}",
+       s.mapSubdivision, triangles, cut(s.mapSubdivision), kMostMapTriangles,
+       fits >= 0 ? fmt::format("{} would do", fits) : "use --map-estimate pixels");
 }
 
 }  // namespace ninefold

@@ -9,13 +9,21 @@
 // A rolling pool of photons is renewed in parts (gi/photon_map): as many a frame as divide it, and
 // 65536 parts at most.
 //
-// Threads: pure function.   Errors: throws Error that says what is wrong and what would do.
+// Light at the vertices of a finer mesh (gi/photon_map) takes memory by the scene's triangles,
+// whatever the method, as a window may choose another one:
+//
+//   triangles 4^levels <= 2^23
+//
+// Threads: pure functions.   Errors: throws Error that says what is wrong and what would do.
 #pragma once
 
+#include "common/scene/scene.h"
 #include "common/scene/settings.h"
 
 namespace ninefold {
 
 void checkTogether(const Settings& settings);
+// What this scene is too large for.
+void checkWith(const Scene& scene, const Settings& settings);
 
 }  // namespace ninefold

@@ -77,6 +77,11 @@ std::span<const char* const> namesOf(MapIndex) {
   return kNames;
 }
 
+std::span<const char* const> namesOf(MapEstimate) {
+  static constexpr std::array kNames{"pixels", "vertices"};
+  return kNames;
+}
+
 std::span<const char* const> namesOf(MapDirect) {
   static constexpr std::array kNames{"off", "on"};
   return kNames;

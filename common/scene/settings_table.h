@@ -207,6 +207,21 @@ inline constexpr std::tuple kSettings{
                                  "the nearest one, as published",
                          .parts = kElementPhotons,
                          .slider = {"light between elements"}},
+    // No sliders for these two: the scene may be too large for them (settings_check.h).
+    Setting<MapEstimate>{
+        .name = "map-estimate",
+        .member = &Settings::mapEstimate,
+        .value = "pixels|vertices",
+        .help = "where photons tell the light: at what each pixel sees, or at the vertices of a "
+                "finer mesh, and between them in proportion",
+        .parts = kMapPhotons},
+    Setting<int>{.name = "map-subdivision",
+                 .member = &Settings::mapSubdivision,
+                 .low = 0,
+                 .high = 6,
+                 .value = "N",
+                 .help = "levels of that mesh, {0} to {1}: each makes four of a triangle",
+                 .parts = kMapPhotons},
     Setting<int>{.name = "path-length",
                  .member = &Settings::pathLength,
                  .low = 0,
@@ -302,6 +317,7 @@ std::span<const char* const> namesOf(PartitionRule);
 std::span<const char* const> namesOf(MapDistribution);
 std::span<const char* const> namesOf(MapIndex);
 std::span<const char* const> namesOf(MapDirect);
+std::span<const char* const> namesOf(MapEstimate);
 std::span<const char* const> namesOf(Randomization);
 
 // One word, as a flag takes it.

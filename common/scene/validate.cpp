@@ -63,18 +63,25 @@ void checkImages(const Scene& scene) {
   if (total > kMaxTexels) fail("{} texels, more than {}: scale textures down", total, kMaxTexels);
 }
 
-void checkInstances(const Scene& scene) {
-  if (scene.instances.size() > kMaxInstances)
-    fail("{} instances, more than {}: merge objects", scene.instances.size(), kMaxInstances);
+uint64_t trianglesOf(const Scene& scene, const std::vector<Instance>& instances) {
   uint64_t triangles = 0;
-  for (size_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
+  for (size_t i = 0; i < instances.size(); ++i) {
+    const Instance& instance = instances[i];
     if (instance.mesh < 0 || static_cast<size_t>(instance.mesh) >= scene.meshes.size())
       fail("instance {}: mesh {} does not exist", i, instance.mesh);
     if (!isPlacement(instance.toWorld)) fail("instance {}: its matrix cannot be inverted", i);
     triangles += scene.meshes[static_cast<size_t>(instance.mesh)].triangles.size();
   }
-  if (triangles == 0) fail("no geometry: the scene has no triangle to show");
+  return triangles;
+}
+
+void checkInstances(const Scene& scene) {
+  const size_t count = scene.instances.size() + scene.photonInstances.size();
+  if (count > kMaxInstances)
+    fail("{} instances, more than {}: merge objects", count, kMaxInstances);
+  const uint64_t seen = trianglesOf(scene, scene.instances);
+  const uint64_t triangles = seen + trianglesOf(scene, scene.photonInstances);
+  if (seen == 0) fail("no geometry: the scene has no triangle to show");
   if (triangles > kMaxTriangles)
     fail("{} triangles, more than {}: simplify the scene", triangles, kMaxTriangles);
 }

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/settings_table.h"
+
 namespace ninefold {
 namespace {
 
 constexpr size_t kDigits = 10;
+constexpr float kPhotonDot = 0.004f;  // [R]
 
 Vec3 at(const RgbPlane& plane, size_t i) { return Vec3(plane.r[i], plane.g[i], plane.b[i]); }
 
@@ -71,16 +74,27 @@ uint8_t planesOf(PictureView view) {
   }
 }
 
+// All hits within a dot's radius, blurred over no more than that, and nothing else.
+Settings photonsAlone(Settings s) {
+  s.mapEstimate = MapEstimate::pixels;
+  s.mapDistance = kPhotonDot;
+  s.mapNearest = static_cast<int>(settingOf(&Settings::mapNearest).high);
+  s.caustics = Caustics::off, s.compensate = false;
+  if (s.mapDirect == MapDirect::off) s.directVpls = 0;
+  return s;
+}
+
 // Direct light is that of paths with one diffuse vertex; indirect light that of VPLs off the lamps.
 Settings settingsFor(PictureView view, Settings settings) {
   if (view == PictureView::direct) settings.pathLength = 1, settings.caustics = Caustics::off;
   if (view == PictureView::indirect) settings.directVpls = 0;
-  return settings;
+  const bool hasPool = factsOf(settings.method).has(kMapPhotons);
+  return view == PictureView::photons && hasPool ? photonsAlone(settings) : settings;
 }
 
 bool isLight(PictureView view) {
   return view == PictureView::beauty || view == PictureView::direct ||
-         view == PictureView::indirect;
+         view == PictureView::indirect || view == PictureView::photons;
 }
 
 bool isFalseColor(PictureView view) { return !isLight(view) && view != PictureView::caustics; }

@@ -6,6 +6,8 @@
 //   sets                    which light set a pixel met
 //   error                   standard error of the mean so far, over the mean
 //   clients                 who rendered what
+//   photons                 of a method with a pool of them: what each lights by itself, within
+//                           0.004 R of where it hit; of others: beauty
 //   weights                 the share of its window that the discontinuity buffer averaged, in the
 //                           diffuse layer; only the pixel itself where light is not filtered
 //
@@ -37,11 +39,12 @@ enum class PictureView : uint8_t {
   error,
   clients,
   objects,
-  weights
+  weights,
+  photons
 };
-inline constexpr std::array kViewNames{"beauty", "albedo",   "normal",   "depth",
-                                       "direct", "indirect", "caustics", "sets",
-                                       "error",  "clients",  "objects",  "weights"};
+inline constexpr std::array kViewNames{"beauty",   "albedo",   "normal", "depth", "direct",
+                                       "indirect", "caustics", "sets",   "error", "clients",
+                                       "objects",  "weights",  "photons"};
 
 inline const char* nameOf(PictureView view) { return kViewNames[static_cast<size_t>(view)]; }
 std::optional<PictureView> viewNamed(const std::string& name);

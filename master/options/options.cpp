@@ -125,7 +125,10 @@ void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
   o.clip = raw.text("clip");
+  o.photonScene = raw.text("photon-scene");
   readAnimation(raw, o);
+  if (o.photonScene && !isLive(o) && !factsOf(o.settings.method).has(kMapPhotons))
+    failUsage("--photon-scene is for --method {}", factsOf(Method::photonMap).name);
   assign(o.frameTime, raw.real("frame-time", 1, 10000));
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
   if (const auto view = raw.text("view")) {
@@ -182,6 +185,7 @@ Settings makeSettings(const Options& options, const Scene& scene) {
   Settings settings = options.settings;
   settings.camera = chooseCamera(scene, options.camera);
   settings.environment = options.environment.value_or(scene.environment);
+  checkWith(scene, settings);
   return settings;
 }
 

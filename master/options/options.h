@@ -51,9 +51,10 @@ struct Options {
   double patience = 120;     // without a window, with clients that are all stuck [s]
 
   bool window = false;
-  std::optional<std::string> script;      // file
-  std::optional<AnimationRange> animate;  // then stop.frames is for each picture
-  std::optional<std::string> clip;        // of the scene file's animations; nothing: the first
+  std::optional<std::string> script;       // file
+  std::optional<AnimationRange> animate;   // then stop.frames is for each picture
+  std::optional<std::string> photonScene;  // file; nothing: photons meet the scene itself
+  std::optional<std::string> clip;         // of the scene file's animations; nothing: the first
   PictureView view = PictureView::beauty;
   double frameTime = 100;  // target while something moves [ms]
 

@@ -53,6 +53,10 @@ constexpr Flag kRun[] = {
     {"animate", "T0:T1:FPS",
      "play the scene's animation from T0 to T1 [s] into --output out.####.exr, --frames N for each "
      "picture; with --window over and over"},
+    {"photon-scene", "FILE",
+     "a simpler scene, glTF or OBJ, that the photon map's photons meet in place of SCENE; the "
+     "lamps "
+     "are those of SCENE"},
     {"clip", "NAME",
      "which of the file's animations plays (default: the first; the log names them)"},
     {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},

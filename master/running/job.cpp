@@ -2,6 +2,7 @@
 
 #include "common/base/log.h"
 #include "common/scene/methods.h"
+#include "common/scene/photon_scene.h"
 #include "common/scene/reader.h"
 #include "proto/scene_blobs.h"
 
@@ -48,6 +49,12 @@ Delivery deliveryOf(const Options& options) {
   return delivery;
 }
 
+void tellPhotonScene(const Options& options, const Scene& scene) {
+  if (options.photonScene)
+    log("photons meet {}; what is seen up to {:g} m off it is lit", *options.photonScene,
+        options.settings.mapDistance * scene.bounds.radius() / 8);
+}
+
 }  // namespace
 
 Job makeJob(const Options& options) {
@@ -59,6 +66,7 @@ Job makeJob(const Options& options) {
   job.needs = needsOf(scene, job.settings.environment);
   for (const std::string& line : describe(job.needs)) log("{}", line);
   tellSettings(options, job.settings);
+  tellPhotonScene(options, scene);
   for (const std::string& line : leftOut(job.needs, job.settings)) warn("{}", line);
   if (const MethodFacts& facts = factsOf(job.settings.method); facts.bias != nullptr)
     log("{}: {}; the stated error is of noise alone", facts.name, facts.bias);
@@ -71,7 +79,7 @@ Job makeJob(const Options& options) {
   job.sceneRadius = scene.bounds.radius();
   job.exposure = options.exposure.value_or(scene.exposure.value_or(0));
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
-  std::vector<Blob> blobs = packScene(scene);
+  std::vector<Blob> blobs = packScene(withPhotonScene(scene, options.photonScene));
   job.sceneHash = hashOf(blobs);
   job.offer = std::make_unique<JobOffer>(std::move(blobs), job.settings, job.delivery);
   if (isLive(options)) job.scene = std::move(read);

@@ -91,7 +91,9 @@ def plans(path, plans_of, camera):
     _finish(figure, path)
 
 
-STAGE_COLOURS = dict(zip(("shoot", "balance", "build", "update", "estimate", "rest"), COLOURS), total="black")
+STAGE_COLOURS = dict(zip(("shoot", "balance", "build", "update", "estimate", "rest"), COLOURS), total="black",
+                     **dict(zip(("shoot, simpler scene", "all", "front", "corners", "both", "asked"),
+                                ("#85a5d6", "black", *COLOURS[1:]))))
 
 
 def times(path, series):

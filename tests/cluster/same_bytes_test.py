@@ -6,7 +6,7 @@ import pathlib
 import re
 import unittest
 
-from programs import ClusterTest, eventually, is_running, methods, signal
+from programs import SCENES, ClusterTest, eventually, is_running, methods, signal
 
 CHOICE = "auto"  # the method that is one of the others
 
@@ -17,6 +17,11 @@ class SameBytes(ClusterTest):
     def test_any_number_of_clients_and_threads(self):
         for method in methods():
             self.same_by(method, [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)], frames=2)
+
+    def test_light_at_vertices_and_photons_in_a_simpler_scene(self):
+        simple = ("--photon-scene", SCENES / "cornell.glb")
+        for options in (("--map-estimate", "vertices", "--map-subdivision", 2), simple):
+            self.same_by("photon-map", [(1, 1), (2, 1), (1, 2)], *options, frames=2)
 
     def same_by(self, method, crews, *options, frames):
         with self.subTest(method):

@@ -74,6 +74,14 @@ class Views(ClusterTest):
             brighter = self.view("albedo", "table_room", 1, "--method", method, "--exposure", "2")
             self.assertEqual(pictures["albedo"], brighter)
 
+    def test_photons_are_dots_in_the_dark(self):
+        # Some 4,000 hits on 8 R^2, each seen within 0.004 R: 2 to 3 % of the pixels, and the lamp.
+        pixels = self.light(self.view("photons", "cornell", 1, "--method", "photon-map", "--filter", "none"))
+        lit, dark = (sum(test(sum(p)) for p in pixels) / len(pixels) for test in (lambda s: s > 0.3, lambda s: s == 0))
+        self.assertTrue(0.01 < lit < 0.12, f"{lit} of the pixels are lit")
+        self.assertGreater(dark, 0.85)
+        self.assertGreater(sum(max(p) > 2 * min(p) for p in pixels), 5, "some are coloured")
+
     def test_direct_and_indirect_light_add_up(self):
         # A diffuse room: beauty is their sum. The lamp itself is in both and is left out.
         beauty, direct, indirect = (self.light(self.view(v, "cornell", 32, "--exposure", "-2"))

@@ -45,7 +45,9 @@ std::vector<Vec3> irradiance(const World& world, const PhotonPool& pool,
     for (size_t i = 0; i < receivers.size(); ++i) all.push_back(receivers.irradiance(i));
     receivers.clear();
   };
-  for (const Receiver& r : points) {
+  for (Receiver r : points) {
+    const Hit hit = world.tracer.closest(r.position + 1e-3f * r.ng, -r.ng, 2e-3f);
+    r.object = hit.instance, r.triangle = hit.triangle;
     receivers.add(r);
     if (alone) gather();
   }
@@ -123,13 +125,15 @@ TEST(PhotonGather, LeavesOutLongerPaths) {
   }
 }
 
-// f of one point.
-float cover(const World& world, Vec3 x, float r, float height = 0.05f, float turn = 0.3f) {
+// f of one point on the first instance, which is seen from its back if `turned`.
+float cover(const World& world, Vec3 x, float r, float height = 0.05f, float turn = 0.3f,
+            bool turned = false) {
   SurfaceCover surface;
   RayCounts rays;
   SurfaceCover::Disks disks;
   disks.centre = x, disks.normal = Vec3(0, 1, 0);
   disks.least = disks.most = r, disks.height = height, disks.turn = turn;
+  disks.own = 0, disks.turned = turned;
   surface.shoot(world.transport, disks, rays);
   return surface.share(x, Vec3(0, 1, 0), r);
 }
@@ -183,7 +187,7 @@ TEST(SurfaceCover, ALowCeilingDoesNotCount) {
 TEST(SurfaceCover, ASheetSeenFromItsBackCounts) {
   SceneBuilder b;
   b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-2, 0, -2), Vec3(4, 0, 0), Vec3(0, 0, 4));
-  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f), 1);
+  EXPECT_EQ(cover(World(b), Vec3(0), 0.4f, 0.05f, 0.3f, true), 1);
 }
 
 // Two rooms with a wall between them, a lamp in one. On the other side of the wall it is dark: hits

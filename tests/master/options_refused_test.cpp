@@ -47,6 +47,8 @@ TEST(OptionsRefused, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
       {"--method", "voodoo"},
       {"--filter", "blur"},
       {"--randomization", "dice"},
+      {"--map-estimate", "corners"},
+      {"--map-subdivision", "7"},
   };
   for (const auto& [flag, value] : cases) {
     const std::string line = complaint(std::string("room.glb ") + flag + " " + value);
@@ -90,6 +92,13 @@ TEST(OptionsRefused, ClientsFilterNoWidePatternsLayersOrPaintedViews) {
   EXPECT_NE(complaint("room.glb --filter-at clients --aovs").find("--aovs"), std::string::npos);
   EXPECT_NE(complaint("room.glb --filter-at clients --view normal").find("--filter-at master"),
             std::string::npos);
+}
+
+TEST(OptionsRefused, OnlyAMapsPhotonsMeetASimplerScene) {
+  EXPECT_NE(complaint("a.glb --photon-scene b.glb").find("--photon-scene is for --method"),
+            std::string::npos);
+  EXPECT_EQ(complaint("a.glb --photon-scene b.glb --method photon-map"), "");
+  EXPECT_EQ(complaint("a.glb --photon-scene b.glb --window"), "");
 }
 
 TEST(OptionsRefused, AWireLevelHasABound) { EXPECT_NE(complaint("room.glb --wire-level 20"), ""); }

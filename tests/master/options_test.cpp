@@ -266,5 +266,19 @@ TEST(Options, AReplayLineHasTheCamerasThatLightIsMadeFor) {
   EXPECT_NE(line.find(" --light-cameras 0/1,2,3:1,2,2:"), std::string::npos) << line;
 }
 
+TEST(Options, AReplayLineNamesWhatPhotonsMeet) {
+  Scene scene;
+  scene.cameras = {Camera{}};
+  const auto isNamed = [&](Method method) {
+    Settings s;
+    s.method = method;
+    return replayLine(scene, s, {}, 3, 2).find(" --photon-scene FILE") != std::string::npos;
+  };
+  EXPECT_FALSE(isNamed(Method::photonMap));
+  scene.photonInstances.emplace_back();
+  EXPECT_TRUE(isNamed(Method::photonMap));
+  EXPECT_FALSE(isNamed(Method::instantRadiosity));
+}
+
 }  // namespace
 }  // namespace ninefold

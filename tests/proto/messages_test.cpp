@@ -32,6 +32,7 @@ Settings oddSettings() {
   s.mapPhotons = 4194304, s.mapPerFrame = 1, s.mapNearest = 65536, s.mapDistance = 1.5f;
   s.mapDirect = MapDirect::on, s.mapDistribution = MapDistribution::turn;
   s.mapIndex = MapIndex::tree;
+  s.mapEstimate = MapEstimate::vertices, s.mapSubdivision = 6;
   s.photonPool = 4194304, s.photonGroups = 20160, s.pilotRatio = 2, s.elementSize = 1.5f;
   s.elementRule = ElementRule::buckets;
   s.pathLength = 4, s.specularDepth = 1;

@@ -53,6 +53,7 @@ Scene someScene() {
   scene.meshes[2].normals.clear(), scene.meshes[2].tangents.clear(), scene.meshes[2].uv0.clear();
   Instance instance{"table", 1, 7, scaled(2)};
   scene.instances = {instance, Instance{}};
+  scene.photonInstances = {Instance{"box", 2, 3, scaled(4)}};
   scene.lights = {{"lamp", LightKind::spot, Vec3(1), Vec3(0, -1, 0), Vec3(9), 0.1f, 0.2f},
                   {"measured", LightKind::goniometric, Vec3(2), Vec3(0, -1, 0), Vec3(7), 0, 0,
                    Vec3(0, 0, 1), 0}};
@@ -94,6 +95,8 @@ TEST(SceneBlobs, ASceneComesBackBitForBit) {
   EXPECT_EQ(scene.meshes[1].positions, someScene().meshes[1].positions);
   EXPECT_EQ(scene.meshes[2].triangles, someScene().meshes[2].triangles);
   EXPECT_EQ(scene.instances[0].toWorld, scaled(2));
+  ASSERT_EQ(scene.photonInstances.size(), 1u);
+  EXPECT_EQ(scene.photonInstances[0].toWorld, scaled(4));
   EXPECT_EQ(scene.lights[0].outerCone, 0.2f);
   EXPECT_EQ(scene.lights[1].kind, LightKind::goniometric);
   EXPECT_EQ(scene.lights[1].across, Vec3(0, 0, 1));

@@ -109,6 +109,7 @@ Scene someScene() {
   mesh.triangles = {Triangle(0, 1, 2)};
   scene.meshes.push_back(mesh);
   scene.instances.resize(1);
+  scene.photonInstances.resize(1);
   scene.lights.resize(1);
   scene.profiles.push_back({"profile", {0, 90}, {0, 360}, {1, 1, 0.5f, 0.5f}});
   scene.cameras.resize(1);

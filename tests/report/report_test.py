@@ -16,7 +16,8 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
 
 from report_lib import blocks, crops, keep, measure, motion_errors, motion_run, motion_scripts, motion_tables, motion_text  # noqa: E402
-from report_lib import options, photon_bias, photon_stages, pictures, plots, scenes, section, seconds_to_error, speed, tables  # noqa: E402
+from report_lib import options, photon_bias, photon_stages, photon_vertices, pictures, plots, scenes, section, seconds_to_error  # noqa: E402
+from report_lib import speed, tables  # noqa: E402
 from report_lib.motion_truth import Truth  # noqa: E402
 from report_lib.references import Reference  # noqa: E402
 
@@ -277,6 +278,13 @@ class PhotonMap(unittest.TestCase):
     def test_a_flag_is_replaced_or_added(self):
         self.assertEqual(photon_stages.replaced(("--a", "1", "--b", "2"), "--a", 3), ("--b", "2", "--a", "3"))
         self.assertEqual(photon_stages.replaced(("--a", "1"), "--c", 3), ("--a", "1", "--c", "3"))
+
+    def test_ways_to_save_estimates_are_curves_over_triangles(self):
+        made = {"shoot_ms": 2.0, "vertices": {way: {"count": 30 + i, "ms": 0.5 * i} for i, way in enumerate(photon_vertices.WAYS)}}
+        self.assertEqual(photon_vertices.triangles_of(made), 10)
+        self.assertEqual(photon_vertices.curves([(made, 1.0)])["shoot, simpler scene"], [1.0])
+        self.assertEqual(photon_vertices.curves([(made, None)]), {"shoot": [2.0], "all": [0.0], "front": [0.5], "corners": [1.0],
+                                                                  "both": [1.5], "asked": [2.0]})
 
     def test_the_slope_is_that_of_the_power(self):
         points = [(n, 7 * n ** -0.75) for n in (1e3, 1e4, 1e5)]

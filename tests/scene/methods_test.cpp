@@ -130,6 +130,8 @@ TEST(Methods, ThePoolGoesByTheSettingsOfItsPhotons) {
   };
   EXPECT_TRUE(isKept([](Settings& o) { o.mapNearest = 50, o.mapDistance = 0.1f; }, s));
   EXPECT_TRUE(isKept([](Settings& o) { o.mapIndex = MapIndex::tree, o.directVpls = 0; }, s));
+  EXPECT_TRUE(isKept([](Settings& o) { o.mapEstimate = MapEstimate::vertices; }, s));
+  EXPECT_TRUE(isKept([](Settings& o) { o.mapSubdivision = 5; }, s));
   EXPECT_FALSE(isKept([](Settings& o) { o.mapPhotons = 4000; }, s));
   EXPECT_FALSE(isKept([](Settings& o) { o.mapPerFrame = 200; }, s));
   EXPECT_FALSE(isKept([](Settings& o) { o.mapDistribution = MapDistribution::turn; }, s));

@@ -1,5 +1,5 @@
 // Settings that are each within range, and too much together for a method with reverse VPLs, or of
-// no use for one with a pool of photons.
+// no use for one with a pool of photons; and what a scene is too large for.
 #include "common/scene/settings_check.h"
 
 #include <gtest/gtest.h>
@@ -85,6 +85,43 @@ TEST(SettingsCheck, GroupsOfPhotonsFitTogether) {
       });
       EXPECT_EQ(said, facts.has(kElementPhotons) ? text : "") << facts.name;
     }
+}
+
+// Whatever the method: a window may choose another one.
+TEST(SettingsCheck, LightAtVerticesFitsTheScene) {
+  const std::tuple<size_t, int, const char*> cases[] = {
+      {100, 6, ""},
+      {128 << 4, 6, ""},
+      {(128 << 4) + 1, 6,
+       "map-subdivision is 6: the scene's 2049 triangles become 8392704, at most are 8388608: 5 "
+       "would do"},
+      {40000, 6,
+       "map-subdivision is 6: the scene's 40000 triangles become 163840000, at most are 8388608: "
+       "3 would do"},
+      {9000000, 0,
+       "map-subdivision is 0: the scene's 9000000 triangles become 9000000, at most are 8388608: "
+       "use --map-estimate pixels"}};
+  for (const auto& [triangles, levels, text] : cases) {
+    Mesh mesh;
+    mesh.triangles.resize(triangles - 3 * (triangles / 4));
+    Scene scene;
+    Mesh rest;
+    rest.triangles.resize(triangles / 4);
+    scene.meshes = {mesh, rest};
+    scene.instances.resize(4);
+    for (size_t i = 1; i < 4; ++i) scene.instances[i].mesh = 1;
+    Settings s;
+    s.mapSubdivision = levels;
+    EXPECT_NO_THROW(checkWith(scene, s));
+    s.mapEstimate = MapEstimate::vertices;
+    std::string said;
+    try {
+      checkWith(scene, s);
+    } catch (const Error& error) {
+      said = error.what();
+    }
+    EXPECT_EQ(said, text);
+  }
 }
 
 TEST(SettingsCheck, TakesWhatIsUsual) {

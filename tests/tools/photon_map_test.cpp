@@ -40,6 +40,34 @@ TEST(PhotonMapTool, CountsHits) {
   EXPECT_EQ(hits("--path-length 2"), hits("--path-length 2"));
 }
 
+// 16 surfaces of two triangles, each cut into four: 128 small ones. No surface shares a vertex with
+// another, and each has 3 x 3. All that is seen faces the eye.
+TEST(PhotonMapTool, CountsEstimatesAtVertices) {
+  const Json stages =
+      made("--box 16 --repeats 1 --map-estimate vertices --map-subdivision 1").at("stages");
+  const auto count = [&](const char* way) {
+    return stages.at("vertices").at(way).at("count").get<int>();
+  };
+  EXPECT_EQ(count("all"), 3 * 128);
+  EXPECT_EQ(count("corners"), 16 * 9);
+  EXPECT_LT(count("front"), count("all"));
+  EXPECT_LT(count("both"), count("corners"));
+  EXPECT_LE(count("asked"), count("both"));
+  EXPECT_GT(count("asked"), 30);
+  for (const char* way : {"all", "front", "corners", "both", "asked"})
+    EXPECT_GT(stages.at("vertices").at(way).at("ms"), 0) << way;
+  EXPECT_TRUE(made("--box 16 --repeats 1").at("stages").at("vertices").is_null());
+}
+
+// The photons of a room of 16 surfaces, whatever is seen.
+TEST(PhotonMapTool, PhotonsMayMeetASimplerRoom) {
+  const auto hits = [](const std::string& flags) {
+    return made("--repeats 1 " + flags).at("stages").at("hits").get<int>();
+  };
+  EXPECT_EQ(hits("--box 1024 --photon-box 16"), hits("--box 16"));
+  EXPECT_EQ(map("--photon-box 16 " NINEFOLD_SCENES "/cornell.glb").status, 2);
+}
+
 // While the lamp stands, all distributions but the random one bring the same photons again.
 TEST(PhotonMapTool, TellsHowMuchAPictureFluctuates) {
   const auto variance = [](const std::string& flags) {

@@ -175,6 +175,9 @@ class Gathering {
     SurfaceCover::Disks disks;
     disks.centre = x_.position(middle), disks.normal = x_.ng(middle);
     disks.spread = spread, disks.height = height_, disks.least = farthest_;
+    disks.own = x_.object[middle];
+    disks.turned =
+        glm::dot(t_.tracer.frontNormal(disks.own, x_.triangle[middle]), disks.normal) < 0;
     disks.turn = unitFloat(static_cast<uint32_t>(mixWord(turnKey_ + x_.pixel[middle])));
     const float smallest = 1e-6f * farthest_;  // of r: hits in one point are no infinite light
     bool any = false;
@@ -217,6 +220,14 @@ void gatherPool(const Transport& t, const PhotonPool& pool, int pathVertices,
   std::iota(order.begin(), order.end(), 0u);
   if (!order.empty())
     Gathering(t, pool, pathVertices, randomization, scratch, receivers, rays).group(order);
+}
+
+void gatherPoolAlone(const Transport& t, const PhotonPool& pool, int pathVertices,
+                     uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
+                     RayCounts& rays) {
+  if (pool.photons().empty()) return;
+  Gathering gathering(t, pool, pathVertices, randomization, scratch, receivers, rays);
+  for (uint32_t i = 0; i < receivers.size(); ++i) gathering.group({&i, 1});
 }
 
 }  // namespace ninefold

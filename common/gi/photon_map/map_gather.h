@@ -52,9 +52,14 @@ struct MapGatherScratch {
 };
 
 // Adds E of the pool to receivers. pathVertices: as in layered_method.h. randomization: of the
-// frame, turns the rays that tell f.
+// frame; with the receivers' pixels it turns the rays that tell f.
 void gatherPool(const Transport& transport, const PhotonPool& pool, int pathVertices,
                 uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
                 RayCounts& rays);
+
+// The same, with each receiver a group by itself: E does not depend on which others there are.
+void gatherPoolAlone(const Transport& transport, const PhotonPool& pool, int pathVertices,
+                     uint32_t randomization, MapGatherScratch& scratch, Receivers& receivers,
+                     RayCounts& rays);
 
 }  // namespace ninefold

@@ -23,7 +23,6 @@ size_t raysFor(float radius, float least) {
 void SurfaceCover::shoot(const Transport& t, const Disks& disks, RayCounts& counts) {
   disks_ = disks;
   met_.clear(), through_.clear();
-  own_ = ~0u, turned_ = false;
   const float radius = disks.most + disks.spread;
   const size_t count = raysFor(radius, disks.least);
   const Basis basis(disks.normal);
@@ -33,27 +32,7 @@ void SurfaceCover::shoot(const Transport& t, const Disks& disks, RayCounts& coun
     through_.push_back(disks.centre + at * std::cos(angle) * basis.tangent +
                        at * std::sin(angle) * basis.bitangent);
   }
-  findOwn(t, counts);
   for (size_t first = 0; first < count; first += kPacket) tracePacket(t, first, counts);
-}
-
-void SurfaceCover::findOwn(const Transport& t, RayCounts& counts) {
-  const float height = disks_.height + disks_.spread;
-  const Vec3 top = disks_.centre + height * disks_.normal;
-  float nearest = height, begin = 0;
-  for (int layer = 0; layer < kMostLayers; ++layer) {
-    ++counts.photon;
-    const Hit hit =
-        t.tracer.closest(top - begin * disks_.normal, -disks_.normal, 2 * height - begin);
-    if (!hit) return;
-    const float off = std::abs(begin + hit.t - height);
-    if (off < nearest) {
-      nearest = off, own_ = hit.instance;
-      turned_ = glm::dot(t.tracer.frontNormal(own_, hit.triangle), disks_.normal) < 0;
-    }
-    begin += hit.t + kLayerGap * height;
-    if (!(begin < 2 * height)) return;
-  }
 }
 
 // From above the plane to as far below.
@@ -83,7 +62,7 @@ bool SurfaceCover::meet(const Transport& t, size_t ray, const Hit& hit) {
   if (!t.shader.mayBeDiffuse(t.scene.meshes[static_cast<size_t>(instance.mesh)].material))
     return false;
   // The points' own mesh is wound as it is there; of all others the fronts are seen.
-  const bool turned = turned_ && hit.instance == own_;
+  const bool turned = disks_.turned && hit.instance == disks_.own;
   const Vec3 front = t.tracer.frontNormal(hit.instance, hit.triangle);
   const Vec3 normal = turned ? -front : front;
   const float cosine = glm::dot(normal, disks_.normal);

@@ -36,6 +36,8 @@ class SurfaceCover {
     Vec3 centre{0}, normal{0};
     Metres spread = 0, least = 0, most = 0, height = 0;
     float turn = 0;
+    uint32_t own = ~0u;   // instance that the points lie on ...
+    bool turned = false;  // ... and whether it is seen from its back
   };
   void shoot(const Transport& transport, const Disks& disks, RayCounts& counts);
 
@@ -48,16 +50,12 @@ class SurfaceCover {
     float area = 0;  // 1/cos
   };
   void tracePacket(const Transport& t, size_t first, RayCounts& counts);
-  void findOwn(const Transport& t, RayCounts& counts);
   // Whether it accepts photons.
   bool meet(const Transport& t, size_t ray, const Hit& hit);
 
   Disks disks_;
   std::vector<Vec3> through_;  // the pattern
   std::vector<Met> met_;
-  // The surface that the points lie on is seen from its back.
-  uint32_t own_ = ~0u;
-  bool turned_ = false;
 };
 
 }  // namespace ninefold

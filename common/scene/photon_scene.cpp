@@ -1,0 +1,52 @@
+#include "common/scene/photon_scene.h"
+
+#include "common/scene/reader.h"
+#include "common/scene/world.h"
+
+namespace ninefold {
+
+void addPhotonScene(Scene& scene, const Scene& simple) {
+  const auto images = static_cast<int>(scene.images.size());
+  const auto materials = static_cast<int>(scene.materials.size());
+  const auto meshes = static_cast<int>(scene.meshes.size());
+  for (const TextureImage& image : simple.images) scene.images.push_back(image);
+  for (Material m : simple.materials) {
+    m.emission = Vec3(0);
+    for (TextureUse* use : {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissionMap,
+                            &m.transmissionMap, &m.specularMap, &m.specularColorMap})
+      if (*use) use->image += images;
+    scene.materials.push_back(std::move(m));
+  }
+  for (Mesh mesh : simple.meshes) {
+    mesh.material += materials;
+    scene.meshes.push_back(std::move(mesh));
+  }
+  for (Instance instance : simple.instances) {
+    instance.mesh += meshes;
+    instance.toWorld[3] += DVec4(simple.origin - scene.origin, 0);
+    scene.photonInstances.push_back(std::move(instance));
+  }
+  validate(scene);
+}
+
+Scene withPhotonScene(Scene scene, const std::optional<std::string>& file) {
+  if (file) addPhotonScene(scene, readScene(*file));
+  return scene;
+}
+
+Scene photonSceneOf(const Scene& scene) {
+  Scene met = scene;
+  const auto isLamp = [&](const Instance& instance) {
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    return !isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission);
+  };
+  std::erase_if(met.instances, [&](const Instance& instance) { return !isLamp(instance); });
+  met.instances.insert(met.instances.end(), scene.photonInstances.begin(),
+                       scene.photonInstances.end());
+  met.photonInstances.clear();
+  const Bounds bounds = boundsOf(met);
+  met.bounds.add(bounds.low), met.bounds.add(bounds.high);
+  return met;
+}
+
+}  // namespace ninefold
