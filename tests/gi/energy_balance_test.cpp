@@ -88,6 +88,7 @@ void expectBalance(const Box& box, const Settings& settings, double share,
 void widen(Settings& s) { s.photons = 500, s.photonRadius = 0.03f; }
 std::vector<testing::Estimator> estimators(int pathLength) {
   auto all = testing::estimators(8, pathLength);
+  all.push_back(testing::mapAtVertices(8, pathLength));
   for (auto& e : all) widen(e.settings);
   return all;
 }

@@ -47,6 +47,14 @@ inline std::vector<Estimator> estimators(int side = 8, int pathLength = 0) {
   return all;
 }
 
+// The photon map with light at the vertices of a finer mesh.
+inline Estimator mapAtVertices(int side = 8, int pathLength = 0) {
+  Estimator e = estimator(factsOf(Method::photonMap), side, pathLength);
+  e.name += " at vertices";
+  e.settings.mapEstimate = MapEstimate::vertices, e.settings.mapSubdivision = 4;
+  return e;
+}
+
 // What the others are held against: without bias, and with a loop over pixels of its own.
 inline constexpr Method kReference = Method::pathTrace;
 inline Estimator reference(int side = 8, int pathLength = 0) {

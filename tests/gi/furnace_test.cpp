@@ -34,6 +34,7 @@ void expectRadiance(float albedo, int pathLength, double expected) {
       "albedo " + testing::number(double(albedo)) + ", path length " + testing::number(pathLength);
   for (const bool straight : {false, true}) {
     auto all = testing::estimators(12, pathLength);
+    all.push_back(testing::mapAtVertices(12, pathLength));
     for (auto& e : all) {
       e.settings.directVpls = 64, e.settings.indirectVpls = 256;
       if (straight) e.settings.bound = 1e5f;

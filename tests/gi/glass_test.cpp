@@ -32,6 +32,7 @@ constexpr testing::Tolerance kPlane{.frames = 32, .bias = 1e-3, .error = 0.02};
 // Few photons, spread wide: light through glass is a smooth part of what a furnace's walls get.
 std::vector<testing::Estimator> estimators(int pathLength = 0) {
   auto all = testing::estimators(8, pathLength);
+  all.push_back(testing::mapAtVertices(8, pathLength));
   for (auto& e : all) e.settings.photons = 500, e.settings.photonRadius = 0.02f;
   return all;
 }

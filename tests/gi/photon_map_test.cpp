@@ -293,9 +293,9 @@ TEST(PhotonMap, FindsEachPathOfFourVerticesOnce) { expectEachPathOnce(4, 24); }
 TEST(PhotonMap, FindsEachPathOnce) { expectEachPathOnce(0, 24); }
 
 testing::Estimator atVertices(int side, int pathLength) {
-  auto e = testing::estimator(factsOf(Method::photonMap), side, pathLength);
+  auto e = testing::mapAtVertices(side, pathLength);
   e.settings.mapPhotons = 20000, e.settings.mapPerFrame = 5000, e.settings.mapNearest = 50;
-  e.settings.mapEstimate = MapEstimate::vertices, e.settings.mapSubdivision = 5;
+  e.settings.mapSubdivision = 5;
   return e;
 }
 
