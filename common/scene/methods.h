@@ -41,7 +41,7 @@ struct StateFacts {
   bool beginsAnew;                           // a step of all units needs no state before it
   // Whether the state of one stays right under the other: where not, it begins anew.
   bool (*isKept)(const Settings& before, const Settings& after);
-  // What a version tells people, for the log; null: nothing.
+  // A line for the log, said if what stands before its first comma is new; null: nothing.
   std::string (*describe)(const StatePages& pages) = nullptr;
 };
 
