@@ -43,7 +43,7 @@ struct StateFacts {
   bool isPaced;  // steps in motion may have other numbers of units, as many as there is time for
   // Whether the state of one stays right under the other: where not, it begins anew.
   bool (*isKept)(const Settings& before, const Settings& after);
-  // What a version tells people, for the log; null: nothing.
+  // A line for the log, said if what stands before its first comma is new; null: nothing.
   std::string (*describe)(const StatePages& pages) = nullptr;
 };
 

@@ -171,13 +171,14 @@ void Server::finishStep(uint32_t number, Time now) {
   if (duty_.stepDone) duty_.stepDone(step.order.key);
 }
 
-// A line in the log, when the latest version tells people something else than the one before.
+// A line in the log, when the latest version tells people something new.
 void Server::describe(const Settings& settings) {
   const StateFacts* facts = factsOf(settings.method).state;
   if (facts == nullptr || facts->describe == nullptr) return;
-  std::string text = facts->describe(state_.latest());
-  if (text != described_) log("{}", text);
-  described_ = std::move(text);
+  const std::string text = facts->describe(state_.latest());
+  std::string told = text.substr(0, text.find(','));
+  if (told != described_) log("{}", text);
+  described_ = std::move(told);
 }
 
 void Server::sendVersion(const std::vector<msg::StateDelta>& messages, Time now) {

@@ -165,7 +165,7 @@ class Server {
   };
   std::map<uint32_t, OpenStep> openSteps_;
   StateKeeper state_;
-  std::string described_;                   // what its version told people
+  std::string described_;                   // what versions told last
   std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   std::string failure_;
