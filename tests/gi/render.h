@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/gi/whole_state.h"
+#include "common/scene/methods.h"
 
 namespace ninefold::testing {
 
