@@ -158,9 +158,12 @@ int run(int argc, char** argv) {
            {"photon_pool", settings.photonPool},
            {"pilot_ratio", settings.pilotRatio}};
   all.update(update(before, after, settings, w.units));
+  const PhotonGroups groups(settings);
+  const Transport began(tracer, settings), transport(tracerAfter, settings, &began);
   for (const uint32_t group : w.paths) {
-    const Transport transport(tracerAfter, settings);
-    all["paths"].push_back(groupPaths(transport, PhotonGroups(settings), group));
+    if (group >= groups.groups())
+      failUsage("--paths {}: there are {} groups", group, groups.groups());
+    all["paths"].push_back(groupPaths(transport, groups, group));
   }
   return writeOutput(all.dump() + "\n"), 0;
 }

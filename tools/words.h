@@ -19,8 +19,9 @@ class Words {
   Words(int argc, char** argv) : words_(argv, argv + argc) {}
 
   bool has(std::string_view flag) const {
-    return std::any_of(words_.begin() + 1, words_.end(),
-                       [&](const std::string& w) { return w.starts_with(flag); });
+    return std::any_of(words_.begin() + 1, words_.end(), [&](const std::string& w) {
+      return w == flag || w.starts_with(std::string(flag) + "=");
+    });
   }
   void addIfMissing(const std::string& flag, const std::string& value) {
     if (!has("--" + flag)) words_.push_back("--" + flag + "=" + value);

@@ -2,7 +2,7 @@
 //
 //   i       = sum a_j b^j             digits of the index in base b
 //   Phi_b(i) = sum a'_j b^(-j-1)       radical inverse; a'_j = (a_j + s_j) mod b
-//   s_j       shifts of a replication, by chance; 0 for replication 0: the plain sequence
+//   s_j       shifts of a replication, by chance; 0: the plain sequence
 //
 // Period: if N = l b^k, then i and i + m N have the same first k digits, so that
 //
@@ -63,16 +63,17 @@ class HaltonSampler {
   // `seed` tells streams apart; it and `replication` choose the shifts.
   HaltonSampler(uint64_t seed, SampleUse use, uint32_t replication)
       : key_(hashWords(seed, static_cast<uint64_t>(use), replication)) {
-    if (replication == 0) return;
     for (size_t d = 0; d < kBases.size(); ++d)
       for (size_t j = 0; j < kMostHaltonDigits; ++j)
         shifts_[d][j] = static_cast<uint8_t>(hashWords(key_, d, j) % kBases[d].base);
   }
 
+  static constexpr uint32_t kWalkDimension = 4;  // of the first vertex
+
   Vec2 lampAndDirection(uint32_t i) const { return Vec2(value(0, i), value(1, i)); }
   Vec2 place(uint32_t i) const { return Vec2(value(4, i), value(5, i)); }
 
-  // Of the walk, whose first vertex has the dimensions from 4 on.
+  // Of the walk.
   float get1D(uint32_t i, uint32_t dimension) const {
     const size_t base = eventBase(dimension);
     return dimension % 4 == 2 && base < kBases.size() ? value(base, i) : hashed(i, dimension);

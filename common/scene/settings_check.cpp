@@ -63,6 +63,10 @@ void checkGroups(const Settings& s) {
   if (left != 1)
     fail("photon-groups is {}: it must be a product of 2, 3, 5 and 7, as 288 or 10080 is",
          s.photonGroups);
+  constexpr int kMostOfGroup = 16384;  // so that what they hit can be sent at once
+  if (s.photonPool / s.photonGroups > kMostOfGroup)
+    fail("a group has {} of the photons, at most are {}: raise --photon-groups",
+         s.photonPool / s.photonGroups, kMostOfGroup);
   const int64_t unit = int64_t{s.photonGroups} * s.pilotRatio;
   if (s.photonPool % unit == 0) return;
   if (unit > 4194304)

@@ -14,7 +14,12 @@ bool StatePlan::change(const Settings& settings, bool sceneChanged) {
   const bool isKept =
       before.method == settings.method && (facts_ == nullptr || facts_->isKept(before, settings));
   if (facts_ != nullptr && sceneChanged) stale_ = facts_->unitsOfAll(settings), ++scene_;
-  if (isKept) return false;
+  if (isKept) {
+    // A step of all that lights frames of the scene before would only keep others waiting.
+    const bool isVoid = sceneChanged && open_ && open_->makesAll && latest_ != 0;
+    if (isVoid) open_.reset();
+    return isVoid;
+  }
   latest_ = shown_ = 0, stale_ = 0;
   pace_ = {};
   restart();
@@ -43,7 +48,8 @@ StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving, Duration time) c
   const bool makesAll = !moving || latest_ == 0;
   const uint32_t all = facts_->unitsOfAll(settings_);
   const uint32_t usual = makesAll ? all : facts_->unitsInMotion(settings_);
-  const uint32_t units = makesAll || !facts_->isPaced ? usual : pace_.units(usual, all, time);
+  const uint32_t units =
+      makesAll || !facts_->isPaced ? usual : pace_.units(usual, std::max(stale_, 1u), time);
   StepKey key;
   key.number = number;
   key.from = makesAll && facts_->beginsAnew ? 0 : latest_, key.to = versions_ + 1;

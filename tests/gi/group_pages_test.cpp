@@ -1,6 +1,8 @@
 // The state of selective photons: who is in a group, how its hits travel, what a flux loses.
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
 #include <set>
 
 #include "common/gi/selective/group_pages.h"
@@ -42,7 +44,7 @@ TEST(PhotonGroups, HaveEachPhotonOfThePoolOnce) {
 }
 
 GroupRow randomRow(uint64_t seed, size_t pilots, size_t hits) {
-  GroupRow row{hashWords(seed, 1), static_cast<uint32_t>(seed), 3.5f, {}, {}};
+  GroupRow row{hashWords(seed, 1), static_cast<uint32_t>(seed), 7, 3.5f, {}, {}};
   for (size_t i = 0; i < pilots; ++i)
     row.pilots.push_back(
         {static_cast<uint32_t>(hashWords(seed, 2, i)), 0.25f, static_cast<uint32_t>(i)});
@@ -64,7 +66,8 @@ TEST(GroupPages, GiveBackWhatWasWrittenHoweverLong) {
     pages.apply(rows.replace(pages, 5, row));
     ASSERT_TRUE(rows.read(pages, 5));
     EXPECT_EQ(*rows.read(pages, 5), row);
-    EXPECT_EQ(rows.stamp(pages, 5), row.stamp);
+    EXPECT_EQ(rows.header(pages, 5)->stamp, row.stamp);
+    EXPECT_EQ(rows.header(pages, 5)->version, 7u);
     EXPECT_FALSE(rows.read(pages, 4));
     EXPECT_FALSE(rows.read(pages, 6));
   }
@@ -81,6 +84,24 @@ TEST(GroupPages, ReadARowThatIsCutShortAsNothing) {
     StatePages pages;
     pages.apply(deltas);
     EXPECT_FALSE(rows.read(pages, 7)) << length;
+  }
+}
+
+TEST(GroupPages, ReadImpossibleNumbersAsNothing) {
+  const PhotonGroups groups(poolOf(4608, 288, 16));
+  const GroupPages rows(groups);
+  const auto isRead = [&](const std::function<void(GroupRow&)>& spoil) {
+    GroupRow row = randomRow(1, 1, 40);
+    spoil(row);
+    StatePages pages;
+    pages.apply(rows.replace(pages, 7, row));
+    return rows.read(pages, 7).has_value();
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_TRUE(isRead([](GroupRow&) {}));
+  for (const float x : {nan, -1.0f, 3e38f, std::numeric_limits<float>::infinity()}) {
+    EXPECT_FALSE(isRead([&](GroupRow& row) { row.lampFlux = x; }));
+    EXPECT_FALSE(isRead([&](GroupRow& row) { row.pilots[0].weight = x; }));
   }
 }
 
@@ -157,7 +178,8 @@ TEST(SceneStamp, TellsEveryEditApart) {
   add([](Scene& s) { s.lights[0].intensity *= 2.0f; });
   add([](Scene& s) { s.lights[0].position.x = 0.3f; });
   add([](Scene& s) { s.lights[0].direction = Vec3(0, 1, 0); });
-  EXPECT_EQ(stamps.size(), 11u);
+  add([](Scene& s) { s.lights[0].across = Vec3(0, 1, 0); });
+  EXPECT_EQ(stamps.size(), 12u);
 }
 
 }  // namespace

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
 
+#include "common/gi/selective/group_shooting.h"
 #include "common/gi/selective/packed_flux.h"
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
@@ -78,7 +82,7 @@ class Session {
     const GroupPages rows(groups);
     std::set<uint32_t> found;
     for (uint32_t g = 0; g < groups.rows(); ++g)
-      if (!(*rows.read(pages_, g) == *rows.read(other, g))) found.insert(g);
+      if (!isSame(*rows.read(pages_, g), *rows.read(other, g))) found.insert(g);
     return found;
   }
   // Hits that are not where `other` has them, of all groups.
@@ -103,6 +107,11 @@ class Session {
   }
 
  private:
+  // Whatever version they were made for.
+  static bool isSame(GroupRow a, const GroupRow& b) {
+    a.version = b.version;
+    return a == b;
+  }
   void show(const Room& room, const Renderer* begun) {
     scenes_.push_back(std::make_unique<Scene>(room.build()));
     tracers_.push_back(std::make_unique<Tracer>(*scenes_.back(), Isa::automatic));
@@ -143,6 +152,154 @@ TEST(Selective, AllGroupsTracedAnewAreAFreshStart) {
       session.step(std::min(units, 306 - done));
     EXPECT_TRUE(session.differing(session.fresh()).empty()) << name;
   }
+}
+
+// A third lamp that is switched on: its photons come from all of it, and go everywhere. Of each
+// quarter of a photon's first number there are as many bounces, as lamps are alike.
+TEST(Selective, ALampOfASecondStreamIsSampledAllOver) {
+  Room dark;
+  dark.point = 0, dark.secondLamp = 0;
+  Room lit = dark;
+  lit.secondLamp = 5;  // as strong as the first
+  Session session(dark, poolOf(73728));
+  session.edit(lit);
+  for (int i = 0; i < 10; ++i) session.step(31);
+  const auto fluxAlong = [](const StatePages& pages) {
+    const PhotonGroups groups(poolOf(73728));
+    const GroupPages rows(groups);
+    std::map<uint32_t, double> flux;  // by surface
+    for (uint32_t r = 0; r < groups.rows(); ++r) {
+      const GroupRow row = *rows.read(pages, r);
+      for (const ElementHit& hit : row.hits)
+        flux[hit.surface] += static_cast<double>(unpackFlux(hit.flux).x);
+    }
+    return flux;
+  };
+  const auto found = fluxAlong(session.pages());
+  for (const auto& [surface, wanted] : fluxAlong(Session(lit, poolOf(73728)).pages())) {
+    if (wanted < 0.05) continue;
+    EXPECT_NEAR(found.at(surface), wanted, 0.05 * wanted) << surface;
+  }
+}
+
+// Whoever makes a unit, and in whatever order: of a client that was there from the start, and of one
+// that came late, has the scene after the edit alone, and the pages as they are.
+TEST(Selective, AnyClientMakesTheSameUnits) {
+  const Scene before = Room().build();
+  Room moved;
+  moved.box.x = -0.2f;
+  const Scene after = moved.build();
+  const Tracer first(before, Isa::automatic);
+  const Tracer old(first, after, {false, false, false, true}), late(after, Isa::automatic);
+  Settings s = poolOf();
+  s.camera = before.cameras.front();
+  const Renderer begun(first, s), there(old, s, &begun), came(late, s, &begun);
+  StatePages pages = stateAtRest(begun, s, 3);
+  StatePages copy = pages;
+  StepKey key;
+  key.from = 1, key.to = 2;
+  for (const uint32_t units : {7u, 30u, 1u}) {
+    const StatePages from = pages;
+    for (uint32_t unit = 0; unit < units; ++unit)
+      pages.apply(there.step(from, key, key.firstUnit + unit).deltas);
+    for (uint32_t unit = units; unit-- > 0;)
+      copy.apply((unit % 2 == 0 ? came : there).step(from, key, key.firstUnit + unit).deltas);
+    EXPECT_EQ(pages.hash(), copy.hash());
+    key.firstUnit += units, key.from = key.to, ++key.to;
+  }
+}
+
+// A view of the left half and one of the right half: each has the groups first whose pilots hit
+// what it shows.
+TEST(Selective, GroupsThatTheViewShowsGoFirst) {
+  const Scene scene = Room().build();
+  const Tracer tracer(scene, Isa::automatic);
+  const Settings s = poolOf(73728);
+  const Renderer renderer(tracer, s);
+  StatePages pages = stateAtRest(renderer, s, 3);
+  const PhotonGroups groups(s);
+  // All groups are alike urgent.
+  PageDeltas deltas;
+  GroupPages::addPriorities(std::vector<int64_t>(groups.groups(), int64_t{1} << 32), deltas);
+  pages.apply(deltas);
+  const SurfaceNumbers surfaces(scene);
+  const GroupOrder order(tracer, groups, surfaces, 12345);  // a stamp that no row has
+  const auto firstFifty = [&](float towards) {
+    Camera camera;
+    camera.eye = Vec3(0, 0, 0.9f), camera.forward = glm::normalize(Vec3(towards, 0, -0.3f));
+    camera.verticalFov = 0.9f;
+    std::set<uint32_t> first;
+    for (uint32_t rank = 0; first.size() < 50; ++rank) {
+      const uint32_t row = order.rowAt(pages, {camera, 64, 64, {}}, rank);
+      if (!groups.hasPilots(row)) first.insert(row);
+    }
+    return first;
+  };
+  const auto left = firstFifty(-1), right = firstFifty(1);
+  std::vector<uint32_t> both;
+  std::ranges::set_intersection(left, right, std::back_inserter(both));
+  EXPECT_LT(both.size(), 30u);
+  EXPECT_EQ(firstFifty(-1), left);
+}
+
+// What has no room is thinned: the flux stays, and each pilot keeps hits of its own.
+TEST(Selective, ARowThatIsTooLongIsThinned) {
+  const Scene scene = Room().build();
+  const Tracer tracer(scene, Isa::automatic);
+  const Settings s = poolOf(18432, 2);
+  const Transport transport(tracer, s);
+  const PhotonGroups groups(s);
+  const SurfaceNumbers surfaces(scene);
+  const uint32_t pilots = groups.groups();
+  RayCounts rays;
+  const auto shot = [&](size_t room) {
+    return GroupShooting{transport, groups, surfaces, 1, transport.lampFlux, room}.shoot(pilots, 3,
+                                                                                         1, rays);
+  };
+  const auto flux = [](const GroupRow& row) {
+    double sum = 0;
+    for (const ElementHit& hit : row.hits) sum += static_cast<double>(unpackFlux(hit.flux).x);
+    return sum;
+  };
+  const GroupRow all = shot(1 << 20), some = shot(all.hits.size() / 3);
+  EXPECT_EQ(some.hits.size(), all.hits.size() / 3);
+  EXPECT_NEAR(flux(some), flux(all), 0.05 * flux(all));
+  EXPECT_EQ(some.pilots.back().end, some.hits.size());
+  for (size_t k = 1; k < some.pilots.size(); ++k) {
+    EXPECT_GE(some.pilots[k].end, some.pilots[k - 1].end);
+    EXPECT_NEAR(some.pilots[k].end, all.pilots[k].end / 3.0, 1.5);
+  }
+}
+
+// A surface of which half the texels have no D: the other half is as bright as if all had.
+TEST(Selective, TexelsWithoutDiffuseLightAreAreaAllTheSame) {
+  const auto brightness = [](float metallicThere) {
+    SceneBuilder b;
+    b.box(b.material(testing::matte(Vec3(0.5f))), Vec3(-1), Vec3(1), true);
+    Material tiles = testing::matte(Vec3(0.5f));
+    tiles.metallic = 1, tiles.roughness = 0.3f;
+    b.quad(b.material(tiles), Vec3(-1, -0.99f, 1), Vec3(2, 0, 0), Vec3(0, 0, -2));
+    PunctualLight light;
+    light.position = Vec3(0, 0.5f, 0), light.intensity = Vec3(1);
+    b.light(light);
+    // Onto the left half, which is matte; the right one is metal or not.
+    b.camera(Vec3(-0.5f, 0.5f, 0), Vec3(-0.5f, -1, 0.001f), 0.3f);
+    Scene scene = b.build();
+    TextureImage image{"tiles", 2, 1, 3, false, {0, 255, 0, 0, 255, 0}};
+    image.texels[5] = static_cast<uint8_t>(255 * metallicThere);
+    scene.images.push_back(image);
+    TextureUse use;
+    use.image = 0, use.nearest = true;
+    scene.materials[1].metallicRoughnessMap = use;
+    scene.meshes[1].uv0 = {Vec2(0, 0), Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)};
+    validate(scene);
+    const Tracer tracer(scene, Isa::automatic);
+    Settings s = poolOf(73728);
+    s.elementSize = 2, s.directVpls = 0, s.caustics = Caustics::off, s.photons = 0;
+    s.pathLength = 2;  // one bounce: the same light falls onto both
+    return testing::render(tracer, s, 2).grey();
+  };
+  EXPECT_NEAR(brightness(1), brightness(0), 0.05 * brightness(0));
 }
 
 // Two edits, the second while groups of the first are still to be traced.
@@ -198,15 +355,15 @@ TEST(Selective, WhatAnEditConcernsIsTracedFirst) {
   }
 }
 
-// Units of one step take different groups, and nothing is urgent once all is done.
-TEST(Selective, UnitsOfAStepShareNoGroup) {
+// Each unit takes another row, and one that is not yet right.
+TEST(Selective, UnitsOfAStepShareNoRow) {
   Session session{Room()};
   Room room;
   room.box.x = -0.2f;
   session.edit(room);
   const StatePages fresh = session.fresh();
   size_t before = session.differing(fresh).size();
-  for (int i = 0; i < 36; ++i) {
+  for (int i = 0; i < 38; ++i) {
     session.step(8);
     const size_t left = session.differing(fresh).size();
     EXPECT_EQ(left, before - 8);

@@ -76,6 +76,7 @@ TEST(SettingsCheck, GroupsOfPhotonsFitTogether) {
        "photon-pool is 10, no multiple of photon-groups 288 times pilot-ratio 16: 4608 would do"},
       {4194304, 20160, 4096,
        "photon-groups 20160 times pilot-ratio 4096 is more than a pool can have: lower one"},
+      {147456, 8, 16, "a group has 18432 of the photons, at most are 16384: raise --photon-groups"},
       {161280, 10080, 16, ""},
       {16, 1, 16, ""}};
   for (const MethodFacts& facts : allMethods())

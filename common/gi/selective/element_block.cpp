@@ -7,7 +7,6 @@
 #include "common/gi/selective/element_nodes.h"
 #include "common/sampling/hash.h"
 #include "common/scene/alpha_test.h"
-#include "common/scene/world.h"
 
 namespace ninefold {
 namespace {
@@ -29,9 +28,9 @@ struct Corners {
   float area() const { return 0.5f * glm::length(glm::cross(p[1] - p[0], p[2] - p[0])); }
 };
 
-Corners cornersIn(const Mesh& mesh, const DMat4& toWorld, const Triangle& t) {
-  return {{worldPoint(toWorld, mesh.positions[t.x]), worldPoint(toWorld, mesh.positions[t.y]),
-           worldPoint(toWorld, mesh.positions[t.z])}};
+Corners cornersIn(const Mesh& mesh, const DMat3& linear, const Triangle& t) {
+  const auto corner = [&](uint32_t vertex) { return Vec3(linear * DVec3(mesh.positions[vertex])); };
+  return {{corner(t.x), corner(t.y), corner(t.z)}};
 }
 
 // A node before near ones are put together.
@@ -43,8 +42,8 @@ struct RawNode {
 
 class Making {
  public:
-  Making(const Mesh& mesh, const DMat4& toWorld, Metres size, const Twins& twins)
-      : mesh_(mesh), toWorld_(toWorld), size_(size), twins_(twins) {}
+  Making(const Mesh& mesh, const DMat3& linear, Metres size, const Twins& twins)
+      : mesh_(mesh), linear_(linear), size_(size), twins_(twins) {}
 
   void cut(std::vector<uint16_t>& cuts, std::vector<uint32_t>& firstPoint) {
     uint64_t points = 0;
@@ -55,9 +54,12 @@ class Making {
       cuts.push_back(static_cast<uint16_t>(isTwin ? 0 : n));
       firstPoint.push_back(static_cast<uint32_t>(points));
       if (!isTwin) points += pointsOf(n);
-      if (points > ElementBlock::kMostNodes)
-        fail("the elements of {} are too many, at most are {}: raise --element-size",
-             mesh_.name.empty() ? "a mesh" : mesh_.name, ElementBlock::kMostNodes);
+      if (points > ElementBlock::kMostPoints)
+        fail(
+            "the elements of {}, a mesh of {} triangles, are too many: raise --element-size, or "
+            "use "
+            "another method",
+            mesh_.name.empty() ? "something" : mesh_.name, mesh_.triangles.size());
     }
   }
 
@@ -122,7 +124,7 @@ class Making {
   }
 
  private:
-  Corners cornersOf(const Triangle& t) const { return cornersIn(mesh_, toWorld_, t); }
+  Corners cornersOf(const Triangle& t) const { return cornersIn(mesh_, linear_, t); }
 
   std::array<uint32_t, 3> endsOf(const Triangle& t, SmoothCorners& corners) const {
     const Vec3 across = glm::cross(mesh_.positions[t.y] - mesh_.positions[t.x],
@@ -168,7 +170,7 @@ class Making {
   }
 
   const Mesh& mesh_;
-  const DMat4& toWorld_;
+  const DMat3& linear_;
   const Metres size_;
   const Twins& twins_;
   std::vector<RawNode> raw_;
@@ -176,9 +178,9 @@ class Making {
 
 }  // namespace
 
-ElementBlock::ElementBlock(const Scene& scene, const Mesh& mesh, const DMat4& toWorld, Metres size)
-    : mesh_(&mesh), toWorld_(toWorld), size_(size), twins_(mesh) {
-  Making making(mesh, toWorld, size, twins_);
+ElementBlock::ElementBlock(const Scene& scene, const Mesh& mesh, const DMat3& linear, Metres size)
+    : mesh_(&mesh), linear_(linear), size_(size), twins_(mesh) {
+  Making making(mesh, linear, size, twins_);
   making.cut(cuts_, firstPoint_);
   nodeOf_ = making.name(cuts_);
   const uint32_t most = nodeOf_.empty() ? 0 : *std::max_element(nodeOf_.begin(), nodeOf_.end());
@@ -199,7 +201,7 @@ void ElementBlock::leaveOutHoles(const Scene& scene, const Mesh& mesh) {
     if (rows == 0) continue;
     const float step = 1 / static_cast<float>(rows);
     const double parts = static_cast<double>(rows) * static_cast<double>(rows);
-    const double area = double{cornersIn(mesh, toWorld_, mesh.triangles[k]).area()} / parts;
+    const double area = double{cornersIn(mesh, linear_, mesh.triangles[k]).area()} / parts;
     for (uint32_t j = 0; j < rows; ++j)
       for (uint32_t i = 0; i < 2 * (rows - j) - 1; ++i) {
         const float middle = i % 2 == 0 ? 1 / 3.0f : 2 / 3.0f;
@@ -217,7 +219,7 @@ ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
   const Twins::Twin* twin = twins_.find(triangle);
   if (twin == nullptr) return within(triangle, u, v);
   std::array<float, 3> weights{};
-  weights[twin->corners[0]] = 1 - u - v, weights[twin->corners[1]] = u;
+  weights[twin->corners[0]] = std::max(1 - u - v, 0.0f), weights[twin->corners[1]] = u;
   weights[twin->corners[2]] = v;
   ElementPlace there = within(twin->triangle, weights[1], weights[2]);
   there.isTurned = twin->isTurned;
@@ -226,7 +228,8 @@ ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
 
 ElementPlace ElementBlock::within(uint32_t triangle, float u, float v) const {
   const uint32_t n = cuts_[triangle];
-  const float x = u * static_cast<float>(n), y = v * static_cast<float>(n);
+  const float x = std::max(u, 0.0f) * static_cast<float>(n);
+  const float y = std::max(v, 0.0f) * static_cast<float>(n);
   const uint32_t j = std::min(static_cast<uint32_t>(y), n - 1);
   const uint32_t i = std::min(static_cast<uint32_t>(x), n - 1 - j);
   const float fx = std::clamp(x - static_cast<float>(i), 0.0f, 1.0f);

@@ -16,7 +16,7 @@
 // leaves w Phi at each, and E at a point is sum w Phi_node / area_node. So no light is lost, and a
 // constant E comes out constant in the mean.
 //
-// Units:   metres in the scene.   Source: Dmitriev et al. 2002, 6 (mesh elements); linear ones with
+// Units:   metres of the scene.   Source: Dmitriev et al. 2002, 6 (mesh elements); linear ones with
 //          lumped areas are made for this project.
 // Proved:  tests/gi/element_test.cpp.
 // Fails:   light is blurred over h. Triangles of another n next to each other share the ends of
@@ -43,22 +43,25 @@ struct ElementPlace {
 
 class ElementBlock {
  public:
-  static constexpr size_t kMostNodes = size_t{1} << 23;  // of all of a scene, too: some 500 MB
+  // Of all blocks of a scene. 48 bytes of light a node, 4 bytes a point of a triangle's grid.
+  static constexpr size_t kMostNodes = size_t{1} << 22, kMostPoints = size_t{1} << 24;
 
-  ElementBlock(const Scene& scene, const Mesh& mesh, const DMat4& toWorld, Metres size);
+  // `linear`: of the instance's toWorld. Where it stands makes no difference.
+  ElementBlock(const Scene& scene, const Mesh& mesh, const DMat3& linear, Metres size);
 
   // A block is a pure function of these, as edits change no mask.
-  bool isOf(const Mesh& mesh, const DMat4& toWorld, Metres size) const {
-    return mesh_ == &mesh && toWorld_ == toWorld && size_ == size;
+  bool isOf(const Mesh& mesh, const DMat3& linear, Metres size) const {
+    return mesh_ == &mesh && linear_ == linear && size_ == size;
   }
   size_t nodes() const { return areas_.size(); }
+  size_t points() const { return nodeOf_.size(); }
   float area(uint32_t node) const { return areas_[node]; }  // [m^2]
   // u, v: barycentrics of the second and third corner.
   ElementPlace at(uint32_t triangle, float u, float v) const;
 
  private:
   const Mesh* mesh_;
-  DMat4 toWorld_;
+  DMat3 linear_;
   Metres size_;
   ElementPlace within(uint32_t triangle, float u, float v) const;
   void leaveOutHoles(const Scene& scene, const Mesh& mesh);

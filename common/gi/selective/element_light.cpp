@@ -9,31 +9,38 @@
 namespace ninefold {
 namespace {
 
-// u of the brightest lamps that any group was traced with.
-double quantumOf(const std::vector<std::optional<GroupRow>>& rows) {
+// u of the brightest lamps that any row was traced with.
+double quantumOf(const StatePages& pages, const PhotonGroups& groups, const GroupPages& rows) {
   float brightest = 0;
-  for (const auto& row : rows)
-    if (row) brightest = std::max(brightest, row->lampFlux);
+  for (uint32_t r = 0; r < groups.rows(); ++r)
+    if (const auto header = rows.header(pages, r))
+      brightest = std::max(brightest, header->lampFlux);
   return fluxQuantum(fluxBand(std::max(brightest, 0x1p-100f)));
+}
+
+bool hasAny(const std::vector<bool>& wanted) {
+  return std::find(wanted.begin(), wanted.end(), true) != wanted.end();
 }
 
 }  // namespace
 
 SceneElements::SceneElements(const Scene& scene, Metres size, const SceneElements* before)
     : meshes_(scene.meshes) {
-  size_t nodes = 0;
+  size_t nodes = 0, points = 0;
   for (size_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
-    const bool isKept = before != nullptr && i < before->instances() &&
-                        before->block(i).isOf(mesh, instance.toWorld, size);
-    blocks_.push_back(
-        isKept ? before->blocks_[i]
-               : std::make_shared<const ElementBlock>(scene, mesh, instance.toWorld, size));
-    nodes += blocks_.back()->nodes();
-    if (nodes > ElementBlock::kMostNodes)
-      fail("the scene has more than {} corners of mesh elements: raise --element-size",
-           ElementBlock::kMostNodes);
+    const DMat3 linear(instance.toWorld);
+    const bool isKept =
+        before != nullptr && i < before->instances() && before->block(i).isOf(mesh, linear, size);
+    blocks_.push_back(isKept ? before->blocks_[i]
+                             : std::make_shared<const ElementBlock>(scene, mesh, linear, size));
+    nodes += blocks_.back()->nodes(), points += blocks_.back()->points();
+    if (nodes > ElementBlock::kMostNodes || points > ElementBlock::kMostPoints)
+      fail(
+          "the scene has more than {} corners of mesh elements: raise --element-size, or use "
+          "another method",
+          ElementBlock::kMostNodes);
   }
 }
 
@@ -42,40 +49,49 @@ ElementLight::ElementLight(const StatePages& pages, const PhotonGroups& groups,
                            std::shared_ptr<const SceneElements> elements, ElementRule rule,
                            const ElementLight* before)
     : pages_(pages),
+      groups_(groups),
       rows_(groups),
       surfaces_(std::move(surfaces)),
       elements_(std::move(elements)),
-      rule_(rule) {
-  const size_t instances = elements_->instances();
-  std::vector<std::optional<GroupRow>> rows(groups.rows());
-  for (uint32_t r = 0; r < groups.rows(); ++r) rows[r] = rows_.read(pages_, r);
-  quantum_ = quantumOf(rows);
-
-  // Instances whose sums go on from those of `before`, and the rest, which begin with nothing.
-  std::vector<bool> kept(instances, false), fresh(instances, true);
+      rule_(rule),
+      quantum_(quantumOf(pages_, groups_, rows_)) {
   const bool goesOn = before != nullptr && before->quantum_ == quantum_ && before->rule_ == rule_ &&
-                      before->elements_->instances() == instances;
-  sums_.resize(instances);
-  for (size_t i = 0; i < instances; ++i) {
-    kept[i] = goesOn && elements_->isShared(*before->elements_, i);
-    fresh[i] = !kept[i];
-    if (kept[i])
-      sums_[i] = before->sums_[i];
-    else
-      sums_[i].assign(kPerNode * elements_->block(i).nodes(), 0);
-  }
-  for (uint32_t r = 0; r < groups.rows(); ++r) {
+                      before->groups_ == groups_ &&
+                      before->elements_->instances() == elements_->instances();
+  const Wanted fresh = begin(goesOn ? before : nullptr);
+  Wanted kept = fresh;
+  kept.flip();
+  const Wanted all(fresh.size(), true);
+  for (uint32_t r = 0; r < groups_.rows(); ++r) {
     const bool isSame = goesOn && rows_.isShared(pages_, before->pages_, r);
+    if (isSame && !hasAny(fresh)) continue;
     if (goesOn && !isSame)
       if (const auto old = rows_.read(before->pages_, r)) add(*old, -1, kept);
-    if (!rows[r]) continue;
-    add(*rows[r], 1, fresh);
-    if (!isSame) add(*rows[r], 1, kept);
+    if (const auto now = rows_.read(pages_, r)) add(*now, 1, isSame ? fresh : all);
   }
 }
 
-void ElementLight::add(const GroupRow& row, int64_t sign, const std::vector<bool>& wanted) {
-  if (std::find(wanted.begin(), wanted.end(), true) == wanted.end()) return;
+ElementLight::Wanted ElementLight::begin(const ElementLight* before) {
+  const size_t instances = elements_->instances();
+  Wanted fresh(instances, true);
+  sums_.resize(instances), isOwn_.assign(instances, true);
+  for (size_t i = 0; i < instances; ++i) {
+    if (before != nullptr && elements_->isShared(*before->elements_, i))
+      sums_[i] = before->sums_[i], isOwn_[i] = fresh[i] = false;
+    else
+      sums_[i] = std::make_shared<Sums>(kPerNode * elements_->block(i).nodes(), 0);
+  }
+  return fresh;
+}
+
+ElementLight::Sums& ElementLight::own(uint32_t instance) {
+  if (!isOwn_[instance]) sums_[instance] = std::make_shared<Sums>(*sums_[instance]);
+  isOwn_[instance] = true;
+  return *sums_[instance];
+}
+
+void ElementLight::add(const GroupRow& row, int64_t sign, const Wanted& wanted) {
+  if (!hasAny(wanted)) return;
   for (const ElementHit& hit : row.hits) {
     if (!surfaces_->isThere(hit.surface)) continue;
     const SurfaceNumbers::Surface surface = surfaces_->surfaceOf(hit.surface);
@@ -83,7 +99,7 @@ void ElementLight::add(const GroupRow& row, int64_t sign, const std::vector<bool
     const ElementPlace at =
         place(surface, static_cast<float>(hit.u) / 65535, static_cast<float>(hit.v) / 65535);
     const Flux flux = unpackFlux(hit.flux);
-    Sums& sums = sums_[surface.instance];
+    Sums& sums = own(surface.instance);
     for (size_t k = 0; k < 3; ++k) {
       if (at.weights[k] == 0) continue;
       int64_t* of = sums.data() + kPerNode * at.nodes[k] + (surface.isBack != at.isTurned ? 3 : 0);
@@ -104,7 +120,7 @@ ElementPlace ElementLight::place(const SurfaceNumbers::Surface& surface, float u
 Irradiance ElementLight::at(const SurfaceNumbers::Surface& surface, float u, float v) const {
   const ElementPlace there = place(surface, u, v);
   const ElementBlock& block = elements_->block(surface.instance);
-  const Sums& sums = sums_[surface.instance];
+  const Sums& sums = *sums_[surface.instance];
   Irradiance e(0);
   for (size_t k = 0; k < 3; ++k) {
     const float area = block.area(there.nodes[k]);

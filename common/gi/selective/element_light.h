@@ -56,18 +56,25 @@ class ElementLight : public MethodState {
   static constexpr size_t kPerNode = 6;  // R, G, B in front; the same on the back
   using Sums = std::vector<int64_t>;     // of one instance
 
-  // Adds a group's hits, `sign` times, to the instances that are `wanted`.
-  void add(const GroupRow& row, int64_t sign, const std::vector<bool>& wanted);
+  using Wanted = std::vector<bool>;  // by instance
+
+  // Takes over from `before` the sums of instances that are the same, and tells the others.
+  Wanted begin(const ElementLight* before);
+  // Adds a row's hits, `sign` times, to the instances that are wanted.
+  void add(const GroupRow& row, int64_t sign, const Wanted& wanted);
+  Sums& own(uint32_t instance);
 
   ElementPlace place(const SurfaceNumbers::Surface& surface, float u, float v) const;
 
   StatePages pages_;
+  const PhotonGroups groups_;
   const GroupPages rows_;
   std::shared_ptr<const SurfaceNumbers> surfaces_;
   std::shared_ptr<const SceneElements> elements_;
   ElementRule rule_;
-  double quantum_ = 1;  // u [W]
-  std::vector<Sums> sums_;
+  const double quantum_;                     // u [W]
+  std::vector<std::shared_ptr<Sums>> sums_;  // shared with other versions where they are the same
+  std::vector<bool> isOwn_;                  // by instance: sums that no other version has
 };
 
 }  // namespace ninefold

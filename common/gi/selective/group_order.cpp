@@ -56,19 +56,29 @@ std::vector<uint32_t> GroupOrder::orderOf(const StatePages& pages, const View& v
   std::iota(order.begin(), order.end(), 0u);
   if (pages.all().empty()) return order;
   const std::vector<int64_t> visible = visibility(pages, view);
-  std::vector<Urgency> urgencies;
+  std::vector<Urgency> pilots, groups;
+  std::vector<uint32_t> others;
   for (const uint32_t r : order) {
-    if (rows_.stamp(pages, r) == stamp_)
-      urgencies.push_back({2, 0, r});
+    const auto header = rows_.header(pages, r);
+    const uint32_t version = header ? header->version : 0;
+    if (header && header->stamp == stamp_)
+      others.push_back(r);
     else if (groups_.hasPilots(r))
-      urgencies.push_back({0, 0, r});
+      pilots.push_back({0, version, r});
     else
-      urgencies.push_back({1, visible[r] * GroupPages::priority(pages, r), r});
+      groups.push_back({visible[r] * GroupPages::priority(pages, r), version, r});
   }
-  std::ranges::sort(urgencies, [](const Urgency& a, const Urgency& b) {
-    return std::tuple(a.rank, -a.priority, a.row) < std::tuple(b.rank, -b.priority, b.row);
-  });
-  std::ranges::transform(urgencies, order.begin(), &Urgency::row);
+  const auto isBefore = [](const Urgency& a, const Urgency& b) {
+    return std::tuple(-a.priority, a.version, a.row) < std::tuple(-b.priority, b.version, b.row);
+  };
+  std::ranges::sort(pilots, isBefore);
+  std::ranges::sort(groups, isBefore);
+  order.clear();
+  for (size_t i = 0; i < std::max(pilots.size(), groups.size()); ++i) {
+    if (i < pilots.size()) order.push_back(pilots[i].row);
+    if (i < groups.size()) order.push_back(groups[i].row);
+  }
+  order.insert(order.end(), others.begin(), others.end());
   return order;
 }
 

@@ -1,11 +1,14 @@
 // group_order.h: which rows of photons are traced next.
 //
-//   1. pilots that were traced in another scene than the present one
-//   2. groups that were, by V P, greatest first
-//   3. all others; among equals, the smaller number
+//   1. rows that were traced in another scene than the present one: pilots and groups by turns
+//      pilots: the oldest first     groups: by V P, greatest first; among equals, the oldest
+//   2. all others; among equals, the smaller number
 //
-//   P   what changed paths of pilots that are like the group carry: added by steps, 0 once the
-//       group is traced
+// By turns, so that groups are not left for ever while each edit of a gesture calls for all pilots.
+//
+//   P   what changed paths of pilots that are like the group carry: added by steps, taken away
+//       when the group is traced. What pilots of that same step add stays: in a gesture the next
+//       edit mostly concerns the same groups.
 //   V   share of such pilots that hit anything that the view shows; at least 1/16, so that what is
 //       not seen comes at last, too
 //
@@ -37,9 +40,8 @@ class GroupOrder {
 
  private:
   struct Urgency {
-    int rank;  // 0 to 2, as above
     int64_t priority;
-    uint32_t row;
+    uint32_t version, row;
   };
   std::vector<uint32_t> orderOf(const StatePages& pages, const View& view) const;
   std::vector<int64_t> visibility(const StatePages& pages, const View& view) const;

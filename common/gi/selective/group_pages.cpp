@@ -10,13 +10,6 @@ constexpr size_t kMostPages = 30;       // of a row: what can be sent at once, 2
 constexpr size_t kMostOfAll = 60000;    // of the state (proto allows some more)
 constexpr size_t kMostHitsOfPath = 64;  // mean number that there is room for, if there is
 
-struct Header {
-  uint64_t stamp;
-  uint32_t randomization;
-  float lampFlux;
-  uint32_t pilots, hits;
-};
-
 template <typename T>
 void append(Records& bytes, const T* values, size_t count) {
   const size_t before = bytes.size();
@@ -35,11 +28,17 @@ const Records* recordsOf(const StatePages& pages, PageId id) {
   return page == nullptr ? nullptr : std::get_if<Records>(page);
 }
 
-std::optional<Header> headerOf(const Records& bytes) {
-  if (bytes.size() < sizeof(Header)) return std::nullopt;
-  Header header;
-  std::memcpy(&header, bytes.data(), sizeof(Header));
+std::optional<GroupPages::Header> headerOf(const Records& bytes) {
+  if (bytes.size() < sizeof(GroupPages::Header)) return std::nullopt;
+  GroupPages::Header header;
+  std::memcpy(&header, bytes.data(), sizeof(header));
+  if (!(header.lampFlux >= 0 && header.lampFlux < 1e30f)) return std::nullopt;
   return header;
+}
+
+bool arePossible(const GroupRow& row) {
+  return std::ranges::all_of(
+      row.pilots, [](const Pilot& pilot) { return pilot.weight >= 0 && pilot.weight <= 1e6f; });
 }
 
 }  // namespace
@@ -61,7 +60,10 @@ size_t GroupPages::room() const {
 PageDeltas GroupPages::replace(const StatePages& pages, uint32_t row,
                                const GroupRow& content) const {
   Records bytes;
-  const Header header{content.stamp, content.randomization, content.lampFlux,
+  const Header header{content.stamp,
+                      content.randomization,
+                      content.version,
+                      content.lampFlux,
                       static_cast<uint32_t>(content.pilots.size()),
                       static_cast<uint32_t>(content.hits.size())};
   append(bytes, &header, 1);
@@ -89,20 +91,18 @@ std::optional<GroupRow> GroupPages::read(const StatePages& pages, uint32_t row) 
   const size_t length =
       sizeof(Header) + header->pilots * sizeof(Pilot) + header->hits * sizeof(ElementHit);
   if (bytes.size() != length) return std::nullopt;
-  GroupRow content{header->stamp, header->randomization, header->lampFlux, {}, {}};
+  GroupRow content{header->stamp, header->randomization, header->version, header->lampFlux, {}, {}};
   content.pilots.resize(header->pilots), content.hits.resize(header->hits);
   size_t place = sizeof(Header);
   take(bytes, place, content.pilots.data(), content.pilots.size());
   take(bytes, place, content.hits.data(), content.hits.size());
+  if (!arePossible(content)) return std::nullopt;
   return content;
 }
 
-std::optional<uint64_t> GroupPages::stamp(const StatePages& pages, uint32_t row) const {
+std::optional<GroupPages::Header> GroupPages::header(const StatePages& pages, uint32_t row) const {
   const Records* first = recordsOf(pages, pageOf(row, 0));
-  if (first == nullptr) return std::nullopt;
-  const std::optional<Header> header = headerOf(*first);
-  if (!header) return std::nullopt;
-  return header->stamp;
+  return first == nullptr ? std::nullopt : headerOf(*first);
 }
 
 bool GroupPages::isShared(const StatePages& a, const StatePages& b, uint32_t row) const {

@@ -9,7 +9,8 @@
 // A hit names triangle and place; which elements lie there is for who reads it (element_light.h).
 //
 // Proved:  tests/gi/group_pages_test.cpp.
-// Threads: pure functions.   Errors: rows that are cut short or do not fit together read as empty.
+// Threads: pure functions.   Errors: rows that are cut short, do not fit together or have impossible
+//          numbers read as never traced.
 // Memory:  12 bytes a hit, 12 a pilot.
 #pragma once
 
@@ -43,6 +44,7 @@ struct Pilot {
 struct GroupRow {
   uint64_t stamp = 0;          // of the scene that it was traced in (scene_stamp.h)
   uint32_t randomization = 0;  // replication of its numbers
+  uint32_t version = 0;        // of the state that it was made for: tells which is older
   float lampFlux = 0;          // of all lamps then [W]
   std::vector<Pilot> pilots;
   std::vector<ElementHit> hits;
@@ -58,8 +60,15 @@ class GroupPages {
   PageDeltas replace(const StatePages& pages, uint32_t row, const GroupRow& content) const;
   // Nothing: it was never traced.
   std::optional<GroupRow> read(const StatePages& pages, uint32_t row) const;
-  // Its stamp alone.
-  std::optional<uint64_t> stamp(const StatePages& pages, uint32_t row) const;
+  // What stands before its pilots and hits.
+  struct Header {
+    uint64_t stamp;
+    uint32_t randomization, version;
+    float lampFlux;
+    uint32_t pilots, hits;
+    uint32_t unused = 0;
+  };
+  std::optional<Header> header(const StatePages& pages, uint32_t row) const;
   // The row's pages are the same ones in both.
   bool isShared(const StatePages& a, const StatePages& b, uint32_t row) const;
 

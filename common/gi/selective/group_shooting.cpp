@@ -10,38 +10,35 @@
 namespace ninefold {
 namespace {
 
-constexpr uint32_t kWalkDimension = 4;
+constexpr double kMostWeight = 100;
 
 bool isKept(const Transport& t, const Arrival& a) {
-  return a.turned && !a.focused && !isBlack(a.point->bsdf.diffuse) && t.allows(a.diffuseBefore + 1);
+  // A texel without D counts as area of its element all the same, so that its hits must count, too.
+  return a.turned && !a.focused && t.shader.mayBeDiffuse(a.point->surface.material) &&
+         t.allows(a.diffuseBefore + 1);
 }
 
 uint16_t placeOf(float barycentric) {
   return static_cast<uint16_t>(std::lround(65535 * std::clamp(barycentric, 0.0f, 1.0f)));
 }
 
-// One stream of lamps: its numbers, and how many photons share its flux.
+// One stream of lamps, and its numbers.
 struct Stream {
   size_t index;
   HaltonSampler numbers;
-  uint32_t count;  // n'
-
-  bool has(uint32_t photon, uint32_t all) const { return uint64_t{photon} * count % all < count; }
 };
 
-std::vector<Stream> streamsOf(const Transport& t, uint32_t photons, uint32_t randomization) {
+std::vector<Stream> streamsOf(const Transport& t, uint32_t randomization) {
   std::vector<Stream> streams;
   for (size_t s = 0; s < t.streams.count(); ++s) {
     const uint64_t seed = LightStreams::seedOf(s, t.settings.seed);
-    const int count = t.streams.samples(s, static_cast<int>(photons));
-    streams.push_back({s, HaltonSampler(seed, SampleUse::groupPhoton, randomization),
-                       std::min(static_cast<uint32_t>(count), photons)});
+    streams.push_back({s, HaltonSampler(seed, SampleUse::groupPhoton, randomization)});
   }
   return streams;
 }
 
 void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Stream& stream,
-                 uint32_t photon, std::vector<ElementHit>& hits, RayCounts& rays) {
+                 uint32_t photon, float share, std::vector<ElementHit>& hits, RayCounts& rays) {
   const size_t first = hits.size();
   Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
                              stream.numbers.place(photon));
@@ -49,12 +46,12 @@ void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Strea
   const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
   start.flux *= t.shader.squaredIndex(media);
   walkLightPath(
-      t, start, media, 0, stream.numbers, photon, kWalkDimension, rays, [&](const Arrival& a) {
+      t, start, media, 0, stream.numbers, photon, HaltonSampler::kWalkDimension, rays,
+      [&](const Arrival& a) {
         const ShadingPoint& p = *a.point;
         if (isKept(t, a)) {
-          const float share =
-              1 / (static_cast<float>(stream.count) * t.shader.squaredIndex(a.media));
-          const Flux flux = share * shadingFactor(p, p.ns, p.wo) * a.flux;
+          const Flux flux =
+              share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
           const uint64_t word = hashWords(photon, stream.index, hits.size() - first);
           if (const uint32_t packed = packFlux(flux, word); packed != 0)
             hits.push_back({surfaces.numberOf({p.surface.instance, p.surface.triangle, !p.front}),
@@ -74,12 +71,13 @@ Pilot pilotOf(const std::vector<ElementHit>& hits, size_t first, double meanFlux
     flux += double{std::max({brought.x, brought.y, brought.z})};
   }
   const double weight = meanFlux > 0 ? flux / meanFlux : 0;
-  return {static_cast<uint32_t>(signature), static_cast<float>(std::min(weight, 1e6)),
+  return {static_cast<uint32_t>(signature), static_cast<float>(std::min(weight, kMostWeight)),
           static_cast<uint32_t>(hits.size())};
 }
 
 // Every n/room-th of the hits, which carry as much more.
-void thin(std::vector<ElementHit>& hits, size_t room, uint64_t word) {
+void thin(GroupRow& row, size_t room, uint64_t word) {
+  std::vector<ElementHit>& hits = row.hits;
   const double step = static_cast<double>(hits.size()) / static_cast<double>(room);
   const double u = double(unitFloat(static_cast<uint32_t>(word >> 32)));
   for (size_t i = 0; i < room; ++i) {
@@ -89,28 +87,31 @@ void thin(std::vector<ElementHit>& hits, size_t room, uint64_t word) {
     hits[i] = hit;
   }
   hits.resize(room);
+  // Those whose place lies before a pilot's end.
+  for (Pilot& pilot : row.pilots) {
+    const double before = std::ceil(static_cast<double>(pilot.end) / step - u);
+    pilot.end = static_cast<uint32_t>(std::clamp(before, 0.0, static_cast<double>(room)));
+  }
 }
 
 }  // namespace
 
-GroupRow GroupShooting::shoot(uint32_t row, uint32_t randomization, RayCounts& rays) const {
+GroupRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t version,
+                              RayCounts& rays) const {
   const Transport& t = transport;
-  GroupRow left{stamp, randomization, t.lampFlux, {}, {}};
+  GroupRow left{stamp, randomization, version, lampFlux, {}, {}};
   if (t.emitters.empty()) return left;
-  const double meanFlux = double{t.lampFlux} / groups.photons();
-  const std::vector<Stream> streams = streamsOf(t, groups.photons(), randomization);
+  const double meanFlux = double{lampFlux} / groups.photons();
+  const float share = 1 / static_cast<float>(groups.photons());
+  const std::vector<Stream> streams = streamsOf(t, randomization);
   for (uint32_t k = 0; k < groups.photonsOf(row); ++k) {
     const size_t first = left.hits.size();
     const uint32_t photon = groups.photon(row, k);
     for (const Stream& stream : streams)
-      if (stream.has(photon, groups.photons()))
-        shootPhoton(t, surfaces, stream, photon, left.hits, rays);
+      shootPhoton(t, surfaces, stream, photon, share, left.hits, rays);
     if (groups.hasPilots(row)) left.pilots.push_back(pilotOf(left.hits, first, meanFlux));
   }
-  if (left.hits.size() > room) {
-    thin(left.hits, room, hashWords(t.settings.seed, randomization, row));
-    for (Pilot& pilot : left.pilots) pilot.end = std::min(pilot.end, static_cast<uint32_t>(room));
-  }
+  if (left.hits.size() > room) thin(left, room, hashWords(t.settings.seed, randomization, row));
   return left;
 }
 

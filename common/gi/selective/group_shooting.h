@@ -5,13 +5,12 @@
 //   what comes straight from a lamp is the direct VPLs', what comes by mirrors and glass the
 //   caustic photons' (selective.h)
 //
-// Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): n' of
-// the Z photons shoot once more for it, those with i n' mod Z < n'.
+// Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): each
+// photon shoots once for each stream.
 //
 // What has no room in the row is thinned, and what is left carries more.
 //
-// A pilot's weight: flux of its hits, in units of a photon's mean flux Phi/Z, each hit over T_e, by
-// which the texture there hides a change of light (visual_masking.h).
+// A pilot's weight: flux of its hits, in units of a photon's mean flux Phi/Z, at most kMostWeight.
 //
 // Source:  Dmitriev et al. 2002, 4 and 5.   Proved: tests/gi/selective_test.cpp.
 // Threads: pure functions.   Errors: none.
@@ -29,9 +28,11 @@ struct GroupShooting {
   const PhotonGroups& groups;
   const SurfaceNumbers& surfaces;
   uint64_t stamp = 0;  // of the transport's scene
+  float lampFlux = 0;  // of all lamps as they are now, largest component [W]
   size_t room = 0;     // hits that a row has room for
 
-  GroupRow shoot(uint32_t row, uint32_t randomization, RayCounts& rays) const;
+  // version: that it is made for.
+  GroupRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
 };
 
 }  // namespace ninefold

@@ -32,6 +32,8 @@ class PhotonGroups {
         ratio_(static_cast<uint32_t>(s.pilotRatio)),
         pilots_(photons_ / ratio_) {}
 
+  bool operator==(const PhotonGroups&) const = default;
+
   uint32_t photons() const { return photons_; }  // Z
   uint32_t groups() const { return groups_; }    // N_g
   uint32_t likeGroup(uint32_t photon) const { return photon % groups_; }

@@ -32,7 +32,8 @@ uint64_t sceneStamp(const Transport& t) {
     stamp.add(m.metallic), stamp.add(m.roughness), stamp.add(m.transmission), stamp.add(m.ior);
   }
   for (const PunctualLight& light : t.lights) {
-    stamp.add(light.position), stamp.add(light.direction), stamp.add(light.intensity);
+    stamp.add(light.position), stamp.add(light.direction), stamp.add(light.across);
+    stamp.add(light.intensity);
   }
   stamp.add(t.emitters.environment());
   // A lamp's share of the samples decides what its photons carry.

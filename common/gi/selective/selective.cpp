@@ -14,6 +14,18 @@ struct SelectiveLight final : LightSet {
   const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
 };
 
+std::optional<uint64_t> stampOf(const GroupPages& rows, const StatePages& pages, uint32_t row) {
+  const auto header = rows.header(pages, row);
+  if (!header) return std::nullopt;
+  return header->stamp;
+}
+
+float fluxOf(const Emitters& emitters) {
+  glm::dvec3 sum(0);
+  for (size_t i = 0; i < emitters.size(); ++i) sum += glm::dvec3(emitters[i].flux);
+  return static_cast<float>(std::max({sum.x, sum.y, sum.z}));
+}
+
 // What tracing a row changes of the groups' priorities. Pilots that took another path than before
 // add to groups that were not yet traced in the scene with this stamp; a group's own is spent.
 std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePages& pages,
@@ -27,7 +39,7 @@ std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePage
   for (uint32_t k = 0; k < count; ++k) {
     const Pilot &was = before->pilots[k], &is = now.pilots[k];
     const uint32_t group = groups.likeGroup(groups.photon(row, k));
-    if (was.signature != is.signature && rows.stamp(pages, group) != now.stamp)
+    if (was.signature != is.signature && stampOf(rows, pages, group) != now.stamp)
       changes[group] += toFixed(double{std::max(was.weight, is.weight)}, kWeightQuantum);
   }
   return changes;
@@ -40,6 +52,7 @@ Selective::Selective(const Transport& transport)
       groups_(transport.settings),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
       stamp_(sceneStamp(transport)),
+      lampFlux_(fluxOf(transport.emitters)),
       order_(transport.tracer, groups_, *surfaces_, stamp_) {}
 
 std::shared_ptr<const FrameLight> Selective::light(const FrameKey& frame, int set,
@@ -62,8 +75,8 @@ StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_
   const std::optional<GroupRow> before = rows.read(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;
-  const GroupShooting shooting{t_, groups_, *surfaces_, stamp_, rows.room()};
-  const GroupRow now = shooting.shoot(row, randomization, result.rays);
+  const GroupShooting shooting{t_, groups_, *surfaces_, stamp_, lampFlux_, rows.room()};
+  const GroupRow now = shooting.shoot(row, randomization, step.to, result.rays);
   result.deltas = rows.replace(pages, row, now);
   GroupPages::addPriorities(priorityChanges(groups_, pages, row, before, now), result.deltas);
   return result;

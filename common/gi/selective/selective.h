@@ -7,8 +7,8 @@
 //   any other S lobe            caustic photons (caustic_photons.h)
 //
 //   unit of a step   one row of photons (photon_groups.h), the one at its place in the order
-//                    (group_order.h): all pilots at first, then groups. Its photons are traced in
-//                    the present scene and replace those of before (group_pages.h).
+//                    (group_order.h). Its photons are traced in the present scene and replace
+//                    those of before (group_pages.h).
 //   change           A pilot that now hits something else than before tells that the group that it
 //                    is like has changed, too: its weight is added to that group's priority P. Any
 //                    edit shows in this way: of objects, materials and lamps.
@@ -17,8 +17,8 @@
 //   - A row's hits are kept (12 bytes each), so that old light is taken away without tracing it
 //     again with negative energy. A state of which all rows are traced is that of a fresh start, to
 //     the last bit.
-//   - All pilots, 1/R of the pool, go before any group, as groups in a chance order would find
-//     little.
+//   - Pilots, 1/R of the pool, have rows of their own, which go first by turns with groups: as
+//     parts of groups in a chance order they would find little.
 //
 // At rest each frame has a pool of its own, by digit-scrambled numbers (sampling/halton.h): frames
 // are independent.
@@ -26,7 +26,8 @@
 // Source:  Dmitriev, Brabec, Myszkowski and Seidel 2002.
 // Proved:  tests/gi (all tests over the table of methods; selective_test.cpp).
 // Fails:   light that has bounced is blurred over an element; where a wall stands on an element,
-//          light leaks under it.
+//          light leaks under it. Where a thing stands on an element, what it covers counts as area,
+//          and the rest of the element is too dark by as much.
 // Threads, owner, errors: as method.h says.
 #pragma once
 
@@ -60,6 +61,7 @@ class Selective final : public LayeredMethod {
   const PhotonGroups groups_;
   const std::shared_ptr<const SurfaceNumbers> surfaces_;
   const uint64_t stamp_;
+  const float lampFlux_;  // of all lamps as they are now, largest component [W]
   const GroupOrder order_;
 };
 
