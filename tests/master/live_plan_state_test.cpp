@@ -129,6 +129,23 @@ TEST_F(LivePlanState, AStateThatCatchesUpIsShownStepByStep) {
   EXPECT_FALSE(frame().moving);
 }
 
+// The step for the next frame at rest is open when a hand takes hold of something.
+TEST_F(LivePlanState, AnEditVoidsAStepOfAllThatShowsTheSceneBefore) {
+  plan.stepDone(step().key, now);
+  const StepOrder next = step();
+  finish(frame());
+  edit();
+  const auto voided = plan.takeVoidSteps();
+  ASSERT_TRUE(voided);
+  EXPECT_GT(*voided, next.key.number);
+  finish(frame());
+  const StepOrder small = step();
+  EXPECT_EQ(small.units, 2);
+  plan.stepDone(next.key, now);  // its last unit came all the same
+  plan.stepDone(small.key, now);
+  EXPECT_EQ(frame().order.key.state, small.key.to);
+}
+
 // Groups of photons: of 100 ms for a frame steps get a half.
 TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomFor) {
   LivePlan::Setup paced = setup();
