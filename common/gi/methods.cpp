@@ -27,7 +27,7 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
     case Method::photonMap:
       return std::make_unique<const PhotonMap>(t, dynamic_cast<const PhotonMap*>(begun));
     case Method::selective:
-      return std::make_unique<const Selective>(t);
+      return std::make_unique<const Selective>(t, dynamic_cast<const Selective*>(begun));
     case Method::automatic: {
       const auto* before = dynamic_cast<const Automatic*>(begun);
       Automatic::Tried tried;

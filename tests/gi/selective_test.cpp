@@ -250,11 +250,12 @@ TEST(Selective, ARowThatIsTooLongIsThinned) {
   const Transport transport(tracer, s);
   const PhotonGroups groups(s);
   const SurfaceNumbers surfaces(scene);
+  const VisualMasking masking(scene, 0.1f);
   const uint32_t pilots = groups.groups();
   RayCounts rays;
   const auto shot = [&](size_t room) {
-    return GroupShooting{transport, groups, surfaces, 1, transport.lampFlux, room}.shoot(pilots, 3,
-                                                                                         1, rays);
+    return GroupShooting{transport, groups, surfaces, masking, 1, transport.lampFlux, room}.shoot(
+        pilots, 3, 1, rays);
   };
   const auto flux = [](const GroupRow& row) {
     double sum = 0;

@@ -61,20 +61,6 @@ void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Strea
       });
 }
 
-Pilot pilotOf(const std::vector<ElementHit>& hits, size_t first, double meanFlux) {
-  uint64_t signature = 0;
-  double flux = 0;
-  for (size_t i = first; i < hits.size(); ++i) {
-    const ElementHit& h = hits[i];
-    signature = hashWords(signature, uint64_t{h.surface} << 32 | h.flux, uint64_t{h.u} << 16 | h.v);
-    const Flux brought = unpackFlux(h.flux);
-    flux += double{std::max({brought.x, brought.y, brought.z})};
-  }
-  const double weight = meanFlux > 0 ? flux / meanFlux : 0;
-  return {static_cast<uint32_t>(signature), static_cast<float>(std::min(weight, kMostWeight)),
-          static_cast<uint32_t>(hits.size())};
-}
-
 // Every n/room-th of the hits, which carry as much more.
 void thin(GroupRow& row, size_t room, uint64_t word) {
   std::vector<ElementHit>& hits = row.hits;
@@ -95,6 +81,22 @@ void thin(GroupRow& row, size_t room, uint64_t word) {
 }
 
 }  // namespace
+
+Pilot GroupShooting::pilotOf(const std::vector<ElementHit>& hits, size_t first,
+                             double meanFlux) const {
+  uint64_t signature = 0;
+  double flux = 0;
+  for (size_t i = first; i < hits.size(); ++i) {
+    const ElementHit& h = hits[i];
+    signature = hashWords(signature, uint64_t{h.surface} << 32 | h.flux, uint64_t{h.u} << 16 | h.v);
+    const Flux brought = unpackFlux(h.flux);
+    const float masked = masking.elevation(surfaces.surfaceOf(h.surface).instance);
+    flux += double{std::max({brought.x, brought.y, brought.z}) / masked};
+  }
+  const double weight = meanFlux > 0 ? flux / meanFlux : 0;
+  return {static_cast<uint32_t>(signature), static_cast<float>(std::min(weight, kMostWeight)),
+          static_cast<uint32_t>(hits.size())};
+}
 
 GroupRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t version,
                               RayCounts& rays) const {

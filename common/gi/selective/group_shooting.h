@@ -10,7 +10,8 @@
 //
 // What has no room in the row is thinned, and what is left carries more.
 //
-// A pilot's weight: flux of its hits, in units of a photon's mean flux Phi/Z, at most kMostWeight.
+// A pilot's weight: flux of its hits, in units of a photon's mean flux Phi/Z, each over T_e of what it
+// fell onto (visual_masking.h); at most kMostWeight.
 //
 // Source:  Dmitriev et al. 2002, 4 and 5.   Proved: tests/gi/selective_test.cpp.
 // Threads: pure functions.   Errors: none.
@@ -20,6 +21,7 @@
 #include "common/gi/light/transport.h"
 #include "common/gi/selective/group_pages.h"
 #include "common/gi/selective/surface_numbers.h"
+#include "common/gi/selective/visual_masking.h"
 
 namespace ninefold {
 
@@ -27,12 +29,16 @@ struct GroupShooting {
   const Transport& transport;
   const PhotonGroups& groups;
   const SurfaceNumbers& surfaces;
+  const VisualMasking& masking;
   uint64_t stamp = 0;  // of the transport's scene
   float lampFlux = 0;  // of all lamps as they are now, largest component [W]
   size_t room = 0;     // hits that a row has room for
 
   // version: that it is made for.
   GroupRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
+
+ private:
+  Pilot pilotOf(const std::vector<ElementHit>& hits, size_t first, double meanFlux) const;
 };
 
 }  // namespace ninefold

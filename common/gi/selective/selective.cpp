@@ -47,12 +47,16 @@ std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePage
 
 }  // namespace
 
-Selective::Selective(const Transport& transport)
+Selective::Selective(const Transport& transport, const Selective* begun)
     : LayeredMethod(transport),
       groups_(transport.settings),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
       stamp_(sceneStamp(transport)),
       lampFlux_(fluxOf(transport.emitters)),
+      masking_(begun != nullptr
+                   ? begun->masking_
+                   : std::make_shared<const VisualMasking>(
+                         transport.scene, transport.settings.elementSize * transport.radius)),
       order_(transport.tracer, groups_, *surfaces_, stamp_) {}
 
 std::shared_ptr<const FrameLight> Selective::light(const FrameKey& frame, int set,
@@ -75,7 +79,7 @@ StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_
   const std::optional<GroupRow> before = rows.read(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;
-  const GroupShooting shooting{t_, groups_, *surfaces_, stamp_, lampFlux_, rows.room()};
+  const GroupShooting shooting{t_, groups_, *surfaces_, *masking_, stamp_, lampFlux_, rows.room()};
   const GroupRow now = shooting.shoot(row, randomization, step.to, result.rays);
   result.deltas = rows.replace(pages, row, now);
   GroupPages::addPriorities(priorityChanges(groups_, pages, row, before, now), result.deltas);

@@ -35,12 +35,14 @@
 #include "common/gi/selective/group_order.h"
 #include "common/gi/selective/photon_groups.h"
 #include "common/gi/selective/surface_numbers.h"
+#include "common/gi/selective/visual_masking.h"
 
 namespace ninefold {
 
 class Selective final : public LayeredMethod {
  public:
-  explicit Selective(const Transport& transport);
+  // `begun`: of the scene that a gesture began with, or null.
+  Selective(const Transport& transport, const Selective* begun);
 
   // `state` may be null: the empty state, without a photon.
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
@@ -62,6 +64,7 @@ class Selective final : public LayeredMethod {
   const std::shared_ptr<const SurfaceNumbers> surfaces_;
   const uint64_t stamp_;
   const float lampFlux_;  // of all lamps as they are now, largest component [W]
+  const std::shared_ptr<const VisualMasking> masking_;  // a gesture keeps that of its beginning
   const GroupOrder order_;
 };
 
