@@ -38,9 +38,9 @@ constexpr Flag kPicture[] = {
 };
 constexpr Flag kPreset{
     "preset", "NAME",
-    "interactive, final (more of everything), paper (the paper's numbers, sampling and filter) or "
-    "segovia (bidirectional instant radiosity as published); flags given beside it win (default "
-    "interactive)"};
+    "interactive, final (more of everything), paper (the paper's numbers, sampling and filter), "
+    "segovia or dmitriev (bidirectional instant radiosity and selective photons as published); "
+    "flags given beside it win (default interactive)"};
 constexpr Flag kFilter{
     "filter", "surface|paper|none",
     "neighbours that the discontinuity buffer averages: on one smooth surface, within the paper's "

@@ -22,6 +22,11 @@ Settings settingsOf(Preset preset) {
     s.directVpls = 6, s.indirectVpls = 24;
     s.resampling = 5, s.cameraPoints = 50;
   }
+  if (preset == Preset::dmitriev) {
+    s.method = Method::selective;
+    s.photonPool = 1152000, s.photonGroups = 288, s.pilotRatio = 16;
+    s.elementRule = ElementRule::buckets;
+  }
   return s;
 }
 

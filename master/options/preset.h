@@ -7,6 +7,8 @@
 //                 them come from the lamps, half from the camera; each brings half of the light
 //                 (gi/bidirectional/estimated_density.h). Worth, bound, compensation and photons
 //                 are ours: the published form has none of the last three.
+//   dmitriev      Dmitriev et al. 2002: 1,152,000 photons, bucketed in mesh elements. Pilots, order
+//                 and direct light are ours.
 //
 // Threads: pure functions.
 #pragma once
@@ -18,8 +20,8 @@
 
 namespace ninefold {
 
-enum class Preset : uint8_t { interactive, final, paper, segovia };
-inline constexpr std::array kPresetNames{"interactive", "final", "paper", "segovia"};
+enum class Preset : uint8_t { interactive, final, paper, segovia, dmitriev };
+inline constexpr std::array kPresetNames{"interactive", "final", "paper", "segovia", "dmitriev"};
 
 inline const char* nameOf(Preset preset) { return kPresetNames[static_cast<size_t>(preset)]; }
 

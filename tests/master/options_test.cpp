@@ -175,6 +175,10 @@ TEST(Options, PresetsSetDefaultsThatFlagsOverride) {
   EXPECT_EQ(segovia.settings.interleave, (Interleave{1, 1}));
   EXPECT_EQ(segovia.settings.directVpls + segovia.settings.indirectVpls, 30);
   EXPECT_EQ(segovia.settings.cameraPoints, 50);
+  const Options dmitriev = parse("room.glb --preset dmitriev");
+  EXPECT_EQ(dmitriev.settings.method, Method::selective);
+  EXPECT_EQ(dmitriev.settings.photonPool, 1152000);
+  EXPECT_EQ(dmitriev.settings.elementRule, ElementRule::buckets);
   const Options mixed = parse("room.glb --preset paper --filter surface --randomization owen");
   EXPECT_EQ(mixed.surfaceTest, SurfaceTest::surface);
   EXPECT_EQ(mixed.settings.randomization, Randomization::owen);
