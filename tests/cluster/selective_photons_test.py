@@ -10,7 +10,7 @@ class SelectivePhotons(State):
     METHOD = ("--method", "selective-photons", "--photon-pool", 4608)
     UNITS = 288 + 288 // 16
     LONG = 12
-    LATE = 40
+    LATE = 250
 
     # Its sums are nobody's to overflow.
     test_a_sum_that_overflows_ends_the_run_and_says_which = None

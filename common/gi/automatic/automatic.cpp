@@ -66,7 +66,7 @@ std::shared_ptr<const FrameLight> Automatic::light(const FrameKey& frame, int se
                                                    std::span<const View> views,
                                                    const MethodState* state) const {
   auto chosen = std::make_shared<ChosenLight>();
-  chosen->which = static_cast<const Chosen*>(state)->which;
+  if (state != nullptr) chosen->which = static_cast<const Chosen*>(state)->which;
   chosen->light = tried_[chosen->which]->light(frame, set, views, nullptr);
   chosen->rays = chosen->light->rays;
   return chosen;

@@ -29,6 +29,7 @@ class Automatic final : public GiMethod {
 
   const GiMethod* tried(size_t which) const { return tried_[which].get(); }
 
+  // `state` may be null: nothing was tried, and the first method it is.
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
                                           std::span<const View> views,
                                           const MethodState* state) const override;
