@@ -108,6 +108,7 @@ std::string probeClass(Isa isa) {
   const Tracer tracer(scene, isa);
   Settings settings;
   settings.width = 48, settings.height = 36, settings.interleave = {2, 1}, settings.photons = 200;
+  settings.photonPool = 4608;
   settings.camera = scene.cameras.front();
   uint64_t hash = 0;
   for (const MethodFacts& facts : allMethods()) {

@@ -90,7 +90,7 @@ inline Rendered render(const Tracer& tracer, Settings settings, int frames,
 inline Settings small(Method method, int side = 12) {
   Settings s;
   s.method = method, s.width = side, s.height = side;
-  s.photonPool = 18432;  // enough for so few pixels
+  s.photonPool = 4608;  // enough for so few pixels
   return s;
 }
 

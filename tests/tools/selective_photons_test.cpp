@@ -1,6 +1,8 @@
 // The program ninefold-selective-photons as a user meets it.
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -15,7 +17,8 @@ using Json = nlohmann::json;
 class SelectivePhotonsTool : public testing::Test {
  protected:
   void SetUp() override {
-    edit_ = std::filesystem::temp_directory_path() / "ninefold_selective_edit.json";
+    edit_ = std::filesystem::temp_directory_path() /
+            ("ninefold_selective_edit_" + std::to_string(getpid()) + ".json");
     std::ofstream(edit_) << R"({"seconds": 1, "events": [
       {"from": 0, "to": 1, "object": "glass sphere", "by": [0.2, 0, 0.1]},
       {"from": 0, "to": 1, "material": "lamp", "emission": [5, 4, 3]}]})";
