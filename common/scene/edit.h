@@ -33,7 +33,7 @@ struct LightEdit {
   Vec3 position{0};    // [m]
   Vec3 direction{0, 0, -1};
   Vec3 intensity{0};  // as PunctualLight
-  // Of goniometric ones, as PunctualLight; need not be perpendicular to direction, but not along it.
+  // Of goniometric ones, as PunctualLight: not along direction, but not always perpendicular to it.
   Vec3 across{1, 0, 0};
   bool operator==(const LightEdit&) const = default;
 };

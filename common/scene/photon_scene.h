@@ -1,5 +1,5 @@
-// photon_scene.h: a second, simpler scene, which the photons of a pool meet in place of what is seen
-// (--photon-scene): fewer surfaces, the same light about.
+// photon_scene.h: a second, simpler scene, which the photons of a pool meet in place of what is
+// seen (--photon-scene). It has fewer surfaces and about the same light.
 //
 //   what photons meet = the lamps of the scene, as they are + all of the simpler one
 //

@@ -3,8 +3,8 @@
 //   pdf(w) = f(w) / Omega   [1/sr]
 //
 // The map from the square is continuous, but where f is 0:
-//   u.y  theta, whose density is sin(theta) times the row's integral over phi. Within a band that is
-//        a straight line times a sine; its integral is inverted by halving and Newton's steps
+//   u.y  theta, whose density is sin(theta) times the row's integral over phi. Within a band that
+//        is a straight line times a sine; its integral is inverted by halving and Newton's steps
 //   u.x  phi, whose density at that theta is piecewise a straight line; inverted by a square root
 //
 // Symbols as in light_profile.h; here angles are radians.

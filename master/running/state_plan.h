@@ -8,8 +8,8 @@
 //           each frame, until all of the state has been made anew: the picture lags by as many
 //           frames. Where the facts say so, the step is as large as there is time for.
 //
-// A state that serves all frames (StateFacts::servesAll) is made once for a series at rest. In motion
-// the latest stays.
+// A state that serves all frames (StateFacts::servesAll) is made once for a series at rest. The
+// latest one stays in motion.
 //
 // The first step, and one after settings under which the state is not right any more, makes all of
 // it of nothing.

@@ -43,7 +43,7 @@ Scene lit(Kind kind) {
   return b.build();
 }
 
-// Of the rows of the goniometric light: the integral over phi, in degrees. Its columns 0 and 360 are
+// Of the rows of the goniometric light: the integral over phi, in degrees. Columns 0 and 360 are
 // alike, and phi = 90 is 1 but for the last row: 360 (1 + a)/2 with a = 1/4, 0, 1/4, and 0.
 double rowIntegral(double theta) {
   const double rows[] = {225, 180, 225, 0}, at[] = {0, 30, 90, 120};

@@ -299,7 +299,7 @@ testing::Estimator atVertices(int side, int pathLength) {
   return e;
 }
 
-// L = 1/(1 - a) in every pixel. Bias: where a vertex lies in an edge, half of its disk is empty, and
+// L = 1/(1 - a) in every pixel. Bias: where a vertex lies in an edge half of its disk is empty, and
 // the mean of 1/f is above 1/(mean of f): by 1/4 (1/16)^2 there, if of 16 rays one more or less may
 // miss, and by some percent in corners.
 TEST(PhotonMap, AtVerticesAFurnaceIsWhite) {

@@ -43,7 +43,7 @@ std::vector<MapPhoton> photonsOf(const Scene& scene, const Settings& s) {
   return readPhotons(stateAtRest(Renderer(tracer, s), s, 0));
 }
 
-// By a point light alone there is no geometry of lamps: the same scene twice is the same to the bit.
+// A point light has no geometry, so that the same scene twice is the same to the last bit.
 TEST(PhotonScene, OfTheSceneItselfIsTheScene) {
   const Scene scene = room(12, false);
   EXPECT_EQ(photonsOf(with(scene, scene), pool()), photonsOf(scene, pool()));

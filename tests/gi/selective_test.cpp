@@ -182,8 +182,8 @@ TEST(Selective, ALampOfASecondStreamIsSampledAllOver) {
   }
 }
 
-// Whoever makes a unit, and in whatever order: of a client that was there from the start, and of one
-// that came late, has the scene after the edit alone, and the pages as they are.
+// A client that was there from the start and one that came late, which has only the scene after the
+// edit and the pages, make the same units, in whatever order.
 TEST(Selective, AnyClientMakesTheSameUnits) {
   const Scene before = Room().build();
   Room moved;

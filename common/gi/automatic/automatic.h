@@ -2,11 +2,11 @@
 // state is a small trial of both (scene/method_trial.h). All frames of its version are those of the
 // method that it chose, bit for bit.
 //
-// While anything moves the choice that was made at rest before it stays. At rest it is made anew, of
-// nothing but scene, settings and view: it may differ from the one before, but the film begins then,
-// anyway.
+// While anything moves the latest choice stays. Each rest makes a new one, of nothing but scene,
+// settings and view. The film begins anew then anyway, so that another choice does no harm.
 //
-// Proved:  tests/gi/automatic_test.cpp; tests/master/state_plan_test.cpp; same bytes for any cluster.
+// Proved:  tests/gi/automatic_test.cpp; tests/master/state_plan_test.cpp;
+//          tests/cluster/same_bytes_test.py.
 // Fails:   in motion sets are made for each view, as the bidirectional method needs them, though
 //          those of instant radiosity would be good for all.
 // Threads, owner, errors: as method.h says.

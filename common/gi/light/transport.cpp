@@ -21,8 +21,8 @@ Vec3 mainWay(const Emitters& emitters, const PunctualLight& light) {
   return along > 0.5 ? light.direction : -light.direction;
 }
 
-// A light exactly in a ceiling would be hidden by it. Those that shine in some direction move there,
-// others to the front of the surface.
+// A light exactly in a ceiling would be hidden by it. Lights with a direction move that way, others
+// to the front of the surface.
 std::vector<PunctualLight> offSurfaces(const Tracer& tracer, const Emitters& emitters) {
   std::vector<PunctualLight> lights = tracer.scene().lights;
   for (PunctualLight& light : lights)

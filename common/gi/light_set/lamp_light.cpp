@@ -28,11 +28,7 @@ void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSe
 void gatherLampLight(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
                      int pathVertices, LightSetScratch& scratch, Receivers& receivers,
                      std::vector<Irradiance>* caustic, RayCounts& rays) {
-  receivers.pad();
-  gatherVpls(t, lights, samples, pathVertices, t.settings.vplRoulette, scratch.vplGather, receivers,
-             rays.shadow);
-  for (const PhotonGrid& grid : lights.photons)
-    gatherPhotons(t, grid, pathVertices, receivers, caustic);
+  gatherBounded(t, lights, samples, pathVertices, scratch, receivers, caustic, rays);
   if (t.settings.compensate)
     compensate(t, samples, pathVertices, {.emission = true, .onward = false, .glossy = false},
                scratch.compensation, receivers, rays, [](int, Receivers&) {});

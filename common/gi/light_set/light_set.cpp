@@ -28,14 +28,20 @@ void addStandardVpls(const Transport& t, const FrameKey& frame, int k, int times
   std::erase_if(set.vpls, [](const Vpl& vpl) { return isBlack(vpl.power) && vpl.glossy < 0; });
 }
 
-void gatherLightSet(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
-                    int pathVertices, LightSetScratch& scratch, Receivers& receivers,
-                    std::vector<Irradiance>* caustic, RayCounts& rays) {
+void gatherBounded(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
+                   int pathVertices, LightSetScratch& scratch, Receivers& receivers,
+                   std::vector<Irradiance>* caustic, RayCounts& rays) {
   receivers.pad();
   gatherVpls(t, lights, samples, pathVertices, t.settings.vplRoulette, scratch.vplGather, receivers,
              rays.shadow);
   for (const PhotonGrid& grid : lights.photons)
     gatherPhotons(t, grid, pathVertices, receivers, caustic);
+}
+
+void gatherLightSet(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
+                    int pathVertices, LightSetScratch& scratch, Receivers& receivers,
+                    std::vector<Irradiance>* caustic, RayCounts& rays) {
+  gatherBounded(t, lights, samples, pathVertices, scratch, receivers, caustic, rays);
   if (t.settings.compensate && pathVertices < kMaxVertices)
     compensate(t, samples, pathVertices, {}, scratch.compensation, receivers, rays,
                [&](int vertices, Receivers& points) {

@@ -37,6 +37,11 @@ struct LightSetScratch {
 void addStandardVpls(const Transport& transport, const FrameKey& frame, int k, int times,
                      int pathsLog2, LightSet& set);
 
+// Adds E to receivers, without what the bound cut off; arguments as in layered_method.h.
+void gatherBounded(const Transport& transport, const LightSet& lights,
+                   const ReceiverSamples& samples, int pathVertices, LightSetScratch& scratch,
+                   Receivers& receivers, std::vector<Irradiance>* caustic, RayCounts& rays);
+
 // Adds E to receivers; arguments as in layered_method.h.
 void gatherLightSet(const Transport& transport, const LightSet& lights,
                     const ReceiverSamples& samples, int pathVertices, LightSetScratch& scratch,

@@ -71,8 +71,8 @@ class GiMethod {
                       TileResult& out) const = 0;
   virtual std::unique_ptr<Scratch> makeScratch() const = 0;
 
-  // `pages`: of version step.from. `unit`: counted as step.firstUnit is. `view`: of the picture when
-  // the step was opened; it counts only for methods whose light needs it.
+  // `pages`: of version step.from. `unit`: counted as step.firstUnit is.
+  // `view`: of the picture when the step was opened.
   virtual StepResult step(const StatePages& pages, const StepKey& step, uint32_t unit,
                           const View& view) const;
   // `before`: of an earlier version under the same method, maybe of the scene before an edit; or

@@ -1,5 +1,5 @@
-// photon_world.h: what the pool's photons meet, ready to be shot at: the scene itself, or the simpler
-// one that came with it (common/scene/photon_scene.h).
+// photon_world.h: what the pool's photons meet, ready to be shot at. It is the scene itself, or the
+// simpler one that came with it (common/scene/photon_scene.h).
 //
 // Owner:   of the simpler scene; refers to the Transport that it was made of.
 // Threads: const after construction.   Errors: as Tracer.

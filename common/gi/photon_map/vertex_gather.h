@@ -1,7 +1,8 @@
 // vertex_gather.h: irradiance from the pool, found at the vertices of a finer mesh and carried from
 // there to the points between (Gouraud):
 //
-//   E(x) = sum w_k E(v_k)      v_k: the three vertices around x, on x's side; w_k: barycentrics of x
+//   E(x) = sum w_k E(v_k)
+//   v_k, w_k   the three vertices around x, on x's side; barycentrics of x
 //
 // E(v): that of map_gather.h at the vertex, found by itself, not in a group; its rays are turned by
 // the vertex's number. So it is a function of pages, randomization and vertex, whoever asks first.
@@ -10,7 +11,8 @@
 // hidden, or beyond the picture, cost nothing: as published, "back faces culled", and more.
 //
 // Source:  Jozwowski 2002, 4.1.3 (estimates at vertices), 4.4 (culling, corners).
-// Proved:  tests/gi/vertex_gather_test.cpp (linear light is exact; tends to the estimate at pixels).
+// Proved:  tests/gi/vertex_gather_test.cpp (linear light is exact; the estimate tends to that at
+//          pixels).
 // Fails:   as map_gather.h; and light and shadow finer than the mesh are lost. A vertex that is
 //          under a thing or behind a wall brings what is there into the triangles around it.
 // Threads: reentrant with one scratch a thread.   Errors: none.
@@ -28,8 +30,8 @@ struct VertexGatherScratch {
   Receivers points;                         // they
 };
 
-// Adds E of the pool to receivers that the eye sees, and to `light` what was missing there. `light`:
-// of this pool, randomization and these vertices alone. Other arguments as in map_gather.h.
+// Adds E of the pool to receivers that the eye sees, and to `light` what was missing there.
+// `light`: of this pool, randomization and these vertices alone. Other arguments: map_gather.h.
 void gatherAtVertices(const Transport& transport, const PhotonPool& pool,
                       const MapVertices& vertices, VertexLight& light, uint32_t randomization,
                       MapGatherScratch& gather, VertexGatherScratch& scratch, Receivers& receivers,

@@ -7,8 +7,8 @@
 //   fine mesh  Nodes nearer to each other than h/2 are one if they lie in one cell of side h, on
 //              one connected smooth surface, and face alike. What has less than h^2/4 there (slats,
 //              leaves, books) is one with its like in the cell: alone it would get hardly a photon.
-//   area       of a node: a third of each element around it [m^2], without its holes: masked texels,
-//              looked for at 16 points of each element
+//   area       of a node: a third of each element around it [m^2], without holes. Holes are masked
+//              texels, looked for at 16 points of each element.
 //   twin       A triangle that is there twice, either way round: a ray meets one of the two. The
 //              later one has no elements, and its light is the first one's.
 //
@@ -26,7 +26,6 @@
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "common/gi/selective/twins.h"
@@ -60,12 +59,12 @@ class ElementBlock {
   ElementPlace at(uint32_t triangle, float u, float v) const;
 
  private:
-  const Mesh* mesh_;
-  DMat3 linear_;
-  Metres size_;
   ElementPlace within(uint32_t triangle, float u, float v) const;
   void leaveOutHoles(const Scene& scene, const Mesh& mesh);
 
+  const Mesh* mesh_;
+  DMat3 linear_;
+  Metres size_;
   // Points of a triangle's grid: row j has those at v = j/n, u = i/n.
   std::vector<uint16_t> cuts_;        // n, by triangle; 0: it is a twin
   std::vector<uint32_t> firstPoint_;  // by triangle

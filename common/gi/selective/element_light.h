@@ -1,5 +1,4 @@
-// element_light.h: the light that the rows of all groups leave in the mesh elements, ready to be
-// asked.
+// element_light.h: the light that all rows leave in the mesh elements, ready to be asked.
 //
 //   Phi_node  = sum over hits of w Phi        whole numbers of the quantum u (state/fixed_point.h)
 //   E(x)      = sum over the three nodes at x of w Phi_node / A_node     [W/m^2]
@@ -55,8 +54,7 @@ class ElementLight : public MethodState {
  private:
   static constexpr size_t kPerNode = 6;  // R, G, B in front; the same on the back
   using Sums = std::vector<int64_t>;     // of one instance
-
-  using Wanted = std::vector<bool>;  // by instance
+  using Wanted = std::vector<bool>;      // by instance
 
   // Takes over from `before` the sums of instances that are the same, and tells the others.
   Wanted begin(const ElementLight* before);

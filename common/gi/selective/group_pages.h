@@ -9,8 +9,8 @@
 // A hit names triangle and place; which elements lie there is for who reads it (element_light.h).
 //
 // Proved:  tests/gi/group_pages_test.cpp.
-// Threads: pure functions.   Errors: rows that are cut short, do not fit together or have impossible
-//          numbers read as never traced.
+// Threads: pure functions.
+// Errors:  rows that are cut short or have impossible numbers read as never traced.
 // Memory:  12 bytes a hit, 12 a pilot.
 #pragma once
 
@@ -66,7 +66,7 @@ class GroupPages {
     uint32_t randomization, version;
     float lampFlux;
     uint32_t pilots, hits;
-    uint32_t unused = 0;
+    uint32_t unused = 0;  // no byte of a page is left to chance
   };
   std::optional<Header> header(const StatePages& pages, uint32_t row) const;
   // The row's pages are the same ones in both.

@@ -1,17 +1,15 @@
-// group_shooting.h: the photons of one row are traced, and what they leave is written down.
+// group_shooting.h: traces the photons of one row, and writes down what they leave.
 //
-//   photon i carries Phi_i / Z from its lamp; numbers of i: sampling/halton.h
-//   a hit is kept if the last turn before it was D or a glossy lobe, so that the light has bounced;
-//   what comes straight from a lamp is the direct VPLs', what comes by mirrors and glass the
-//   caustic photons' (selective.h)
+// Photon i carries Phi_i/Z from its lamp, by the numbers of i (sampling/halton.h). A hit is kept if
+// the last turn before it was D or a glossy lobe. Other light has other ways (selective.h).
 //
 // Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): each
 // photon shoots once for each stream.
 //
 // What has no room in the row is thinned, and what is left carries more.
 //
-// A pilot's weight: flux of its hits, in units of a photon's mean flux Phi/Z, each over T_e of what it
-// fell onto (visual_masking.h); at most kMostWeight.
+// A pilot's weight is the flux of its hits, each over T_e of what it fell onto (visual_masking.h).
+// Its unit is a photon's mean flux Phi/Z, and it is at most kMostWeight.
 //
 // Source:  Dmitriev et al. 2002, 4 and 5.   Proved: tests/gi/selective_test.cpp.
 // Threads: pure functions.   Errors: none.

@@ -14,12 +14,6 @@ struct SelectiveLight final : LightSet {
   const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
 };
 
-std::optional<uint64_t> stampOf(const GroupPages& rows, const StatePages& pages, uint32_t row) {
-  const auto header = rows.header(pages, row);
-  if (!header) return std::nullopt;
-  return header->stamp;
-}
-
 float fluxOf(const Emitters& emitters) {
   glm::dvec3 sum(0);
   for (size_t i = 0; i < emitters.size(); ++i) sum += glm::dvec3(emitters[i].flux);
@@ -39,7 +33,9 @@ std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePage
   for (uint32_t k = 0; k < count; ++k) {
     const Pilot &was = before->pilots[k], &is = now.pilots[k];
     const uint32_t group = groups.likeGroup(groups.photon(row, k));
-    if (was.signature != is.signature && stampOf(rows, pages, group) != now.stamp)
+    const auto header = rows.header(pages, group);
+    const bool isStale = !header || header->stamp != now.stamp;
+    if (was.signature != is.signature && isStale)
       changes[group] += toFixed(double{std::max(was.weight, is.weight)}, kWeightQuantum);
   }
   return changes;

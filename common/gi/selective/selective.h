@@ -17,11 +17,11 @@
 //   - A row's hits are kept (12 bytes each), so that old light is taken away without tracing it
 //     again with negative energy. A state of which all rows are traced is that of a fresh start, to
 //     the last bit.
-//   - Pilots, 1/R of the pool, have rows of their own, which go first by turns with groups: as
-//     parts of groups in a chance order they would find little.
+//   - Pilots, 1/R of the pool, have rows of their own, which take turns with groups. As parts of
+//     groups in a chance order they would find little.
 //
-// At rest each frame has a pool of its own, by digit-scrambled numbers (sampling/halton.h): frames
-// are independent.
+// At rest each frame has a pool of its own, by numbers with other digit shifts (sampling/halton.h).
+// So frames are independent.
 //
 // Source:  Dmitriev, Brabec, Myszkowski and Seidel 2002.
 // Proved:  tests/gi (all tests over the table of methods; selective_test.cpp).

@@ -1,5 +1,5 @@
-// visual_masking.h: how far textures hide a wrong light: the factor by which it may be larger before
-// it is seen.
+// visual_masking.h: how far textures hide a wrong light. It may be T_e times as large before it is
+// seen.
 //
 //   T_e = (1 + (k1 (k2 c/c_0)^s)^b)^(1/b)     k1 = 6^(-7/3), k2 = 6^(10/3), s = 0.7, b = 4
 //   c     contrast of the texture as far as light of mesh elements can be mistaken for it: standard
