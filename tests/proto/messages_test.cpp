@@ -33,7 +33,7 @@ Settings oddSettings() {
   s.mapDirect = MapDirect::on, s.mapDistribution = MapDistribution::turn;
   s.mapIndex = MapIndex::tree;
   s.mapEstimate = MapEstimate::vertices, s.mapSubdivision = 6;
-  s.photonPool = 4194304, s.photonGroups = 20160, s.pilotRatio = 2, s.elementSize = 1.5f;
+  s.photonPool = 4194304, s.photonGroups = 20160, s.pilotRatio = 2, s.minorLamps = 0.25f, s.elementSize = 1.5f;
   s.elementRule = ElementRule::buckets;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;

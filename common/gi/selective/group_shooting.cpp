@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kMostWeight = 100;
 
-bool isKept(const Transport& t, const Arrival& a) {
+bool isKept(const Transport& t, const Arrival& a, bool isMinor) {
   // A texel without D counts as area of its element all the same, so that its hits must count, too.
-  return a.turned && !a.focused && t.shader.mayBeDiffuse(a.point->surface.material) &&
+  return (a.turned || isMinor) && !a.focused && t.shader.mayBeDiffuse(a.point->surface.material) &&
          t.allows(a.diffuseBefore + 1);
 }
 
@@ -37,19 +37,22 @@ std::vector<Stream> streamsOf(const Transport& t, uint32_t randomization) {
   return streams;
 }
 
-void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Stream& stream,
-                 uint32_t photon, float share, std::vector<ElementHit>& hits, RayCounts& rays) {
+void shootPhoton(const GroupShooting& shooting, const Stream& stream, uint32_t photon, float share,
+                 std::vector<ElementHit>& hits, RayCounts& rays) {
+  const Transport& t = shooting.transport;
+  const SurfaceNumbers& surfaces = shooting.surfaces;
   const size_t first = hits.size();
   Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
                              stream.numbers.place(photon));
   // A lamp may lie in a solid that its light never leaves.
   const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
   start.flux *= t.shader.squaredIndex(media);
+  const bool isMinor = t.settings.directVpls > 0 && shooting.minor.has(start.lamp);
   walkLightPath(
       t, start, media, 0, stream.numbers, photon, HaltonSampler::kWalkDimension, rays,
       [&](const Arrival& a) {
         const ShadingPoint& p = *a.point;
-        if (isKept(t, a)) {
+        if (isKept(t, a, isMinor)) {
           const Flux flux =
               share / t.shader.squaredIndex(a.media) * shadingFactor(p, p.ns, p.wo) * a.flux;
           const uint64_t word = hashWords(photon, stream.index, hits.size() - first);
@@ -109,8 +112,7 @@ GroupRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t ver
   for (uint32_t k = 0; k < groups.photonsOf(row); ++k) {
     const size_t first = left.hits.size();
     const uint32_t photon = groups.photon(row, k);
-    for (const Stream& stream : streams)
-      shootPhoton(t, surfaces, stream, photon, share, left.hits, rays);
+    for (const Stream& stream : streams) shootPhoton(*this, stream, photon, share, left.hits, rays);
     if (groups.hasPilots(row)) left.pilots.push_back(pilotOf(left.hits, first, meanFlux));
   }
   if (left.hits.size() > room) thin(left, room, hashWords(t.settings.seed, randomization, row));
