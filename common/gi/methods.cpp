@@ -3,6 +3,7 @@
 #include "common/base/error.h"
 #include "common/gi/automatic/automatic.h"
 #include "common/gi/bidirectional/bidirectional.h"
+#include "common/gi/intersection_field/intersection_field.h"
 #include "common/gi/photon_map/photon_map.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
@@ -35,6 +36,9 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
         tried[i] = make(kTried[i], t, before != nullptr ? before->tried(i) : nullptr);
       return std::make_unique<const Automatic>(t, std::move(tried));
     }
+    case Method::intersectionField:
+      return std::make_unique<const IntersectionField>(
+          t, dynamic_cast<const IntersectionField*>(begun));
 #ifdef NINEFOLD_TEST_METHODS
     case Method::stateCheck:
       return std::make_unique<const StateCheck>(t);
