@@ -144,7 +144,7 @@ TEST(IntersectionField, WhatMovedInAGestureIsAsAtRest) {
 // A step's units are different rows, those first that show the scene of before.
 TEST(IntersectionField, OldRowsAreTracedFirst) {
   const Shown before(Room(), smallField(), nullptr);
-  const auto& [name, room] = edits()[4];
+  const Room room = edits()[4].second;
   const Shown after(room, smallField(), &before.renderer);
   StatePages pages = stateAtRest(before.renderer, before.settings, 0);
   const StatePages old = pages;
@@ -179,8 +179,8 @@ TEST(IntersectionField, TendsToTheTruthWithMoreLines) {
     return std::sqrt(sum / static_cast<double>(found.pixels.size())) / wanted.grey();
   };
   const double coarse = errorOf(5, 8), fine = errorOf(25, 48);
-  EXPECT_LT(fine, coarse);
-  EXPECT_LT(fine, 0.05);
+  EXPECT_LT(fine, 0.8 * coarse);
+  EXPECT_LT(fine, 0.06);
 }
 
 // Things far smaller than the lines lie apart are lit and send light on all the same.
@@ -195,7 +195,7 @@ TEST(IntersectionField, SmallThingsSendLightByRays) {
   const Scene scene = b.build();
   const Tracer tracer(scene, Isa::automatic);
   Settings s = smallField();
-  s.fieldDirections = 5, s.fieldDistances = 6, s.camera = scene.cameras.front();
+  s.fieldDirections = 9, s.fieldDistances = 14, s.camera = scene.cameras.front();
   const auto found = testing::render(tracer, s, 4);
   for (const Vec3& p : found.pixels) ASSERT_TRUE(isFinite(p));
   EXPECT_NEAR(found.grey(), 2.5, 0.1);

@@ -39,11 +39,12 @@ bool isForElements(const Transport& t, const Arrival& a);
 ElementHit elementHit(const Transport& t, const SurfaceNumbers& surfaces, const Arrival& a,
                       float share, uint64_t word);
 
-// Adds the hits of photon `photon`. leave: as walkLightPathBy has it.
-template <typename Leave>
+// Adds the hits of photon `photon`. leave: as walkLightPathBy has it. gain(arrival): factor on the
+// flux of its hit.
+template <typename Leave, typename Gain>
 void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const PhotonStream& stream,
                  uint32_t photon, float share, std::vector<ElementHit>& hits, RayCounts& rays,
-                 const Leave& leave) {
+                 const Leave& leave, const Gain& gain) {
   const size_t first = hits.size();
   Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
                              stream.numbers.place(photon));
@@ -55,7 +56,7 @@ void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Photo
       [&](const Arrival& a) {
         if (isForElements(t, a)) {
           const uint64_t word = hashWords(photon, stream.index, hits.size() - first);
-          const ElementHit hit = elementHit(t, surfaces, a, share, word);
+          const ElementHit hit = elementHit(t, surfaces, a, share * gain(a), word);
           if (hit.flux != 0) hits.push_back(hit);
         }
         return t.allows(a.diffuseBefore + 2);

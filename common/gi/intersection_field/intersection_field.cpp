@@ -79,11 +79,12 @@ PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_
   const float share = 1 / static_cast<float>(photons);
   const LineWalk walk{t_.tracer, field_, *elements_, lines_};
   const auto leave = [&](const ShadingPoint& p, Vec2 u) { return walk.leave(p, u); };
+  const auto gain = [&](const Arrival& a) { return a.known ? walk.gain(*a.point) : 1.0f; };
   const auto streams = photonStreams(t_, SampleUse::fieldPhoton, randomization);
   const uint32_t end = std::min((row + 1) * kPhotonsOfRow, photons);
   for (uint32_t photon = row * kPhotonsOfRow; photon < end; ++photon)
     for (const PhotonStream& stream : streams)
-      shootPhoton(t_, *surfaces_, stream, photon, share, left.hits, rays, leave);
+      shootPhoton(t_, *surfaces_, stream, photon, share, left.hits, rays, leave, gain);
   if (left.hits.size() > rows_.room())
     thinHits(left, rows_.room(), hashWords(t_.settings.seed, randomization, row));
   return left;

@@ -20,6 +20,15 @@ size_t SceneNodeLines::bytes() const {
   return sum;
 }
 
+float LineWalk::gain(const ShadingPoint& p) const {
+  const SurfacePoint& s = p.surface;
+  const ElementPlace place = elements.block(s.instance).at(s.triangle, s.u, s.v);
+  float sum = 0;
+  for (size_t c = 0; c < 3; ++c)
+    sum += place.weights[c] * lines.of(s.instance).gain(place.nodes[c]);
+  return sum;
+}
+
 WayOn LineWalk::leave(const ShadingPoint& p, Vec2 u) const {
   const SurfacePoint& s = p.surface;
   const ElementPlace place = elements.block(s.instance).at(s.triangle, s.u, s.v);

@@ -3,7 +3,10 @@
 //   at a matte surface   one of the three nodes of the element is chosen by its weight, one of the
 //                        lines through that node by its measure; the photon goes on along it, to
 //                        the side of the surface that it came to
-//   where it arrives     the next hit on that line
+//   where it arrives     the next hit on that line; what it leaves there is multiplied by
+//                        pi A/(sum of mu) of the nodes, as all that comes by lines comes by those
+//
+// So light that is the same everywhere comes out the same, however unevenly lines pass the nodes.
 //
 // No ray is traced. Where no line passes a node (it is much smaller than the lines lie apart), a
 // ray is traced all the same.
@@ -39,6 +42,8 @@ struct LineWalk {
 
   // The way on of a photon that came to p.
   WayOn leave(const ShadingPoint& p, Vec2 u) const;
+  // Factor on the flux that it leaves at p, where it came by a line.
+  float gain(const ShadingPoint& p) const;
 };
 
 }  // namespace ninefold

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/math/units.h"
 #include "common/sampling/sampler.h"
 #include "common/scene/alpha_test.h"
 #include "common/scene/world.h"
@@ -42,6 +43,7 @@ NodeLines::NodeLines(const LineField& field, const Scene& scene, uint32_t instan
   for (const Vec3& p : mesh.positions) vertices.push_back(worldPoint(toWorld, p));
   const uint32_t stride = strideOf(local, block);
 
+  measures_.assign(block.nodes(), 0);
   std::vector<Entry> found;
   std::vector<uint32_t> nodes;
   local.forEachRun([&](GridLine line, uint32_t r) {
@@ -56,9 +58,20 @@ NodeLines::NodeLines(const LineField& field, const Scene& scene, uint32_t instan
                                      grid.pointAt(line, run.at(line.m)));
       if (hasHoles && isOpenAt(scene, mesh, run.triangle, at.x, at.y)) continue;
       found.push_back({number + n, r});
-      nodes.push_back(nodeAt(block.at(run.triangle, at.x, at.y), numberOf(number + n, r, 2)));
+      const ElementPlace place = block.at(run.triangle, at.x, at.y);
+      nodes.push_back(nodeAt(place, numberOf(number + n, r, 2)));
+      const double measure = stride * grid.measureOf(line);
+      for (size_t c = 0; c < 3; ++c)
+        measures_[place.nodes[c]] += measure * double{place.weights[c]};
     }
   });
+
+  for (uint32_t node = 0; node < block.nodes(); ++node) {
+    const double even = double{kPi * block.area(node)};
+    gains_.push_back(measures_[node] > 0
+                         ? static_cast<float>(std::clamp(even / measures_[node], 0.25, 4.0))
+                         : 1.0f);
+  }
 
   first_.assign(block.nodes() + 1, 0);
   for (const uint32_t node : nodes) ++first_[node + 1];
@@ -85,10 +98,6 @@ std::optional<NodeLines::Start> NodeLines::choose(const LineField& field, uint32
   const GridLine line = field.grid().lineOf(entry.line);
   const LineRun& run = field.local(instance_).runs()[entry.run];
   return Start{line, {instance_, run.triangle, run.at(line.m)}};
-}
-
-double NodeLines::measureOf(uint32_t node) const {
-  return first_[node] == first_[node + 1] ? 0 : double{cumulative_[first_[node + 1] - 1]};
 }
 
 }  // namespace ninefold

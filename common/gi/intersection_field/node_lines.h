@@ -39,8 +39,11 @@ class NodeLines {
   };
   // In proportion to mu; nothing: no line passes the node. u in [0, 1).
   std::optional<Start> choose(const LineField& field, uint32_t node, float u) const;
-  // Sum of mu of a node's lines [m^2 sr].
-  double measureOf(uint32_t node) const;
+  // Sum of mu over the lines of a node, each by the node's weight at its hit [m^2 sr].
+  double measureOf(uint32_t node) const { return measures_[node]; }
+  // pi A / measure: how much more its lines would stand for if they lay evenly; within [1/4, 4], 1
+  // for a node without lines.
+  float gain(uint32_t node) const { return gains_[node]; }
   size_t bytes() const { return (sizeof(Entry) + sizeof(float)) * entries_.size(); }
 
  private:
@@ -50,6 +53,8 @@ class NodeLines {
   uint32_t instance_;
   std::vector<uint32_t> first_;  // by node, into the next two; and the end
   std::vector<Entry> entries_;
+  std::vector<double> measures_;
+  std::vector<float> gains_;
   std::vector<float> cumulative_;  // mu of a node's lines up to this one
 };
 

@@ -43,6 +43,7 @@ struct Arrival {
   bool focused;       // the last lobe that turned it was S and not glossy: photons bring this light
   bool hidden;        // the light is punctual and met a smooth lobe first: no eye path finds it
   int diffuseBefore;  // D vertices before this one
+  bool known;         // the way on after D told where, not a ray
 };
 
 // Probabilities of the three ways on, D, reflection, transmission; their sum is the survival.
@@ -86,7 +87,8 @@ void walkLightPathBy(const Transport& t, Particle particle, MediumStack media, i
   int specularRun = 0;
   for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
     if (isBlack(particle.flux)) return;
-    if (!known) {
+    const bool wasKnown = known.has_value();
+    if (!wasKnown) {
       ++rays.photon;
       known = t.tracer.closest(particle.origin, particle.direction,
                                std::numeric_limits<float>::infinity());
@@ -102,7 +104,7 @@ void walkLightPathBy(const Transport& t, Particle particle, MediumStack media, i
     }
     particle.flux *= t.shader.attenuation(p, media, hit.t);
     const bool goOn =
-        visit(Arrival{&p, particle.flux, media, turned, focused, hidden, diffuseBefore});
+        visit(Arrival{&p, particle.flux, media, turned, focused, hidden, diffuseBefore, wasKnown});
 
     // Choose D or an S lobe, or the end.
     const uint32_t d = firstDimension + 4 * static_cast<uint32_t>(vertex);
