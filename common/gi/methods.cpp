@@ -29,6 +29,9 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
       return std::make_unique<const PhotonMap>(t, dynamic_cast<const PhotonMap*>(begun));
     case Method::selective:
       return std::make_unique<const Selective>(t, dynamic_cast<const Selective*>(begun));
+    case Method::intersectionField:
+      return std::make_unique<const IntersectionField>(
+          t, dynamic_cast<const IntersectionField*>(begun));
     case Method::automatic: {
       const auto* before = dynamic_cast<const Automatic*>(begun);
       Automatic::Tried tried;
@@ -36,9 +39,6 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
         tried[i] = make(kTried[i], t, before != nullptr ? before->tried(i) : nullptr);
       return std::make_unique<const Automatic>(t, std::move(tried));
     }
-    case Method::intersectionField:
-      return std::make_unique<const IntersectionField>(
-          t, dynamic_cast<const IntersectionField*>(begun));
 #ifdef NINEFOLD_TEST_METHODS
     case Method::stateCheck:
       return std::make_unique<const StateCheck>(t);
