@@ -82,7 +82,7 @@ void checkGroups(const Settings& s) {
 void checkLines(const Settings& s) {
   const int divisor = std::gcd(s.fieldDirections, s.fieldDistances);
   if (divisor == 1) return;
-  // At 1 at the latest they have none in common; but two lines there must be.
+  // None fewer than two: else the next ones above.
   int distances = s.fieldDistances;
   while (std::gcd(s.fieldDirections, distances) != 1) --distances;
   if (distances < 2) distances = s.fieldDistances + 1;
