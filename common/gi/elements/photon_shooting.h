@@ -1,8 +1,8 @@
 // photon_shooting.h: one photon from its lamp to its end, and what it leaves in mesh elements.
 //
 // Photon i carries Phi_i/Z by the numbers of i (sampling/halton.h). A hit is kept if the last turn
-// before it was D or a glossy lobe, or if it comes straight from a minor lamp (minor_lamps.h). Other
-// light straight from a lamp, and by other S lobes, has other ways (light_set/lamp_light.h).
+// before it was D or a glossy lobe, or if it comes straight from a minor lamp (minor_lamps.h).
+// Other light straight from a lamp, and by other S lobes, has other ways (light_set/lamp_light.h).
 //
 // Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): each
 // photon shoots once for each stream.
