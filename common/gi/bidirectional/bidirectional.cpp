@@ -7,6 +7,7 @@ namespace ninefold {
 
 Bidirectional::Bidirectional(const Transport& t, const Bidirectional* begun)
     : LightSetMethod(t),
+      isGesture_(begun != nullptr),
       pathsLog2_(begun != nullptr && begun->pathsLog2_ >= 0
                      ? begun->pathsLog2_
                      : lightPathsLog2(t, t.settings.resampling * t.settings.indirectVpls)),
@@ -14,12 +15,23 @@ Bidirectional::Bidirectional(const Transport& t, const Bidirectional* begun)
                            ? begun->standardDensity_
                            : std::make_shared<const StandardDensity>(t)) {}
 
+LampChoice Bidirectional::lampsOf(const FrameKey& frame, std::span<const View> views) const {
+  const bool moves = isGesture_ || !frame.lightCameras.empty();
+  LampChoice lamps = moves ? LampChoice() : choices_.of(t_, views.front(), pathsLog2_ >= 0);
+  if (lamps.standard == nullptr) lamps.standard = standardDensity_;
+  return lamps;
+}
+
 std::shared_ptr<const FrameLight> Bidirectional::light(const FrameKey& frame, int set,
                                                        std::span<const View> views,
                                                        const MethodState*) const {
   auto light = std::make_shared<LightSet>();
-  if (!t_.emitters.empty())
-    LightMaker(t_, *standardDensity_, pathsLog2_, frame, set, views).make(*light);
+  if (t_.emitters.empty()) return light;
+  const LampChoice lamps = lampsOf(frame, views);
+  light->transport = lamps.transport;
+  Batch batch{0, batchesLog2(t_.settings)};
+  for (; batch.index < batch.count(); ++batch.index)
+    LightMaker(t_, lamps, batch, pathsLog2_, frame, set, views).make(*light);
   return light;
 }
 

@@ -2,8 +2,9 @@
 // the camera sees. So it finds light that comes round corners. A set has r times as many candidates
 // as VPLs; it keeps those that bring much to the picture. For each set:
 //
-//   1  standard candidates: as in instant radiosity, r times as many      direct_vpls.h,
-//                                                                         indirect_vpls.h
+//   1  standard candidates: as in instant radiosity, r times as many,     direct_vpls.h,
+//      from lamps that bring much to the view                             indirect_vpls.h,
+//                                                                         lamp_choice.h
 //   2  M camera points, and places that they see: reverse candidates      camera_points.h,
 //                                                                         reverse_places.h
 //   3  each path belongs to one family or is shared between both          partition.h
@@ -23,7 +24,7 @@
 // Threads, owner, errors: as method.h says.
 #pragma once
 
-#include "common/gi/bidirectional/standard_density.h"
+#include "common/gi/bidirectional/lamp_choice.h"
 #include "common/gi/light_set/light_set_method.h"
 
 namespace ninefold {
@@ -39,8 +40,13 @@ class Bidirectional final : public LightSetMethod {
                                           const MethodState* state) const override;
 
  private:
+  // Lamps as they are chosen for a frame.
+  LampChoice lampsOf(const FrameKey& frame, std::span<const View> views) const;
+
+  const bool isGesture_;
   const int pathsLog2_;  // of the candidates, see indirect_vpls.h
-  const std::shared_ptr<const StandardDensity> standardDensity_;
+  const std::shared_ptr<const StandardDensity> standardDensity_;  // by power
+  const LampChoices choices_;
 };
 
 }  // namespace ninefold

@@ -1,4 +1,5 @@
-// light_maker.h: makes one light set of the bidirectional method; the steps of bidirectional.h.
+// light_maker.h: makes one light set of the bidirectional method, or one batch of it; the steps of
+// bidirectional.h.
 //
 // Threads: one set's working memory.   Owner: refers to its arguments.   Errors: none.
 #pragma once
@@ -7,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "common/gi/bidirectional/batches.h"
 #include "common/gi/bidirectional/estimated_density.h"
+#include "common/gi/bidirectional/lamp_choice.h"
 #include "common/gi/bidirectional/partition.h"
 #include "common/gi/bidirectional/raw_light.h"
 #include "common/gi/bidirectional/resampling.h"
@@ -18,10 +21,11 @@ namespace ninefold {
 
 class LightMaker {
  public:
-  LightMaker(const Transport& transport, const StandardDensity& standardDensity, int pathsLog2,
+  // lamps: with a density. byPower: the method's transport. pathsLog2: of all batches.
+  LightMaker(const Transport& byPower, const LampChoice& lamps, const Batch& batch, int pathsLog2,
              const FrameKey& frame, int set, std::span<const View> views);
 
-  // Adds VPLs and photons to an empty set.
+  // Adds VPLs to a set; the first batch adds the photons.
   void make(LightSet& out);
 
  private:
@@ -35,8 +39,10 @@ class LightMaker {
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
 
-  const Transport& t_;
-  const FrameKey& frame_;
+  const Transport& byPower_;
+  const Transport& t_;  // whose lamps are chosen for the view
+  const Batch batch_;
+  const FrameKey frame_;  // of the batch
   const int k_;
   const int shot_;  // N_r
   const ReceiverSamples samples_, guesses_;

@@ -72,8 +72,9 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
     const Vec2 u = sampler.get2D(i, 0);
     const auto choice = t.streams.choose(stream, u.x);
     if (!choice) continue;
-    const Vpl vpl = directVpl(t, choice->index, Vec2(choice->remapped, u.y),
-                              1 / (static_cast<float>(count) * choice->probability));
+    Vpl vpl = directVpl(t, choice->index, Vec2(choice->remapped, u.y),
+                        1 / (static_cast<float>(count) * choice->probability));
+    vpl.lamp = lampOf(t.emitters[choice->index]);
     const EmitterKind kind = t.emitters[choice->index].kind;
     const bool fixed = kind != EmitterKind::triangle && kind != EmitterKind::environment;
     if (fixed) {
