@@ -159,7 +159,7 @@ TEST(LampChoice, LosesNoLightWhereTheCameraDoesNotLook) {
       const Renderer renderer(c.tracer, seen);
       LightSetScratch scratch;
       RayCounts rays;
-      constexpr uint32_t kFrames = 2000;
+      constexpr uint32_t kFrames = 1200;
       for (uint32_t frame = 0; frame < kFrames; ++frame) {
         const auto light = renderer.light({frame, frame, 0, 0.01f}, 0);
         const auto& set = static_cast<const LightSet&>(*light);
@@ -174,9 +174,9 @@ TEST(LampChoice, LosesNoLightWhereTheCameraDoesNotLook) {
     }
     double error = 0;
     for (const int i : {0, 1})
-      error = std::hypot(error, std::sqrt((square[i] - mean[i] * mean[i]) / 1999));
+      error = std::hypot(error, std::sqrt((square[i] - mean[i] * mean[i]) / 1199));
     EXPECT_NEAR(mean[1], mean[0], 4 * error) << "at x = " << x;
-    EXPECT_LT(error, 0.1 * mean[0]) << "at x = " << x;
+    EXPECT_LT(error, 0.15 * mean[0]) << "at x = " << x;
   }
 }
 

@@ -15,11 +15,10 @@ Bidirectional::Bidirectional(const Transport& t, const Bidirectional* begun)
                            ? begun->standardDensity_
                            : std::make_shared<const StandardDensity>(t)) {}
 
-LampChoice Bidirectional::lampsOf(const FrameKey& frame, std::span<const View> views) const {
+ViewChoice Bidirectional::choiceFor(const FrameKey& frame, std::span<const View> views) const {
+  const ViewChoice byMethod{nullptr, standardDensity_, pathsLog2_};
   const bool moves = isGesture_ || !frame.lightCameras.empty();
-  LampChoice lamps = moves ? LampChoice() : choices_.of(t_, views.front(), pathsLog2_ >= 0);
-  if (lamps.standard == nullptr) lamps.standard = standardDensity_;
-  return lamps;
+  return moves ? byMethod : choices_.of(t_, byMethod, views.front());
 }
 
 std::shared_ptr<const FrameLight> Bidirectional::light(const FrameKey& frame, int set,
@@ -27,11 +26,12 @@ std::shared_ptr<const FrameLight> Bidirectional::light(const FrameKey& frame, in
                                                        const MethodState*) const {
   auto light = std::make_shared<LightSet>();
   if (t_.emitters.empty()) return light;
-  const LampChoice lamps = lampsOf(frame, views);
-  light->transport = lamps.transport;
-  Batch batch{0, batchesLog2(t_.settings)};
+  const ViewChoice choice = choiceFor(frame, views);
+  light->transport = choice.transport;
+  const Transport& t = choice.transport != nullptr ? *choice.transport : t_;
+  Batch batch{0, batchesLog2(t.settings)};
   for (; batch.index < batch.count(); ++batch.index)
-    LightMaker(t_, lamps, batch, pathsLog2_, frame, set, views).make(*light);
+    LightMaker(t_, choice, batch, frame, set, views).make(*light);
   return light;
 }
 

@@ -24,7 +24,7 @@
 // Threads, owner, errors: as method.h says.
 #pragma once
 
-#include "common/gi/bidirectional/lamp_choice.h"
+#include "common/gi/bidirectional/effort.h"
 #include "common/gi/light_set/light_set_method.h"
 
 namespace ninefold {
@@ -40,13 +40,12 @@ class Bidirectional final : public LightSetMethod {
                                           const MethodState* state) const override;
 
  private:
-  // Lamps as they are chosen for a frame.
-  LampChoice lampsOf(const FrameKey& frame, std::span<const View> views) const;
+  ViewChoice choiceFor(const FrameKey& frame, std::span<const View> views) const;
 
   const bool isGesture_;
   const int pathsLog2_;  // of the candidates, see indirect_vpls.h
   const std::shared_ptr<const StandardDensity> standardDensity_;  // by power
-  const LampChoices choices_;
+  const ViewChoices choices_;
 };
 
 }  // namespace ninefold

@@ -92,12 +92,4 @@ LampChoice lampChoiceFor(const Transport& t, const View& view, bool paths) {
   return {chosen, std::make_shared<const StandardDensity>(*chosen, kRoundLog2)};
 }
 
-LampChoice LampChoices::of(const Transport& t, const View& view, bool paths) const {
-  const std::lock_guard lock(mutex_);
-  const bool isThere = view_ && view_->camera == view.camera && view_->width == view.width &&
-                       view_->height == view.height;
-  if (!isThere) choice_ = lampChoiceFor(t, view, paths), view_ = view;
-  return choice_;
-}
-
 }  // namespace ninefold

@@ -22,13 +22,10 @@
 // Source:  Segovia et al. 2006, whose worth it is; choice of lights by a pilot: Wald et al.,
 //          "Interactive Global Illumination in Complex and Highly Occluded Environments", 2003.
 // Proved:  tests/gi/lamp_choice_test.cpp.
-// Threads: LampChoices may be asked by many at once; one makes, the others wait. The rest is pure.
-// Owner:   a choice refers to what its transport refers to.   Errors: none.
+// Threads: pure function.   Owner: a choice refers to what its transport refers to.   Errors: none.
 #pragma once
 
 #include <memory>
-#include <mutex>
-#include <optional>
 
 #include "common/gi/bidirectional/standard_density.h"
 #include "common/gi/eye/task.h"
@@ -42,16 +39,5 @@ struct LampChoice {
 
 // paths: whether light paths are needed.
 LampChoice lampChoiceFor(const Transport& transport, const View& view, bool paths);
-
-// That of the last view.
-class LampChoices {
- public:
-  LampChoice of(const Transport& transport, const View& view, bool paths) const;
-
- private:
-  mutable std::mutex mutex_;
-  mutable std::optional<View> view_;
-  mutable LampChoice choice_;
-};
 
 }  // namespace ninefold

@@ -33,16 +33,16 @@ LightSet standardCandidates(const Transport& t, const FrameKey& frame, int k, in
 }
 
 // What lights reverse places, and the photons that E(y) needs whatever the picture shows; their lamps
-// are chosen by power, as `byPower` says. Its light
+// are chosen by power, as those of the `method`. Its light
 // paths are four times as many as the candidates' paths: all reverse places of a set share them. They
 // cost a fifth of the set's rays, and halve the squared error where light is rarely found.
-LightSet rawSet(const Transport& t, const Transport& byPower, const FrameKey& frame, int k,
+LightSet rawSet(const Transport& t, const Transport& method, const FrameKey& frame, int k,
                 int times, int pathsLog2) {
   LightSet raw;
   const Settings& s = t.settings;
   addStandardVpls(t, frame, k, times, pathsLog2 < 0 ? -1 : pathsLog2 + 2, raw);
   const int photons = s.photons > 0 ? s.photons : Settings{}.photons;
-  raw.photons = causticPhotons(byPower, frame, k, raw.vpls, Caustics::all, photons, raw.rays);
+  raw.photons = causticPhotons(method, frame, k, raw.vpls, Caustics::all, photons, raw.rays);
   return raw;
 }
 
@@ -57,10 +57,10 @@ int reverseRays(const Settings& s, const Batch& batch) {
 
 }  // namespace
 
-LightMaker::LightMaker(const Transport& byPower, const LampChoice& lamps, const Batch& batch,
-                       int pathsLog2, const FrameKey& frame, int set, std::span<const View> views)
-    : byPower_(byPower),
-      t_(lamps.transport != nullptr ? *lamps.transport : byPower),
+LightMaker::LightMaker(const Transport& method, const ViewChoice& choice, const Batch& batch,
+                       const FrameKey& frame, int set, std::span<const View> views)
+    : method_(method),
+      t_(choice.transport != nullptr ? *choice.transport : method),
       batch_(batch),
       frame_(batch.keyOf(frame)),
       k_(set),
@@ -69,13 +69,14 @@ LightMaker::LightMaker(const Transport& byPower, const LampChoice& lamps, const 
       guesses_(t_.settings.seed, frame_.randomization,
                kFirstUse + kMostSets + static_cast<uint32_t>(set)),
       candidates_(standardCandidates(t_, frame_, set, timesOf(t_.settings, batch),
-                                     batch.pathsLog2(pathsLog2))),
-      raw_(t_, rawSet(t_, byPower, frame_, set, timesOf(t_.settings, batch),
-                      batch.pathsLog2(pathsLog2))),
+                                     batch.pathsLog2(choice.pathsLog2))),
+      raw_(t_, rawSet(t_, method, frame_, set, timesOf(t_.settings, batch),
+                      batch.pathsLog2(choice.pathsLog2))),
       camera_(cameraPoints(t_, views, frame_, set, t_.settings.cameraPoints, rays_)),
-      partition_{t_, camera_.points, *lamps.standard,
-                 pathsLog2 < 0 ? 0 : static_cast<double>(1u << batch.pathsLog2(pathsLog2)),
-                 static_cast<double>(shot_)},
+      partition_{
+          t_, camera_.points, *choice.standard,
+          choice.pathsLog2 < 0 ? 0 : static_cast<double>(1u << batch.pathsLog2(choice.pathsLog2)),
+          static_cast<double>(shot_)},
       estimated_(
           partition_.isEqual() && shot_ > 0
               ? std::optional<EstimatedDensity>(std::in_place, t_, views, frame_, set, shot_, rays_)
@@ -177,10 +178,9 @@ void LightMaker::make(LightSet& out) {
       keepStandard(candidates_.vpls[each.index], each.gain, worth.seen(each.index), out);
   keepReverse(kept, worth, out);
   if (batch_.index == 0)
-    out.photons =
-        s.caustics == Caustics::all && s.photons > 0
-            ? raw.photons
-            : causticPhotons(byPower_, frame_, k_, raw.vpls, s.caustics, s.photons, rays_);
+    out.photons = s.caustics == Caustics::all && s.photons > 0
+                      ? raw.photons
+                      : causticPhotons(method_, frame_, k_, raw.vpls, s.caustics, s.photons, rays_);
   out.rays += rays_, out.rays += candidates_.rays, out.rays += raw.rays;
 }
 

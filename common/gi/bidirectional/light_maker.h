@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/gi/bidirectional/batches.h"
+#include "common/gi/bidirectional/effort.h"
 #include "common/gi/bidirectional/estimated_density.h"
-#include "common/gi/bidirectional/lamp_choice.h"
 #include "common/gi/bidirectional/partition.h"
 #include "common/gi/bidirectional/raw_light.h"
 #include "common/gi/bidirectional/resampling.h"
@@ -21,10 +21,12 @@ namespace ninefold {
 
 class LightMaker {
  public:
-  // lamps: with a density. byPower: the method's transport. pathsLog2: of all batches.
-  LightMaker(const Transport& byPower, const LampChoice& lamps, const Batch& batch, int pathsLog2,
+  // method: its transport, by which photons choose lamps.
+  LightMaker(const Transport& method, const ViewChoice& choice, const Batch& batch,
              const FrameKey& frame, int set, std::span<const View> views);
 
+  // What the candidates are worth.
+  WorthSummary summary() { return summaryOf(worths().values(), candidates_.vpls.size()); }
   // Adds VPLs to a set; the first batch adds the photons.
   void make(LightSet& out);
 
@@ -39,8 +41,8 @@ class LightMaker {
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
 
-  const Transport& byPower_;
-  const Transport& t_;  // whose lamps are chosen for the view
+  const Transport& method_;
+  const Transport& t_;  // of the choice
   const Batch batch_;
   const FrameKey frame_;  // of the batch
   const int k_;
