@@ -8,7 +8,7 @@
 namespace ninefold {
 namespace {
 
-constexpr double kMostReverse = 0.35, kMostUneven = 12;
+constexpr double kMostReverse = 0.4, kMostUneven = 12;
 constexpr uint32_t kPilotRandomization = 0xffffff00u;  // of no frame
 constexpr int kPilotSets = 9;
 
