@@ -13,7 +13,7 @@ DOOR = (0.9, 0, 1.8, 2.05)  # in the walls to the east and to the west
 WHITE = matte("white", 0.75, 0.74, 0.7)
 FLOOR = matte("floor", 0.45, 0.35, 0.28)
 GREEN = matte("green", 0.2, 0.4, 0.25)
-LAMP = light("lamp", 34, 32, 28)
+LAMP = light("lamp", 60, 56.5, 49.5)
 
 
 def room(doors):

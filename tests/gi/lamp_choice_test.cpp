@@ -124,8 +124,8 @@ double squaredError(const testing::Rendered& image, const testing::Rendered& ref
   return sum;
 }
 
-// The picture's mean is the path tracer's. By power, as the key of a view in motion wants it, pixels
-// have more than twice the squared error.
+// The picture's mean is the path tracer's. By power, as the key of a view in motion wants it,
+// pixels have more than twice the squared error.
 TEST(LampChoice, AgreesWithThePathTracerAtLessThanHalfTheSquaredError) {
   const Scene scene = manyRooms();
   const Tracer tracer(scene, Isa::automatic);

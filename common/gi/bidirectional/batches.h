@@ -25,7 +25,8 @@ struct Batch {
   int partOf(int n) const { return endOf(n, index + 1) - endOf(n, index); }
   // m of indirect_vpls.h for the batch's light paths; -1 stays.
   int pathsLog2(int ofAll) const { return ofAll < 0 ? ofAll : std::max(ofAll - log2Count, 0); }
-  // The frame's key with random numbers of this batch. Frames are fewer than 2^24, batches at most 2^7.
+  // The frame's key with random numbers of this batch. Frames are fewer than 2^24, batches at most
+  // 2^7.
   FrameKey keyOf(const FrameKey& frame) const {
     FrameKey key = frame;
     key.randomization += static_cast<uint32_t>(index) << 24;

@@ -1,14 +1,14 @@
-// effort.h: how many candidates the sets of a view have. Where light paths find the light as well as
-// the camera does, and candidates are worth about alike, few of them do as well as many.
+// effort.h: how many candidates the sets of a view have. Where light paths find the light as well
+// as the camera does, and candidates are worth about alike, few of them do as well as many.
 //
 //   r' = r/5,  M' = M/4     if R < 0.4 and S < 12, in the mean of nine sets of a pilot
 //
-//   R   share of the reverse places in the worth of all candidates; 1 where nothing is worth anything
+//   R   share of the reverse places in the worth of all candidates; 1 if nothing is worth anything
 //   S   N sum v^2 / (sum v)^2, v: worth of each of N candidates; 1 if all are worth the same
 //
 // r and M decide how much noise is left, never what the mean is. So a wrong pilot costs noise or
-// time. Measured (docs/performance.md): R is 0.14 to 0.36 and S 1.3 to 10 in rooms that
-// light comes into straight, 0.48 to 0.82 and 16 to 140 where it comes round corners.
+// time. Measured (docs/performance.md): R is 0.14 to 0.36 and S 1.3 to 10 in rooms that light comes
+// into straight, 0.48 to 0.82 and 16 to 140 where it comes round corners.
 //
 // The pilot is a function of (scene, settings, view): the same for all sets and frames at rest. In
 // motion there is none. Nor is there one with --partition equal, which is as published, or r < 5.
