@@ -35,7 +35,7 @@ TEST(Batches, HaveRandomNumbersOfTheirOwn) {
 }
 
 // A closed room of albedo 1/2 that emits 1 shows 1/(1 - 1/2) = 2, with a box of the same in it.
-// 100 VPLs a set, a hundred and more candidates for each: four batches. Each alone is of the mean 2.
+// 100 VPLs a set, a hundred and more candidates for each: four batches, each of the mean 2.
 TEST(Batches, BringTheLightOfOneSet) {
   SceneBuilder b;
   const int grey = b.material(testing::matte(Vec3(0.5f), Vec3(1)));

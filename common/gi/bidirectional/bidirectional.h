@@ -2,9 +2,8 @@
 // the camera sees. So it finds light that comes round corners. A set has r times as many candidates
 // as VPLs; it keeps those that bring much to the picture. For each set:
 //
-//   1  standard candidates: as in instant radiosity, r times as many,     direct_vpls.h,
-//      from lamps that bring much to the view                             indirect_vpls.h,
-//                                                                         lamp_choice.h
+//   1  standard candidates: as in instant radiosity, r times as many      direct_vpls.h,
+//                                                                         indirect_vpls.h
 //   2  M camera points, and places that they see: reverse candidates      camera_points.h,
 //                                                                         reverse_places.h
 //   3  each path belongs to one family or is shared between both          partition.h
@@ -13,8 +12,12 @@
 //                                                                         tournament.h
 //   6  their power is made exact                                          raw_light.h
 //
-// The set is good for any point, but best for those that its view sees. It costs about ten times as
-// much as one of instant radiosity, so that small pictures gain less.
+// At rest pilots of the view decide before that which lamps to start from (lamp_choice.h), and
+// whether a fifth of the candidates will do (effort.h). They take about as long as the sets of one
+// frame, once a view. Very many candidates come in batches (batches.h).
+//
+// The set is good for any point, but best for those that its view sees. With all candidates it
+// takes three to nine times as long as one of instant radiosity, so that small pictures gain less.
 //
 // Source:  Segovia, Iehl, Mitanchey and Péroche, "Bidirectional Instant Radiosity", 2006.
 // Proved:  tests/gi/bidirectional_test.cpp; furnace, form factors, agreement with the path tracer.

@@ -9,8 +9,8 @@
 //
 // Inside a lamp its emitters keep their proportion. What is chosen is divided by p_l, which is
 // above 0 where P_l is. So a poor pilot costs noise, never bias; no VPL is more than five times as
-// bright as by power. The bound on a lamp goes by the same p (Transport::lightBound), here and where
-// the set is asked. Caustic photons are not meant: they are chosen by power.
+// bright as by power. The bound on a lamp goes by the same p (Transport::lightBound), here and
+// where the set is asked. Lamps of caustic photons are chosen by power.
 //
 // A pilot that says little is not followed: where sum (W_l/W)^2/P_l < 2, power is as good. The sum
 // is 1 where each lamp brings its share of power.

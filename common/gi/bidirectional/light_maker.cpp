@@ -33,9 +33,9 @@ LightSet standardCandidates(const Transport& t, const FrameKey& frame, int k, in
 }
 
 // What lights reverse places, and the photons that E(y) needs whatever the picture shows; their
-// lamps are chosen by power, as those of the `method`. Its light paths are four times as many as the
-// candidates' paths: all reverse places of a set share them. They cost a fifth of the set's rays,
-// and halve the squared error where light is rarely found.
+// lamps are chosen by power, as those of the `method`. Its light paths are four times as many as
+// the candidates' paths: all reverse places of a set share them. They cost a fifth of the set's
+// rays, and halve the squared error where light is rarely found.
 LightSet rawSet(const Transport& t, const Transport& method, const FrameKey& frame, int k,
                 int times, int pathsLog2) {
   LightSet raw;
