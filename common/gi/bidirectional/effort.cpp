@@ -53,7 +53,7 @@ ViewChoice viewChoiceFor(const Transport& t, const ViewChoice& byMethod, const V
   if (!fewWillDo(pilotOf(t, choice, view))) return choice;
   auto few = std::make_shared<Transport>(choice.transport != nullptr ? *choice.transport : t);
   few->settings.resampling = s.resampling / 5;
-  few->settings.cameraPoints = std::max(s.cameraPoints / 4, 1);
+  few->settings.cameraPoints = std::max(s.cameraPoints / 2, 1);
   choice.pathsLog2 = lightPathsLog2(t, few->settings.resampling * s.indirectVpls);
   choice.transport = std::move(few);
   return choice;

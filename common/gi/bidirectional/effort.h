@@ -1,7 +1,7 @@
 // effort.h: how many candidates the sets of a view have. Where light paths find the light as well
 // as the camera does, and candidates are worth about alike, few of them do as well as many.
 //
-//   r' = r/5,  M' = M/4     if R < 0.4 and S < 12, in the mean of nine sets of a pilot
+//   r' = r/5,  M' = M/2     if R < 0.4 and S < 12, in the mean of nine sets of a pilot
 //
 //   R   share of the reverse places in the worth of all candidates; 1 if nothing is worth anything
 //   S   N sum v^2 / (sum v)^2, v: worth of each of N candidates; 1 if all are worth the same
