@@ -20,15 +20,16 @@ std::string lowerExtension(const std::filesystem::path& file) {
   return extension;
 }
 
-SceneDraft readDraft(const std::filesystem::path& file, const std::optional<std::string>& clip) {
+SceneDraft readDraft(const std::filesystem::path& file, const ReadOptions& options) {
   const std::string extension = lowerExtension(file);
   const bool gltf = extension == ".gltf" || extension == ".glb";
   if (!gltf && extension != ".obj")
     fail("not a scene that can be read: .gltf, .glb and .obj are known");
   const std::vector<unsigned char> bytes = readRegularFile(file, kMaxFileBytes);
   const SceneFolder folder(file);
-  if (!gltf && clip) fail("an .obj file has no animation, so --clip {} names none", *clip);
-  return gltf ? readGltf(bytes, folder, clip) : readObj(bytes, folder);
+  if (!gltf && options.clip)
+    fail("an .obj file has no animation, so --clip {} names none", *options.clip);
+  return gltf ? readGltf(bytes, folder, options) : readObj(bytes, folder);
 }
 
 // Names inside a scene file may hold anything; a message stays one line.
@@ -40,8 +41,8 @@ std::string oneLine(std::string text) {
 
 }  // namespace
 
-Scene readScene(const std::filesystem::path& file, const std::optional<std::string>& clip) try {
-  Scene scene = finishScene(readDraft(file, clip));
+Scene readScene(const std::filesystem::path& file, const ReadOptions& options) try {
+  Scene scene = finishScene(readDraft(file, options));
   scene.name = file.stem().string();
   return scene;
 } catch (const Error& e) {

@@ -114,8 +114,8 @@ struct Instance {
 
 enum class LightKind : uint8_t { point, spot, directional, goniometric };
 
-// Punctual lights: no surface, so nothing ever hits them. Candela and lux of files are read as W/sr
-// and W/m^2.
+// Punctual lights: no surface, so nothing ever hits them. light_units.h tells what candela and lux
+// of files become.
 struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::point;

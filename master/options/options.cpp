@@ -45,6 +45,7 @@ void readPicture(const RawOptions& raw, Options& o) {
     throw UsageError(error.what());
   }
   o.camera = raw.text("camera").value_or("");
+  assign(o.reading.lightUnits, raw.choice("light-units", kLightUnitsNames));
   assign(o.surfaceTest, raw.choice("filter", std::array{"none", "paper", "surface"}));
   o.autoExposure = raw.text("exposure") == "auto";
   if (!o.autoExposure)
@@ -124,7 +125,7 @@ void readAnimation(const RawOptions& raw, Options& o) {
 void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
-  o.clip = raw.text("clip");
+  o.reading.clip = raw.text("clip");
   o.photonScene = raw.text("photon-scene");
   readAnimation(raw, o);
   if (o.photonScene && !isLive(o) && !factsOf(o.settings.method).has(kMapPhotons))

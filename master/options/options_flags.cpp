@@ -26,6 +26,9 @@ struct Flag {
 constexpr Flag kPicture[] = {
     {"camera", "NAME|INDEX|SPEC",
      "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
+    {"light-units", "NAME",
+     "what a glTF file's candela and lux are: radiometric (1 cd is 1 W/sr), photometric (683 cd "
+     "are), or auto, by who wrote the file (default auto; docs/light-units.md)"},
     {"exposure", "EV|auto",
      "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
      "what the scene says, else 0)"},

@@ -59,7 +59,7 @@ void tellPhotonScene(const Options& options, const Scene& scene) {
 
 Job makeJob(const Options& options) {
   Job job;
-  auto read = std::make_shared<const Scene>(readScene(options.scene, options.clip));
+  auto read = std::make_shared<const Scene>(readScene(options.scene, options.reading));
   const Scene& scene = *read;
   job.settings = settingsFor(isLive(options) ? PictureView::beauty : options.view,
                              makeSettings(options, scene));

@@ -30,6 +30,7 @@ TEST(OptionsRefused, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
       {"--environment", "1,2"},
       {"--environment", "-1"},
       {"--environment", "blue"},
+      {"--light-units", "candela"},
       {"--frames", "0"},
       {"--seconds", "0"},
       {"--until-error", "0"},

@@ -147,6 +147,12 @@ TEST(Options, TheExposureIsTheScenesOrGivenOrThePictures) {
   EXPECT_EQ(parse("room.glb --exposure 0").exposure, 0.0f);
 }
 
+TEST(Options, LightUnitsAreNamed) {
+  EXPECT_EQ(parse("a.glb").reading.lightUnits, LightUnits::automatic);
+  EXPECT_EQ(parse("a.glb --light-units photometric").reading.lightUnits, LightUnits::photometric);
+  EXPECT_EQ(parse("a.glb --light-units radiometric").reading.lightUnits, LightUnits::radiometric);
+}
+
 TEST(Options, EqualSignsWorkToo) {
   EXPECT_EQ(parse("room.glb --size=20x10 --exposure=-2").settings.width, 20);
 }
