@@ -108,6 +108,7 @@ struct Delivery {
   Form form = Form::layers;
   SurfaceTest filter = SurfaceTest::surface;  // of whole tiles
   float exposure = 0;                         // [EV] of codes
+  ToneCurve curve = ToneCurve::srgb;          // of codes
   bool wholeTiles() const { return form != Form::layers; }
   bool operator==(const Delivery&) const = default;
 };

@@ -114,6 +114,7 @@ msg::Configure decode(const pb::Configure& in, Bytes&&) {
   m.delivery.exposure = in.exposure();
   if (!(std::abs(in.exposure()) <= kMostExposure))
     fail("exposure {} is out of range", in.exposure());
+  m.delivery.curve = upTo<ToneCurve>("tone curve", in.curve(), kToneCurveNames.size() - 1);
   if (m.delivery.wholeTiles() &&
       m.settings.interleave.sets() * kTaskSide * kTaskSide > kMaxTilePixels)
     fail("tiles are too large to be filtered by clients");

@@ -51,6 +51,7 @@ void readPicture(const RawOptions& raw, Options& o) {
   if (!o.autoExposure)
     if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
       o.exposure = static_cast<float>(*ev);
+  assign(o.toneCurve, raw.choice("tone-map", kToneCurveNames));
   o.aovs = raw.isOn("aovs");
   if (const auto touch = raw.choice("denoise", std::array{"off", "on"})) o.denoise = *touch == 1;
   if (o.denoise == true && factsOf(o.settings.method).isUnfiltered)

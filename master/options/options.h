@@ -63,8 +63,9 @@ struct Options {
   std::optional<std::string> output;  // .exr, .png or .hdr
   bool aovs = false;
   std::optional<bool> denoise;    // nothing: as denoises() says
-  std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0
-  bool autoExposure = false;      // instead: auto_exposure.h
+  std::optional<float> exposure;  // [EV]; nothing: the scene's, or by the picture
+  bool autoExposure = false;      // by the picture, whatever the scene says
+  ToneCurve toneCurve = ToneCurve::srgb;
   std::optional<std::string> stats;
 };
 

@@ -31,6 +31,7 @@ TEST(OptionsRefused, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
       {"--environment", "-1"},
       {"--environment", "blue"},
       {"--light-units", "candela"},
+      {"--tone-map", "aces"},
       {"--frames", "0"},
       {"--seconds", "0"},
       {"--until-error", "0"},

@@ -144,13 +144,17 @@ TEST(Options, ClientsFilterWhatTheyCan) {
 TEST(Options, TheExposureIsTheScenesOrGivenOrThePictures) {
   EXPECT_EQ(parse("room.glb").exposure, std::nullopt);
   EXPECT_TRUE(parse("room.glb --exposure auto").autoExposure);
+  EXPECT_FALSE(parse("room.glb").autoExposure) << "unless the scene has none";
   EXPECT_EQ(parse("room.glb --exposure 0").exposure, 0.0f);
 }
 
-TEST(Options, LightUnitsAreNamed) {
+TEST(Options, LightUnitsAndToneMapAreNamed) {
   EXPECT_EQ(parse("a.glb").reading.lightUnits, LightUnits::automatic);
   EXPECT_EQ(parse("a.glb --light-units photometric").reading.lightUnits, LightUnits::photometric);
   EXPECT_EQ(parse("a.glb --light-units radiometric").reading.lightUnits, LightUnits::radiometric);
+  EXPECT_EQ(parse("a.glb").toneCurve, ToneCurve::srgb);
+  EXPECT_EQ(parse("a.glb --tone-map filmic").toneCurve, ToneCurve::filmic);
+  EXPECT_EQ(parse("a.glb --tone-map agx").toneCurve, ToneCurve::agx);
 }
 
 TEST(Options, EqualSignsWorkToo) {
