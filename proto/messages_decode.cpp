@@ -84,7 +84,7 @@ msg::SceneOffer decode(const pb::SceneOffer& in, Bytes&&) {
       upTo<size_t>("number of blobs", static_cast<uint64_t>(in.blobs_size()), kMaxBlobs);
   m.blobs.reserve(count);
   for (const pb::BlobInfo& blob : in.blobs())
-    m.blobs.push_back(blobInfo(blob, kMaxBlobBytes, BlobKind::rest, BlobKind::meshes));
+    m.blobs.push_back(blobInfo(blob, kMaxBlobBytes, BlobKind::rest, BlobKind::environment));
   return m;
 }
 

@@ -39,16 +39,30 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-}  // namespace
+// Its messages name the picture's file.
+void addEnvironment(const EnvironmentSource& source, Scene& scene) {
+  scene.environmentMap = readEnvironment(source);
+  if (scene.environmentMap) scene.environment = Radiance(strengthOf(source));
+}
 
-Scene readScene(const std::filesystem::path& file, const ReadOptions& options) try {
-  Scene scene = finishScene(readDraft(file, options));
+Scene readFile(const std::filesystem::path& file, const ReadOptions& options) try {
+  SceneDraft draft = readDraft(file, options);
+  const bool isLit = !std::holds_alternative<std::monostate>(options.environment);
+  Scene scene = finishScene(std::move(draft), isLit);
   scene.name = file.stem().string();
   return scene;
 } catch (const Error& e) {
   fail("{}: {}", file.string(), oneLine(e.what()));
 } catch (const std::bad_alloc&) {
   fail("{}: not enough memory for this scene: simplify it", file.string());
+}
+
+}  // namespace
+
+Scene readScene(const std::filesystem::path& file, const ReadOptions& options) {
+  Scene scene = readFile(file, options);
+  addEnvironment(options.environment, scene);
+  return scene;
 }
 
 }  // namespace ninefold

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 
+#include "common/scene/environment_file.h"
 #include "common/scene/light_units.h"
 #include "common/scene/scene.h"
 
@@ -31,6 +32,7 @@ inline constexpr uint64_t kMaxInstances = 1'000'000;
 struct ReadOptions {
   std::optional<std::string> clip = {};  // which of its animations plays; nothing: the first
   LightUnits lightUnits = LightUnits::automatic;
+  EnvironmentSource environment = {};  // instead of the scene's own
 };
 
 Scene readScene(const std::filesystem::path& file, const ReadOptions& options = {});

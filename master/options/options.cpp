@@ -34,11 +34,23 @@ void applyPreset(Options& o) {
   o.converging = false;
 }
 
+// Light from outside.
+void readOutside(const RawOptions& raw, Options& o) {
+  const auto environment = raw.text("environment"), sky = raw.text("sky");
+  if (environment && sky) failUsage("--environment and --sky exclude each other");
+  if (sky) o.reading.environment = parseSky(*sky);
+  if (!environment) return;
+  if (namesPicture(*environment))
+    o.reading.environment = parseEnvironmentFile(*environment);
+  else
+    o.environment = o.settings.environment;
+}
+
 void readPicture(const RawOptions& raw, Options& o) {
   if (const auto size = raw.text("size"))
     std::tie(o.settings.width, o.settings.height) = parseSize(*size);
   readSettings(raw, o.settings);
-  if (raw.has("environment")) o.environment = o.settings.environment;
+  readOutside(raw, o);
   try {
     checkTogether(o.settings);
   } catch (const Error& error) {
