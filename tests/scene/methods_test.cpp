@@ -158,6 +158,39 @@ TEST(Methods, GroupsGoByTheSettingsOfTheirPhotons) {
   EXPECT_FALSE(isKept([](Settings& o) { o.photonGroups = 576; }));
   EXPECT_FALSE(isKept([](Settings& o) { o.pilotRatio = 32; }));
   EXPECT_FALSE(isKept([](Settings& o) { o.specularDepth = 2; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.minorLamps = 0.1f; }));
+}
+
+// Without virtual lights there is no direct light, whoever would bring it.
+TEST(Methods, GroupsGoByTheDirectLightOfMinorLamps) {
+  Settings s = settingsOf(factsOf(Method::selective));
+  s.minorLamps = 0.5f;
+  Settings dark = s, fewer = s;
+  dark.directVpls = 0, fewer.directVpls = 1;
+  EXPECT_FALSE(factsOf(s.method).state->isKept(s, dark));
+  EXPECT_TRUE(factsOf(s.method).state->isKept(s, fewer));
+}
+
+TEST(Methods, FieldsGoByTheSettingsOfTheirPhotonsAndLines) {
+  const MethodFacts& facts = factsOf(Method::intersectionField);
+  Settings s = settingsOf(facts);
+  EXPECT_EQ(facts.state->unitsOfAll(s), 256u);
+  EXPECT_EQ(facts.state->unitsInMotion(s), 64u);
+  s.fieldPhotons = 1000;
+  EXPECT_EQ(facts.state->unitsOfAll(s), 4u);
+  EXPECT_EQ(facts.state->unitsInMotion(s), 4u);
+  const auto isKept = [&](const std::function<void(Settings&)>& change) {
+    Settings after = s;
+    change(after);
+    return facts.state->isKept(s, after);
+  };
+  EXPECT_TRUE(isKept([](Settings& o) { o.fieldDirect = FieldDirect::field, o.directVpls = 0; }));
+  EXPECT_TRUE(isKept([](Settings& o) { o.elementRule = ElementRule::buckets, o.photons = 0; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.fieldDirections = 17; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.fieldDistances = 33; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.fieldPhotons = 2000; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.elementSize = 0.1f; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.specularDepth = 2; }));
 }
 
 // Without photons no eye path meets a point by chance: what comes from one by a smooth surface is

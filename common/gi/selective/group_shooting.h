@@ -1,7 +1,8 @@
 // group_shooting.h: traces the photons of one row, and writes down what they leave.
 //
 // Photon i carries Phi_i/Z from its lamp, by the numbers of i (sampling/halton.h). A hit is kept if
-// the last turn before it was D or a glossy lobe. Other light has other ways (selective.h).
+// the last turn before it was D or a glossy lobe, or if it comes straight from a minor lamp. Other
+// light has other ways (selective.h).
 //
 // Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): each
 // photon shoots once for each stream.
@@ -16,9 +17,10 @@
 #pragma once
 
 #include "common/base/counters.h"
+#include "common/gi/elements/surface_numbers.h"
+#include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 #include "common/gi/selective/group_pages.h"
-#include "common/gi/selective/surface_numbers.h"
 #include "common/gi/selective/visual_masking.h"
 
 namespace ninefold {
@@ -28,12 +30,13 @@ struct GroupShooting {
   const PhotonGroups& groups;
   const SurfaceNumbers& surfaces;
   const VisualMasking& masking;
+  const MinorLamps& minor;
   uint64_t stamp = 0;  // of the transport's scene
   float lampFlux = 0;  // of all lamps as they are now, largest component [W]
   size_t room = 0;     // hits that a row has room for
 
   // version: that it is made for.
-  GroupRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
+  PhotonRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
 
  private:
   Pilot pilotOf(const std::vector<ElementHit>& hits, size_t first, double meanFlux) const;
