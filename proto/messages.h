@@ -80,7 +80,7 @@ enum class MessageType : uint16_t {
 enum class Peer : uint8_t { master, client };
 
 // page: of a method's state (state_wire.h); the others are parts of a scene (scene_blobs.h).
-enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2, page = 3 };
+enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2, environment = 3, page = 4 };
 
 struct BlobInfo {
   Sha256 hash{};          // of the raw bytes
@@ -108,6 +108,7 @@ struct Delivery {
   Form form = Form::layers;
   SurfaceTest filter = SurfaceTest::surface;  // of whole tiles
   float exposure = 0;                         // [EV] of codes
+  ToneCurve curve = ToneCurve::srgb;          // of codes
   bool wholeTiles() const { return form != Form::layers; }
   bool operator==(const Delivery&) const = default;
 };

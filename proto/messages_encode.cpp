@@ -88,6 +88,7 @@ pb::Configure header(const msg::Configure& m) {
   out.set_filter(static_cast<uint32_t>(m.delivery.filter));
   out.set_form(static_cast<uint32_t>(m.delivery.form));
   out.set_exposure(m.delivery.exposure);
+  out.set_curve(static_cast<uint32_t>(m.delivery.curve));
   return out;
 }
 

@@ -164,7 +164,7 @@ Json fluctuationOf(const MapMotion& motion, const Wanted& w) {
 
 Scene sceneOf(const Wanted& w) {
   Scene scene = w.surfaces > 0 ? MapBox::make(cutsOf(w.surfaces))
-                               : readScene(w.options.scene, w.options.clip);
+                               : readScene(w.options.scene, w.options.reading);
   if (w.photonsMeet > 0) addPhotonScene(scene, MapBox::make(cutsOf(w.photonsMeet)));
   return withPhotonScene(std::move(scene), w.options.photonScene);
 }

@@ -35,7 +35,7 @@ namespace ninefold {
 namespace {
 
 Scene sceneOf(const Options& options) {
-  return withPhotonScene(readScene(options.scene, options.clip), options.photonScene);
+  return withPhotonScene(readScene(options.scene, options.reading), options.photonScene);
 }
 
 constexpr const char* kProgram = "ninefold-replay-task";

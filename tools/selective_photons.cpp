@@ -144,7 +144,7 @@ int run(int argc, char** argv) {
   if (words.has("--help") || words.has("-h")) return writeOutput(kHelp), 0;
   if (words.has("--version")) return writeOutput(versionText(kProgram)), 0;
   const Wanted w = wantedOf(words);
-  const Scene scene = readScene(w.options.scene, w.options.clip);
+  const Scene scene = readScene(w.options.scene, w.options.reading);
   const Settings settings = makeSettings(w.options, scene);
   const Script script = readScript(w.edit, scene);
   const SceneEdit edit = script.at(script.seconds, scene, settings.camera).edit;

@@ -73,7 +73,7 @@ int run(int argc, char** argv) {
   if (has(argc, argv, "--version")) return writeOutput(versionText(kProgram)), 0;
   const Options options = masterOptions(argc, argv);
   const Job job = makeJob(options);
-  const Scene scene = readScene(options.scene, options.clip);
+  const Scene scene = readScene(options.scene, options.reading);
   const Tracer tracer(scene, Isa::automatic);
   const Renderer renderer(tracer, job.settings);
   const int sets = job.settings.interleave.sets();

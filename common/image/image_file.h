@@ -36,8 +36,13 @@ void writeImage(const std::string& path, const Picture& picture,
 // Writes a picture that was tone mapped already: the bytes that writeImage makes of its radiance.
 void writePng(const std::string& path, const DisplayImage& picture);
 
+// The largest picture that is read.
+struct ImageBounds {
+  int width = 16384, height = 16384;
+};
+
 // The channels R, G, B (the first three if none are named so; one channel is spread to all) as
 // linear floats; integer files are decoded from sRGB.
-RgbImage readImage(const std::string& path);
+RgbImage readImage(const std::string& path, const ImageBounds& bounds = {});
 
 }  // namespace ninefold

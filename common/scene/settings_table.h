@@ -321,9 +321,10 @@ inline constexpr std::tuple kSettings{
                       .low = 0,
                       .high = 1e6,
                       .unit = "W/(m^2 sr)",
-                      .value = "none|COLOR",
-                      .help = "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; "
-                              "white 1, with a warning, if the scene has no light at all)"},
+                      .value = "none|COLOR|FILE",
+                      .help = "light from outside: R,G,B or one number [W/(m^2 sr)], or a picture "
+                              "of all directions, FILE.hdr|.exr[:ROTATION[:STRENGTH]] (default "
+                              "none; white 1, with a warning, if the scene has no light at all)"},
     Setting<Randomization>{
         .name = "randomization",
         .member = &Settings::randomization,

@@ -34,22 +34,36 @@ void applyPreset(Options& o) {
   o.converging = false;
 }
 
+// Light from outside.
+void readOutside(const RawOptions& raw, Options& o) {
+  const auto environment = raw.text("environment"), sky = raw.text("sky");
+  if (environment && sky) failUsage("--environment and --sky exclude each other");
+  if (sky) o.reading.environment = parseSky(*sky);
+  if (!environment) return;
+  if (namesPicture(*environment))
+    o.reading.environment = parseEnvironmentFile(*environment);
+  else
+    o.environment = o.settings.environment;
+}
+
 void readPicture(const RawOptions& raw, Options& o) {
   if (const auto size = raw.text("size"))
     std::tie(o.settings.width, o.settings.height) = parseSize(*size);
   readSettings(raw, o.settings);
-  if (raw.has("environment")) o.environment = o.settings.environment;
+  readOutside(raw, o);
   try {
     checkTogether(o.settings);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
   o.camera = raw.text("camera").value_or("");
+  assign(o.reading.lightUnits, raw.choice("light-units", kLightUnitsNames));
   assign(o.surfaceTest, raw.choice("filter", std::array{"none", "paper", "surface"}));
   o.autoExposure = raw.text("exposure") == "auto";
   if (!o.autoExposure)
     if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
       o.exposure = static_cast<float>(*ev);
+  assign(o.toneCurve, raw.choice("tone-map", kToneCurveNames));
   o.aovs = raw.isOn("aovs");
   if (const auto touch = raw.choice("denoise", std::array{"off", "on"})) o.denoise = *touch == 1;
   if (o.denoise == true && factsOf(o.settings.method).isUnfiltered)
@@ -124,7 +138,7 @@ void readAnimation(const RawOptions& raw, Options& o) {
 void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
-  o.clip = raw.text("clip");
+  o.reading.clip = raw.text("clip");
   o.photonScene = raw.text("photon-scene");
   readAnimation(raw, o);
   if (o.photonScene && !isLive(o) && !factsOf(o.settings.method).has(kMapPhotons))

@@ -26,9 +26,18 @@ struct Flag {
 constexpr Flag kPicture[] = {
     {"camera", "NAME|INDEX|SPEC",
      "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
+    {"sky", "A:E[:T]",
+     "light from outside: a clear sky and its sun at azimuth A (0 to 360, clockwise from north, "
+     "-z) and elevation E (0 to 90), turbidity T (2 clear to 10 hazy; default 3)"},
+    {"light-units", "NAME",
+     "what a glTF file's candela and lux are: radiometric (1 cd is 1 W/sr), photometric (683 cd "
+     "are), or auto, by who wrote the file (default auto; docs/light-units.md)"},
     {"exposure", "EV|auto",
-     "brightness of .png files and of the window, -50 to 50, or by the picture itself (default: "
-     "what the scene says, else 0)"},
+     "brightness of .png files and of the window, -50 to 50, or by the first picture itself, held "
+     "from then on (default: what the scene says, else auto)"},
+    {"tone-map", "NAME",
+     "how light becomes the colours of .png files and of the window: srgb (as it is, lamps rolled "
+     "off), filmic or agx (default srgb; common/image/tone_map.h)"},
     {"denoise", "off|on",
      "a last touch of filtering, by no more than a pixel's standard error (default: on in the "
      "window and for .png, else off; off for path tracing, paper and --filter-at clients)"},

@@ -76,7 +76,7 @@ PictureMaker::Setup pictureSetup(const Options& options, const Job& job, int wor
   setup.view = options.view;
   setup.depthScale = kDepthShownWhite * job.sceneRadius;
   setup.surfaceTest = options.surfaceTest;
-  if (!options.autoExposure) setup.exposure = job.exposure;
+  setup.exposure = job.exposure, setup.curve = options.toneCurve;
   setup.workers = workers;
   setup.denoise = denoises(options, job.settings.method);
   return setup;

@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "common/base/log.h"
-#include "common/image/auto_exposure.h"
 #include "common/scene/camera_choice.h"
+#include "master/assembly/picture.h"
 #include "master/output/output_files.h"
 #include "master/output/run_record.h"
 #include "master/output/stats.h"
@@ -36,7 +36,7 @@ WindowSession::WindowSession(const Options& options, Window& window, const Windo
       window_(window),
       loading_(std::async(std::launch::async, [&options] { return makeJob(options); })),
       input_(Clock::now()),
-      board_(options.exposure.value_or(0), notice_),
+      board_(notice_),
       saving_(
           options.scene, [this] { return sceneNow(); },
           [this] {
@@ -47,7 +47,6 @@ WindowSession::WindowSession(const Options& options, Window& window, const Windo
       latency_(Clock::now()),
       view_(options.view),
       target_(static_cast<float>(options.frameTime)),
-      autoExposure_(options.autoExposure),
       memory_(memory) {}
 
 WindowSession::~WindowSession() = default;
@@ -75,10 +74,13 @@ bool WindowSession::load() {
 void WindowSession::start() {
   cameras_ = job_->scene->cameras;
   savedCameras_ = cameras_.size();
-  board_.expose(job_->exposure);
+  board_.setTone({job_->exposure.value_or(0), options_.toneCurve});
+  autoExposure_ = exposureIsSought_ = !job_->exposure;
   camera_ = std::make_unique<CameraControl>(job_->settings.camera, job_->scene->bounds);
-  LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure(),
-                     wantsCodesOnly(options_)};
+  LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.tone().exposure,
+                     board_.tone().curve};
+  // An exposure that is not known yet is made of radiance.
+  pace.codesOnly = wantsCodesOnly(options_) && job_->exposure;
   pace.person = true;
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
                                     [this](const std::shared_ptr<const Shown>& shown) {
@@ -124,7 +126,7 @@ void WindowSession::takePicture() {
   const std::shared_ptr<const Shown> latest = live_->shown();
   if (board_.take(latest, live_->cluster().tally().tasks.accepted)) {
     editor_->look(*latest);
-    if (autoExposure_) exposeByPicture();
+    if (exposureIsSought_) exposeByPicture();
   }
   board_.draw(*job_->scene, editor_->selection(), window_);
 }
@@ -193,8 +195,7 @@ void WindowSession::carryOut(const Command& command) {
     case Kind::view:
       return show(command.view);
     case Kind::exposure:
-      autoExposure_ = false;
-      return expose(board_.exposure() + command.amount);
+      return expose(board_.tone().exposure + command.amount);
     case Kind::reset:
       return camera_->reset();
     case Kind::nextCamera:
@@ -252,12 +253,10 @@ void WindowSession::apply(const PanelChanges& changes) {
   editor_->take(changes);
   if (changes.settings) live_->setSettings(*changes.settings);
   if (changes.view) show(*changes.view);
-  if (changes.autoExposure) autoExposure_ = *changes.autoExposure;
-  if (changes.autoExposure && autoExposure_) exposeByPicture();
-  if (changes.exposure) {
-    autoExposure_ = false;
-    expose(*changes.exposure);
-  }
+  if (changes.autoExposure) autoExposure_ = exposureIsSought_ = *changes.autoExposure;
+  if (exposureIsSought_) exposeByPicture();
+  if (changes.exposure) expose(*changes.exposure);
+  if (changes.curve) setTone({board_.tone().exposure, *changes.curve});
   if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
   if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
   if (changes.camera) camera_->go(cameras_[*changes.camera]);
@@ -269,17 +268,24 @@ void WindowSession::apply(const PanelChanges& changes) {
   if (changes.record) board_.toggleRecording();
 }
 
-void WindowSession::expose(float wanted) {
-  const float exposure = std::clamp(wanted, -kMostExposure, kMostExposure);
-  board_.expose(exposure);
-  live_->setExposure(exposure);
+void WindowSession::setTone(const Tone& tone) {
+  board_.setTone(tone);
+  live_->setTone(tone);
 }
 
-// Of light at rest; what moves, and what is no light, leaves it as it was.
+// By hand.
+void WindowSession::expose(float wanted) {
+  autoExposure_ = exposureIsSought_ = false;
+  setTone({std::clamp(wanted, -kMostExposure, kMostExposure), board_.tone().curve});
+}
+
+// By the first picture of light at rest that comes. From then on it holds still.
 void WindowSession::exposeByPicture() {
   const Shown* shown = board_.shown();
   if (shown == nullptr || shown->frame.moving || !isLight(shown->view)) return;
-  if (shown->image->radiance.count() > 0) expose(autoExposure(shown->image->radiance));
+  if (shown->image->radiance.count() == 0) return;
+  exposureIsSought_ = false;
+  setTone({exposureByPicture(shown->image->radiance), board_.tone().curve});
 }
 
 // One more camera, in the panel, under C, and in scenes that are saved.

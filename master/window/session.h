@@ -41,6 +41,7 @@ class WindowSession {
   void apply(const PanelChanges& changes);
   PanelView panelView() const;
   void show(PictureView view) { live_->setView(view_ = view); }
+  void setTone(const Tone& tone);
   void expose(float exposure);
   void exposeByPicture();
   void keepView();
@@ -69,8 +70,9 @@ class WindowSession {
   size_t savedCameras_ = 0;      // of them, in the file
 
   PictureView view_ = PictureView::beauty;
-  float target_ = 100;  // of frames in motion [ms]
-  bool autoExposure_ = false;
+  float target_ = 100;             // of frames in motion [ms]
+  bool autoExposure_ = false;      // by the picture
+  bool exposureIsSought_ = false;  // and that has not come yet
   bool panel_ = true, keys_ = false;
   WindowMemory memory_;
   float column_ = 0;  // that the panel takes [screen units]

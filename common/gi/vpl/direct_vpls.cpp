@@ -41,8 +41,8 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
   if (e.kind == EmitterKind::environment) {
     Vpl vpl;
     vpl.kind = Vpl::Kind::directional;
-    vpl.normal = squareToSphere(u);
-    vpl.power = share / kSpherePdf * t.emitters.environment();
+    vpl.normal = t.emitters.sampleEnvironment(u);
+    vpl.power = share / t.emitters.environmentPdf(vpl.normal) * t.emitters.environment(vpl.normal);
     return vpl;
   }
   if (e.kind != EmitterKind::triangle) {
