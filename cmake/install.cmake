@@ -1,7 +1,7 @@
 # What `cmake --install` puts where, in three components, which package.cmake makes packages of:
 #
 #   master   ninefold-master and what belongs beside it (the window's libraries come along)
-#   client   ninefold-client, the systemd unit
+#   client   ninefold-client, ninefold-doctor, the systemd unit
 #   common   scenes and pages, for any processor
 #
 # A program's man page and bash completion are made of its own --help at the end of a build; the page
@@ -49,6 +49,7 @@ ninefold_install(master ninefold-master "renders a scene on a cluster of clients
 ninefold_install(master ninefold-compare "tells how far a picture is from another one")
 ninefold_install(master ninefold-replay-task "does one task of a run once more")
 ninefold_install(client ninefold-client "renders for a ninefold-master")
+ninefold_install(client ninefold-doctor "tells whether this machine can join a ninefold-master")
 
 # Folders of systemd are the same under any prefix but the system's own.
 install(FILES packaging/ninefold-client@.service DESTINATION lib/systemd/system COMPONENT client)

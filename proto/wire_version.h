@@ -18,7 +18,7 @@ namespace ninefold {
 // Raised whenever the meaning of any message, or the format of tiles, scenes or states changes.
 inline constexpr uint32_t kProtocol = 4;
 
-inline constexpr std::string_view kMessagesDigest = "dbc5fdb5386aba65";
+inline constexpr std::string_view kMessagesDigest = "be06908ba2d7b554";
 inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
 inline constexpr std::string_view kScenesDigest = "ccbffcd22905571d";
 inline constexpr std::string_view kStatesDigest = "bc7f3e420652a9f2";
