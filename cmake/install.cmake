@@ -58,5 +58,6 @@ install(FILES packaging/ninefold-client.conf DESTINATION lib/sysusers.d COMPONEN
 install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ninefold/scenes COMPONENT common
   FILES_MATCHING PATTERN "*.glb" PATTERN "*.json" PATTERN "README.md"
   PATTERN generator EXCLUDE)
+install(PROGRAMS scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/ninefold COMPONENT common)
 install(FILES README.md docs/cluster.md docs/script.md docs/window.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ninefold-common COMPONENT common)

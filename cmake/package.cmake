@@ -19,12 +19,13 @@ set(CPACK_DEBIAN_CLIENT_PACKAGE_NAME ninefold-client)
 set(CPACK_DEBIAN_COMMON_PACKAGE_NAME ninefold-common)
 set(CPACK_DEBIAN_COMMON_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_COMMON_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_MASTER_PACKAGE_SUGGESTS openssh-client)
 set(CPACK_DEBIAN_CLIENT_PACKAGE_CONTROL_EXTRA
   ${CMAKE_SOURCE_DIR}/packaging/postinst ${CMAKE_SOURCE_DIR}/packaging/prerm)
 set(CPACK_COMPONENT_MASTER_DESCRIPTION
   "Renders scenes (glTF, OBJ) on a cluster, in a window or into files.")
 set(CPACK_COMPONENT_CLIENT_DESCRIPTION
-  "Renders for a master elsewhere; needs no display.")
+  "Renders for a master elsewhere; needs no display. Comes with ninefold-doctor.")
 set(CPACK_COMPONENT_COMMON_DESCRIPTION "Scenes to try, and pages for users and operators.")
 
 foreach(package ninefold ninefold-client ninefold-common)

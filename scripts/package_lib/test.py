@@ -16,7 +16,7 @@ from systems import ROOT, Failure, booted, run, system  # noqa: E402  the path c
 PAGE = dict(re.findall(r"^```sh (\S+)\n(.*?)^```$", (ROOT / "docs/cluster.md").read_text(), re.MULTILINE | re.DOTALL))
 WINDOW = ["libglfw3", "libgl1", "libx11-6", "libimgui-dev", "libwayland-client0"]
 PROGRAMS = {"ninefold": ["ninefold-master", "ninefold-compare", "ninefold-replay-task"],
-            "ninefold-client": ["ninefold-client"]}
+            "ninefold-client": ["ninefold-client", "ninefold-doctor"]}
 # Complaints of lintian about what is so on purpose: packages that are not Debian's own have no bug to close and no
 # address, and their versions name a commit.
 ALLOWED = ["initial-upload-closes-no-bugs", "no-changelog", "bogus-mail-host", "maintainer-script-calls-systemctl",
@@ -110,7 +110,9 @@ def test_machine(machine):
     print("== LAN", flush=True)
     running = master(machine, "lan-master", local_clients=0)
     machine.until("grep -q :125C /proc/net/tcp")  # 4700
-    machine.run(PAGE["lan-client"])
+    doctor, client = PAGE["lan-client"].splitlines()
+    print(machine.run(doctor), flush=True)
+    machine.run(client)
     check(finish(machine, running, hashes) == [machine.run("cat name").strip()], "the client of the page renders")
 
     print("== service", flush=True)
@@ -126,13 +128,20 @@ def test_machine(machine):
         machine.run(f"{command} || [ $? = 3 ]")  # 3: between two starts
     check("inactive" in machine.run("systemctl is-active ninefold-client@render-master:4700 || true"), "the service ended")
 
+    print("== ssh", flush=True)
+    machine.run("install -d -m 700 .ssh; ssh-keygen -q -t ed25519 -N '' -f .ssh/id_ed25519; "
+                "cp .ssh/id_ed25519.pub .ssh/authorized_keys; systemctl start ssh; "
+                "ssh-keyscan -H render1 > .ssh/known_hosts; echo render1 > hosts")
+    check(finish(machine, master(machine, "ssh", local_clients=0), hashes) == ["render1"], "ssh starts the client")
+
 
 def test_all(release, folder):
     with system(release) as place:
         put_packages(place, folder)
         place.run(PAGE["install"])
         print("== pages", flush=True)
-        place.install("bash-completion", "systemd", "systemd-sysv", "dbus", "procps", "hostname")
+        place.install("bash-completion", "systemd", "systemd-sysv", "dbus", "openssh-server", "openssh-client", "procps",
+                      "hostname")
         test_pages(place)
         place.run("systemd-sysusers && systemd-analyze verify ninefold-client@render-master:4700.service")
         with booted(place) as machine:
