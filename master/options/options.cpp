@@ -78,11 +78,19 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
   assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
+  o.addressFile = raw.text("address-file");
+  o.hosts = raw.text("hosts");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = raw.choice("isa", kIsas)) o.isa = kIsas[*isa];
   o.listen = raw.text("listen").value_or(o.listen);
   try {
-    if (!isLoopback(parseEndpoint(o.listen, "--listen").host) && !o.keyFile)
+    const bool isHere = isLoopback(parseEndpoint(o.listen, "--listen").host);
+    if (isHere && o.hosts)
+      failUsage(
+          "--hosts {} needs --listen ADDR:PORT where they reach this machine, for example "
+          "0.0.0.0:4700",
+          *o.hosts);
+    if (!isHere && !o.keyFile)
       failUsage(
           "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
           "ninefold-master --new-key FILE",

@@ -47,6 +47,8 @@ struct Options {
   int clientThreads = 1;
   std::string listen = "127.0.0.1:0";  // ADDR:PORT
   std::optional<std::string> keyFile;
+  std::optional<std::string> addressFile;  // gets the addresses at which it listens
+  std::optional<std::string> hosts;        // file: where ssh starts clients
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
   double patience = 120;     // without a window, with clients that are all stuck [s]

@@ -44,6 +44,18 @@ TEST(Invitation, SaysWhenNobodyElsewhereCanCome) {
   EXPECT_NE(loopback.find("--listen 0.0.0.0:4700"), std::string::npos) << loopback;
 }
 
+TEST(Invitation, AnAddressFileHasWhatOthersDial) {
+  const auto text = [](const Endpoint& at, const std::vector<std::string>& addresses) {
+    std::string all;
+    for (const Endpoint& one : reachableAt(at, addresses)) all += addressText(one) + " ";
+    return all;
+  };
+  EXPECT_EQ(text({"10.0.0.1", 4700}, {"192.0.2.7"}), "10.0.0.1:4700 ");
+  EXPECT_EQ(text({"0.0.0.0", 4700}, {"192.0.2.7", "10.1.0.2"}), "192.0.2.7:4700 10.1.0.2:4700 ");
+  EXPECT_EQ(text({"::", 4700}, {"2001:db8::7"}), "[2001:db8::7]:4700 ");
+  EXPECT_EQ(text({"0.0.0.0", 4700}, {}), "127.0.0.1:4700 ");
+}
+
 // Numbers only: no name that another machine may understand otherwise, and nothing that ends at its
 // reader.
 TEST(Invitation, AddressesAreThoseOfInterfacesAndNotLoopback) {

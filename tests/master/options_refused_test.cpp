@@ -75,6 +75,13 @@ TEST(OptionsRefused, WrongUsageIsRefused) {
   EXPECT_NE(complaint("a.glb --seed").find("seed"), std::string::npos);
 }
 
+TEST(OptionsRefused, HostsMustReachThisMachine) {
+  EXPECT_NE(complaint("a.glb --hosts h").find("--listen"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --hosts h --listen 0.0.0.0:4700").find("--key-file"),
+            std::string::npos);
+  EXPECT_EQ(complaint("a.glb --hosts h --listen 0.0.0.0:4700 --key-file k"), "");
+}
+
 TEST(OptionsRefused, AFileForThePictureOrTheStatsIsNeeded) {
   EXPECT_NE(complaint("a.glb", {}, false).find("--output"), std::string::npos);
   EXPECT_EQ(complaint("a.glb --stats s.json", {}, false), "");
