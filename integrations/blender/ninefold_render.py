@@ -524,17 +524,17 @@ class Exporter:
             thing, matrix = instance.object, instance.matrix_world.copy()
             if thing.type == "LIGHT":
                 self.lamps.append((thing.data.original, matrix))
-            elif thing.type in {"MESH", "CURVE", "SURFACE", "FONT", "META"}:
-                mesh = self.mesh_of(thing, depsgraph)
+            elif thing.type == "MESH":  # so come curves, texts and metaballs, too
+                mesh = self.mesh_of(thing)
                 if mesh.polygons:
                     yield (thing.name, *upright(mesh, matrix))
             elif thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL"}:
                 self.warn(f"{thing.name} is left out: glTF has no {thing.type.lower()}")
 
-    def mesh_of(self, thing, depsgraph):
+    def mesh_of(self, thing):
         key = (thing.original.as_pointer(), thing.data.as_pointer(), tuple(s.material and s.material.name for s in thing.material_slots))
         if key not in self.meshes:
-            mesh = bpy.data.meshes.new_from_object(thing, preserve_all_data_layers=True, depsgraph=depsgraph)
+            mesh = thing.data.copy()
             for slot, place in zip(thing.material_slots, range(len(mesh.materials))):
                 mesh.materials[place] = slot.material and slot.material.original
             if thing.particle_systems and any(s.settings.render_type == "PATH" for s in thing.particle_systems):
@@ -650,6 +650,9 @@ class Exporter:
             if "KHR_materials_transmission" in extensions:  # Cycles refracts, glTF's alone is a thin wall
                 extensions.setdefault("KHR_materials_volume", {"thicknessFactor": 1})
                 use_extension(gltf, "KHR_materials_volume")
+            specular = extensions.get("KHR_materials_specular", {})
+            if specular.get("specularColorFactor") == [0, 0, 0]:  # glTF's alone still reflects at grazing angles
+                specular["specularFactor"] = 0
         roots = gltf["scenes"][gltf.get("scene", 0)].setdefault("nodes", [])
 
         def add_node(node, place):
