@@ -44,6 +44,7 @@ MOST_PIXELS = 16384  # of a side, as the master takes them
 EVERY = 2            # a new look at the picture so often [s]
 PATIENCE = 20        # of an interrupted master, before it is killed [s]
 FAR = 1e10           # Blender's depth where nothing is
+PICTURES = "none|COLOR|FILE"  # in the help of a master that takes pictures of what is outside
 EXPORT_FLAG = "--ninefold-export"
 
 Pass = collections.namedtuple("Pass", "name channels id type source")
@@ -213,7 +214,7 @@ def flags_of(master, changed):  # `changed`: another build may know others
     flags = {word for word in said.split() if word.startswith("--")}
     if "--local-clients" not in flags:
         raise Trouble(f"{master} is no ninefold-master: correct the path in the preferences of the add-on Ninefold")
-    return flags | ({"FILE.hdr"} if "FILE.hdr" in said else set())
+    return flags | ({PICTURES} if PICTURES in said else set())
 
 
 def master_command(master, flags, settings, scene, exported, folder, passes):
@@ -245,7 +246,7 @@ def complaint(program, what):
     """Why a program ended badly."""
     status = program.process.returncode
     if status < 0 or status > 128:
-        return f"{what} was killed by signal {abs(status) % 128}: render again; the system's log may tell why"
+        return f"{what}: killed by signal {abs(status) % 128}; render again, the system's log may tell why"
     told = [line for line in program.last if line and not line.startswith("progress:")]
     return f"{what}: {told[-1] if told else f'ended with status {status}'}"
 
@@ -279,7 +280,7 @@ class NinefoldEngine(bpy.types.RenderEngine):
         master = master_path()
         flags = flags_of(master, os.path.getmtime(master))
         self.check(depsgraph.scene)
-        exported = self.export(folder, depsgraph, "FILE.hdr" in flags)
+        exported = self.export(folder, depsgraph, PICTURES in flags)
         for warning in exported["warnings"]:
             self.report({"WARNING"}, f"Ninefold: {warning}")
         passes = PASSES if settings.passes else ()
@@ -375,6 +376,7 @@ class NinefoldSettings(bpy.types.PropertyGroup):
         ("auto", "Automatic", "One of both kinds of instant radiosity, as a short trial tells"),
         ("photon-map", "Photon Map", "A rolling pool of photons; blurs bounced light"),
         ("selective-photons", "Selective Photons", "Light kept in mesh elements; blurs bounced light"),
+        ("intersection-field", "Intersection Field", "Light among lines that are drawn through the scene; blurs"),
         ("path-trace", "Path Tracing", "The slow, unbiased reference")])
     frames: bpy.props.IntProperty(name="Frames", default=64, min=0, soft_max=4096,
                                   description="Frames that the picture is the mean of; 0: no limit")
@@ -464,6 +466,7 @@ class Exporter:
     def run(self):
         scene = self.load()
         self.show_as_rendered(scene)
+        bpy.context.evaluated_depsgraph_get()  # from now on what is animated reaches lamps and materials themselves
         scene.frame_set(self.order["frame"], subframe=self.order["subframe"])
         for material in bpy.data.materials:
             self.prepare(material)
@@ -594,9 +597,27 @@ class Exporter:
         if source.type != "TEX_ENVIRONMENT" or source.image is None:
             self.warn(f"world {world.name}: its colour by nodes is not carried over; it is rendered black")
             return "none"
-        mean = mean_radiance(source.image)
+        if self.order["pictures"] and source.projection == "EQUIRECTANGULAR" and source.image.size[0] == 2 * source.image.size[1] > 0:
+            return self.picture_of(world, source, strength.default_value)
         self.warn(f"world {world.name}: its picture is carried over as its mean colour")
-        return colour_text([c * strength.default_value for c in mean])
+        return colour_text([c * strength.default_value for c in mean_radiance(source.image)])
+
+    def picture_of(self, world, source, strength):
+        """FILE:ROTATION:STRENGTH; the picture's middle is +x for both. A turned place of looking turns the picture back."""
+        name, turn = "environment.exr", 0
+        if source.inputs["Vector"].is_linked:
+            node = source.inputs["Vector"].links[0].from_node
+            if node.type == "MAPPING" and node.vector_type in {"POINT", "TEXTURE"}:
+                x, y, z = node.inputs["Rotation"].default_value
+                turn = math.degrees(z) * (-1 if node.vector_type == "POINT" else 1)
+                if x or y or any(node.inputs["Location"].default_value) or tuple(node.inputs["Scale"].default_value) != (1, 1, 1):
+                    self.warn(f"world {world.name}: of its Mapping only the turn about z is carried over")
+            elif node.type != "TEX_COORD":
+                self.warn(f"world {world.name}: how its picture is placed is not carried over")
+        saver = bpy.data.scenes.new("saver")
+        saver.render.image_settings.file_format, saver.render.image_settings.color_depth = "OPEN_EXR", "32"
+        source.image.save_render(str(self.files / name), scene=saver)
+        return f"{name}:{turn:.9g}:{strength:.9g}" if strength > 0 else "none"
 
     def place_lamps(self, scene):
         """Lamps with a size as surfaces that shine. Returns the others as (name, light, radiant quantity, matrix)."""

@@ -3,10 +3,11 @@
     blender -b --factory-startup --addons ninefold_render --python blender_scenes.py -- ENGINE SCENE FOLDER
 
 Writes FOLDER/ENGINE_SCENE.json: the mean colour of each patch, a part of the picture that shows one thing, by its name; and the
-picture itself as .png. Both scenes are a board of bays, one thing in each, seen from above.
+picture itself as .png. Two scenes are a board of bays, one thing in each, seen from above.
 
     lamps      each bay, between black walls, has a lamp of its own above a grey floor
     surfaces   each bay has a surface, under a sun and an evenly bright sky
+    outside    a mirror ball fills the picture; it shows a picture of what is outside, turned
 """
 import json
 import math
@@ -20,8 +21,8 @@ from mathutils import Euler
 COLUMNS, ROWS = 4, 4
 HEIGHT = 14          # of the camera [m]; a bay is 2 m wide
 SIZE = (96, 96)
-SAMPLES = {"lamps": 1536, "surfaces": 1024}   # of Cycles
-FRAMES = {"lamps": 512, "surfaces": 512}     # of Ninefold
+SAMPLES = {"lamps": 1536, "surfaces": 1024, "outside": 64}   # of Cycles
+FRAMES = {"lamps": 512, "surfaces": 512, "outside": 64}     # of Ninefold
 
 
 def principled(name, **inputs):
@@ -183,6 +184,27 @@ def make_surfaces():
     return list(materials)
 
 
+def make_outside():
+    """A mirror ball; its patches have no names of their own."""
+    ball("mirror", with_shader("mirror", "ShaderNodeBsdfGlossy", (1, 1, 1), 0.0), 6, (0, 0, 0))
+    width, height = 16, 8
+    picture = bpy.data.images.new("outside", width, height, float_buffer=True)
+    x, y = np.meshgrid(np.arange(width), np.arange(height))
+    pixels = np.stack([1 + x / 4, np.where(x < 5, 2.0, 0.3), 1 + y / 2, np.ones_like(x)], axis=-1)
+    picture.pixels.foreach_set(pixels.astype(np.float32).ravel())
+    picture.pack()
+    tree = bpy.context.scene.world.node_tree
+    background, source, place, where = (tree.nodes["Background"], tree.nodes.new("ShaderNodeTexEnvironment"),
+                                        tree.nodes.new("ShaderNodeMapping"), tree.nodes.new("ShaderNodeTexCoord"))
+    source.image = picture
+    place.inputs["Rotation"].default_value = (0, 0, math.radians(40))
+    background.inputs["Strength"].default_value = 0.5
+    tree.links.new(where.outputs["Generated"], place.inputs["Vector"])
+    tree.links.new(place.outputs["Vector"], source.inputs["Vector"])
+    tree.links.new(source.outputs["Color"], background.inputs["Color"])
+    return [f"part {i}" for i in range(COLUMNS * ROWS)]
+
+
 def base_scene():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
@@ -240,7 +262,7 @@ def patches(picture, names, right):
 def main():
     engine, name, folder = sys.argv[sys.argv.index("--") + 1:]
     scene = base_scene()
-    names = {"lamps": make_lamps, "surfaces": make_surfaces}[name]()
+    names = {"lamps": make_lamps, "surfaces": make_surfaces, "outside": make_outside}[name]()
     set_engine(scene, engine, name)
     bpy.ops.render.render()
     picture = pixels_of_result(scene, pathlib.Path(folder), f"{engine}_{name}")
