@@ -1,6 +1,6 @@
 """Ninefold as a render engine of Blender (3.4 and later). docs/blender.md tells how to install and use it.
 
-    F12 ─► render(): a copy of the scene as .blend ─► a Blender without window: glTF exporter ─► ninefold-master ─► .exr ─► passes
+    F12 ─► render(): .blend copy ─► a Blender without window: glTF ─► ninefold-master ─► .exr ─► passes
 
 The exporter needs a context that render() does not have; in a Blender of its own it has one, and may change the scene so that
 the exporter sees what a render sees. This file is both: the add-on, and what runs there (`export_main`).
@@ -461,6 +461,7 @@ class Exporter:
         self.warnings = []
         self.lamps = []      # (light, matrix)
         self.meshes = {}     # by what they were made of
+        self.none = None     # the material of what has none
         self.files = pathlib.Path(order["folder"])
 
     def run(self):
@@ -474,6 +475,7 @@ class Exporter:
         camera = scene.camera.evaluated_get(depsgraph)
         matrix = camera.matrix_world.copy()
         size, crop, fov = frame_of(camera.data, scene.render, self.order["resolution"])
+        self.warn_of_the_rest(scene, camera.data)
         environment = self.environment_of(scene.world)
         plain = bpy.data.scenes.new("plain")
         for name, mesh, place in self.realise(depsgraph):
@@ -487,6 +489,12 @@ class Exporter:
         path.write_text(json.dumps(gltf))
         (self.files / "export.json").write_text(json.dumps(
             {"size": size, "crop": crop, "environment": environment, "warnings": self.warnings}))
+
+    def warn_of_the_rest(self, scene, camera):
+        for is_on, what in ((camera.dof.use_dof, "depth of field"), (scene.render.use_motion_blur, "motion blur"),
+                            (scene.render.film_transparent, "transparent film")):
+            if is_on:
+                self.warn(f"there is no {what}: it is left out")
 
     def warn(self, text):
         if text not in self.warnings:
@@ -531,15 +539,18 @@ class Exporter:
                 mesh = self.mesh_of(thing)
                 if mesh.polygons:
                     yield (thing.name, *upright(mesh, matrix))
-            elif thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL"}:
+            elif thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}:
                 self.warn(f"{thing.name} is left out: glTF has no {thing.type.lower()}")
 
     def mesh_of(self, thing):
-        key = (thing.original.as_pointer(), thing.data.as_pointer(), tuple(s.material and s.material.name for s in thing.material_slots))
+        key = (thing.original.as_pointer(), thing.data.as_pointer(),
+               tuple(slot.material and slot.material.name for slot in thing.material_slots))
         if key not in self.meshes:
             mesh = thing.data.copy()
             for slot, place in zip(thing.material_slots, range(len(mesh.materials))):
-                mesh.materials[place] = slot.material and slot.material.original
+                mesh.materials[place] = slot.material.original if slot.material else self.grey()
+            if not mesh.materials:
+                mesh.materials.append(self.grey())
             if thing.particle_systems and any(s.settings.render_type == "PATH" for s in thing.particle_systems):
                 self.warn(f"the hair of {thing.name} is left out")
             self.meshes[key] = mesh
@@ -547,11 +558,18 @@ class Exporter:
 
     # ------------------------------------------------------------ materials
 
+    def grey(self):
+        """What a surface without material looks like."""
+        if self.none is None:
+            self.none = bpy.data.materials.new("no material")
+            self.prepare(self.none)
+        return self.none
+
     def prepare(self, material):
         """As Cycles sees it: both sides, transparent where it says so; and a plain shader as the one the exporter knows."""
         material.use_backface_culling = False
         if not material.use_nodes or material.node_tree is None:
-            return
+            return as_diffuse(material)
         tree = material.node_tree
         output = tree.get_output_node("CYCLES") or tree.get_output_node("ALL")
         if output is None or not output.inputs["Surface"].is_linked:
@@ -563,7 +581,7 @@ class Exporter:
             self.warn(f"material {material.name}: the exporter cannot tell all that its node {shader.name} does")
         elif shader.type == "BSDF_PRINCIPLED":
             alpha = shader.inputs["Alpha"]
-            if material.blend_method == "OPAQUE" and (alpha.is_linked or alpha.default_value < 1):
+            if getattr(material, "blend_method", "") == "OPAQUE" and (alpha.is_linked or alpha.default_value < 1):
                 material.blend_method = "HASHED"
             for name in UNTOLD:
                 socket = shader.inputs.get(name)
@@ -597,7 +615,8 @@ class Exporter:
         if source.type != "TEX_ENVIRONMENT" or source.image is None:
             self.warn(f"world {world.name}: its colour by nodes is not carried over; it is rendered black")
             return "none"
-        if self.order["pictures"] and source.projection == "EQUIRECTANGULAR" and source.image.size[0] == 2 * source.image.size[1] > 0:
+        width, height = source.image.size
+        if self.order["pictures"] and source.projection == "EQUIRECTANGULAR" and width == 2 * height > 0:
             return self.picture_of(world, source, strength.default_value)
         self.warn(f"world {world.name}: its picture is carried over as its mean colour")
         return colour_text([c * strength.default_value for c in mean_radiance(source.image)])
@@ -704,7 +723,7 @@ Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 # Of other shaders the settings of the Principled one that mean the same. Roughness and colour are the shader's.
 PLAIN_SHADERS = {"BSDF_DIFFUSE": {"Specular": 0, "Specular IOR Level": 0}, "BSDF_GLOSSY": {"Metallic": 1},
                  "BSDF_GLASS": {"Transmission": 1, "Transmission Weight": 1}}
-UNTOLD = ("Subsurface", "Subsurface Weight", "Anisotropic")
+UNTOLD = ("Subsurface", "Subsurface Weight", "Anisotropic", "Sheen", "Sheen Weight")
 
 
 def principled_for(tree, shader, output):
@@ -723,6 +742,17 @@ def principled_for(tree, shader, output):
             node.inputs[ours].default_value = socket.default_value
     tree.links.new(node.outputs[0], output.inputs["Surface"])
     return node
+
+
+def as_diffuse(material):
+    """Without nodes a material scatters its viewport colour."""
+    colour = material.diffuse_color
+    material.use_nodes = True
+    node = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    node.inputs["Base Color"].default_value = colour
+    for name, value in PLAIN_SHADERS["BSDF_DIFFUSE"].items():
+        if name in node.inputs:
+            node.inputs[name].default_value = value
 
 
 def show_layers(layer):

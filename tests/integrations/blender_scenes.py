@@ -74,7 +74,8 @@ def rectangle(name, material, width, height, at, turn=(0, 0, 0)):
     x, y = width / 2, height / 2
     mesh.from_pydata([(-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0)], [], [(0, 1, 2, 3)])
     mesh.uv_layers.new().data.foreach_set("uv", [0, 0, 1, 0, 1, 1, 0, 1])
-    mesh.materials.append(material)
+    if material:
+        mesh.materials.append(material)
     return link(name, mesh, at, turn)
 
 
@@ -104,7 +105,7 @@ def bays():
 
 def make_lamps():
     """Names of the bays' patches, in order."""
-    grey, black = with_shader("grey", "ShaderNodeBsdfDiffuse", (0.6, 0.6, 0.6)), with_shader("black", "ShaderNodeBsdfDiffuse", (0, 0, 0))
+    grey, black = (with_shader(name, "ShaderNodeBsdfDiffuse", (value,) * 3) for name, value in (("grey", 0.6), ("black", 0)))
     rectangle("floor", grey, 2 * COLUMNS, 2 * ROWS, (0, 0, 0))
     for c in range(COLUMNS + 1):
         rectangle("wall", black, 3, 2 * ROWS, (2 * c - COLUMNS, 0, 1.5), (0, 90, 0))
@@ -128,7 +129,8 @@ def make_lamps():
                                                       "scale", (1.5, 0.7, 1)),
         "lamp with nodes": lambda x, y: nodes_of(lamp("nodes", "POINT", (x - 0.7, y, 1), energy=10.0, **none).data),
         "emission": lambda x, y: rectangle("glow", glow, 0.3, 0.3, (x - 0.7, y, 1)),
-        "principled emission": lambda x, y: rectangle("shine", principled("shine", **shine), 0.3, 0.3, (x - 0.7, y, 1), (180, 0, 0)),
+        "principled emission": lambda x, y: rectangle("shine", principled("shine", **shine), 0.3, 0.3, (x - 0.7, y, 1),
+                                                      (180, 0, 0)),
         "bounced": bounced,
         "sphere that shines": lambda x, y: ball("sphere", glow, 0.15, (x - 0.7, y, 1)),
     }
@@ -173,6 +175,7 @@ def make_surfaces():
         "glass, principled": principled("pg", Base_Color=(1.0, 0.8, 0.8), Transmission=1.0, Roughness=0.0, IOR=1.33, Specular=0.5),
         "specular 1": principled("p2", Base_Color=red, Specular=1.0, Roughness=0.2),
         "metal, half": principled("mh", Base_Color=(0.9, 0.7, 0.3), Metallic=0.5, Roughness=0.4),
+        "no material": None,
     }
     for (name, material), (x, y) in zip(materials.items(), bays()):
         if "glass" in name:
