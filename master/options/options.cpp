@@ -167,9 +167,12 @@ void readLive(const RawOptions& raw, Options& o) {
 
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
+  o.outputEvery = raw.real("output-every", 0.1, kMaxSeconds);
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !o.window)
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
+  if (o.outputEvery && (!o.output || isLive(o)))
+    failUsage("--output-every is for --output without --window, --script and --animate");
   if (o.animate && !o.window && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;

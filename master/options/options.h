@@ -64,6 +64,7 @@ struct Options {
   StopRule stop;  // 64 frames if no flag says otherwise
 
   std::optional<std::string> output;  // .exr, .png or .hdr
+  std::optional<double> outputEvery;  // also before the end [s]
   bool aovs = false;
   std::optional<bool> denoise;    // nothing: as denoises() says
   std::optional<float> exposure;  // [EV]; nothing: the scene's, or by the picture

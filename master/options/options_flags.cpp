@@ -106,6 +106,9 @@ constexpr Flag kCluster[] = {
 };
 constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
+    {"output-every", "S",
+     "write it after the first frame, too, and then every S seconds, 0.1 or more, as far as it has "
+     "converged"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
     {"stats", "FILE", "what happened, as JSON; - is standard output"},

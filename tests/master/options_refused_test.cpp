@@ -89,6 +89,18 @@ TEST(OptionsRefused, AFileForThePictureOrTheStatsIsNeeded) {
   EXPECT_NE(complaint("a.glb --aovs --output a.png", {}, false).find("--aovs"), std::string::npos);
 }
 
+TEST(OptionsRefused, APictureOnTheWayNeedsAStillWithAFile) {
+  constexpr const char* kEvery = "--output-every is for --output";
+  EXPECT_EQ(complaint("a.glb --output a.png --output-every 2"), "");
+  EXPECT_NE(complaint("a.glb --output a.png --output-every 0"), "");
+  EXPECT_NE(complaint("a.glb --stats s.json --output-every 2", {}, false).find(kEvery),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --output a.png --window --output-every 2").find(kEvery),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --output a.#.png --animate 0:1:1 --output-every 2").find(kEvery),
+            std::string::npos);
+}
+
 TEST(OptionsRefused, ListeningBeyondThisMachineNeedsAKey) {
   EXPECT_NE(complaint("a.glb --listen 0.0.0.0:4700").find("--key-file"), std::string::npos);
   EXPECT_EQ(complaint("a.glb --listen [::1]:4700"), "");
