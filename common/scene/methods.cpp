@@ -93,7 +93,9 @@ bool haveSameGroups(const Settings& before, const Settings& after) {
   return before.method == after.method && before.photonPool == after.photonPool &&
          before.photonGroups == after.photonGroups && before.pilotRatio == after.pilotRatio &&
          before.seed == after.seed && before.pathLength == after.pathLength &&
-         before.specularDepth == after.specularDepth && before.environment == after.environment;
+         before.specularDepth == after.specularDepth && before.environment == after.environment &&
+         before.minorLamps == after.minorLamps &&
+         (before.minorLamps == 0 || (before.directVpls > 0) == (after.directVpls > 0));
 }
 
 constexpr StateFacts kSelectiveState{

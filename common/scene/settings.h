@@ -56,6 +56,7 @@ struct Settings {
   int photonPool = 73728;     // Z: photons whose light mesh elements keep
   int photonGroups = 288;     // N_g: groups of them that are traced at a time (photon_groups.h)
   int pilotRatio = 16;        // R: all photons of a group over its pilots
+  float minorLamps = 0;       // F: share of all power of lamps whose direct light is photons'
   float elementSize = 0.08f;  // h: side of an element, as a fraction of R
   ElementRule elementRule = ElementRule::linear;
   int fieldDirections = 19;  // N: slopes of lines, horizontal and vertical (line_grid.h)

@@ -191,6 +191,16 @@ inline constexpr std::tuple kSettings{
                  .value = "R",
                  .help = "one of so many photons, {0} to {1}, looks for what an edit concerns",
                  .parts = kElementPhotons},
+    Setting<float>{
+        .name = "minor-lamps",
+        .member = &Settings::minorLamps,
+        .low = 0,
+        .high = 1,
+        .value = "F",
+        .help = "the faintest lamps, up to this share of all power, light by photons directly, "
+                "too: shadows as soft as elements; 0 = none",
+        .parts = kElementPhotons,
+        .slider = {"minor lamps", 0, 1, "%.2f of all power"}},
     Setting<float>{.name = "element-size",
                    .member = &Settings::elementSize,
                    .low = 1e-4,

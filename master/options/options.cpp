@@ -130,6 +130,7 @@ void readLive(const RawOptions& raw, Options& o) {
   if (o.photonScene && !isLive(o) && !factsOf(o.settings.method).has(kMapPhotons))
     failUsage("--photon-scene is for --method {}", factsOf(Method::photonMap).name);
   assign(o.frameTime, raw.real("frame-time", 1, 10000));
+  o.stepTime = raw.real("step-time", 1, 10000);
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
   if (const auto view = raw.text("view")) {
     const auto known = viewNamed(*view);

@@ -56,7 +56,8 @@ struct Options {
   std::optional<std::string> photonScene;  // file; nothing: photons meet the scene itself
   std::optional<std::string> clip;         // of the scene file's animations; nothing: the first
   PictureView view = PictureView::beauty;
-  double frameTime = 100;  // target while something moves [ms]
+  double frameTime = 100;          // target while something moves [ms]
+  std::optional<double> stepTime;  // of a step of a state, then [ms]; nothing: half of frameTime
 
   StopRule stop;  // 64 frames if no flag says otherwise
 

@@ -65,6 +65,9 @@ constexpr Flag kRun[] = {
      "says so and there is no --window, into --output out.####.png"},
     {"frame-time", "MS",
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
+    {"step-time", "MS",
+     "then, of each step that renews a part of selective photons, 1 to 10000 (default: half of "
+     "frame-time)"},
     {"headless", nullptr, "no window (default)"},
 };
 constexpr Flag kCluster[] = {

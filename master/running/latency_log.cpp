@@ -38,6 +38,7 @@ void LatencyLog::add(const Shown& shown) {
                       seconds(shown.completed - frame.opened), frame.moving,
                       frame.order.delivery.form, shown.image->width, shown.image->height,
                       MotionQuality::kLights[static_cast<size_t>(frame.quality.light)]});
+  steps_.insert(steps_.end(), shown.steps.begin(), shown.steps.end());
 }
 
 void LatencyLog::add(const std::vector<Shot>& shots) {
@@ -62,6 +63,16 @@ std::string LatencyLog::json(const std::string& scene, const ServerTally& tally)
                              {"clients_stuck", tally.tasks.clientsStuck},
                              {"values_not_finite", tally.replaced},
                              {"frames", std::move(frames)}};
+  for (const LiveStep& s : steps_)
+    all["steps"].push_back({{"step", s.key.number},
+                            {"from", s.key.from},
+                            {"to", s.key.to},
+                            {"first_unit", s.key.firstUnit},
+                            {"units", s.units},
+                            {"randomization", s.key.randomization},
+                            {"moving", s.moving},
+                            {"time", seconds(s.done - start_)},
+                            {"took_ms", 1e3 * seconds(s.done - s.opened)}});
   for (const Shot& s : shots_)
     all["shots"].push_back({{"shot", s.number},
                             {"frame", s.frame},

@@ -1,5 +1,6 @@
 // latency_log.h: what a person would feel of a session: for each frame that was seen, the time from
-// its newest change until it was there. Written as docs/script.md describes. Plain value.
+// its newest change until it was there; and the steps of the method's state. Written as
+// docs/script.md describes. Plain value.
 #pragma once
 
 #include <string>
@@ -29,6 +30,7 @@ class LatencyLog {
   };
   Time start_;
   std::vector<Entry> entries_;
+  std::vector<LiveStep> steps_;
   std::vector<Shot> shots_;
 };
 

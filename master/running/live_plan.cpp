@@ -94,11 +94,19 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   std::optional<int64_t> framesLeft;
   if (setup_.frames && !moving_) framesLeft = *setup_.frames - plan_.opened();
-  const auto step = states_.nextStep(nextFrame_, moving_, framesLeft, quality_.target() / 2);
+  const Duration time = setup_.stepTime.value_or(quality_.target() / 2);
+  const auto step = states_.nextStep(nextFrame_, moving_, framesLeft, time);
   if (!step) return std::nullopt;
-  stepOpened_ = now;
+  step_ = {step->key, step->units, moving_, now, {}};
   ++nextFrame_;
   return StepOrder{open(now).order, step->key, step->units};
+}
+
+std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {
+  states_.done(step, now - step_.opened);
+  if (!(step_.key == step)) return std::nullopt;
+  step_.done = now;
+  return step_;
 }
 
 void LivePlan::hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before) {

@@ -64,6 +64,14 @@ struct LiveFrame {
   Time changed{}, opened{};  // changed: when what it shows first for became known
 };
 
+// A step of the method's state that is done.
+struct LiveStep {
+  StepKey key;
+  int units = 1;
+  bool moving = false;
+  Time opened{}, done{};
+};
+
 class LivePlan {
  public:
   static constexpr Duration kSettle = milliseconds(250);
@@ -74,6 +82,7 @@ class LivePlan {
     Metres sceneRadius = 0;  // frozen: a photon radius must not change while a thing is dragged
     bool converging = true;
     Duration target = milliseconds(100);
+    std::optional<Duration> stepTime;  // of a step in motion; nothing: half the target
     bool motion = true;  // false: every state is shown as at rest, however long that takes
     std::optional<int64_t> frames;  // of a state at rest; nothing: without end
     Delivery delivery;              // of the first job
@@ -98,7 +107,8 @@ class LivePlan {
   std::optional<LiveFrame> next(Time now);
   // The next step of the method's state to open: asked before next, and again if that gives none.
   std::optional<StepOrder> nextStep(Time now);
-  void stepDone(const StepKey& step, Time now) { states_.done(step, now - stepOpened_); }
+  // Nothing if the step is void.
+  std::optional<LiveStep> stepDone(const StepKey& step, Time now);
   // The first step that is wanted, if older ones are void since this was last asked.
   std::optional<uint32_t> takeVoidSteps() { return std::exchange(voidSteps_, std::nullopt); }
   // A frame is complete. Nothing if it was superseded.
@@ -126,7 +136,7 @@ class LivePlan {
   Delivery atRest_, inMotion_;
   FramePlan plan_;
   StatePlan states_;
-  Time stepOpened_{};
+  LiveStep step_;  // the latest one that was opened
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   bool moving_ = false, dirty_ = false;

@@ -14,6 +14,7 @@ LivePlan::Setup planSetup(const Options& options, const Job& job, LiveRun::Pace 
   setup.sceneRadius = job.sceneRadius;
   setup.converging = options.converging;
   setup.target = pace.target;
+  if (options.stepTime) setup.stepTime = fromSeconds(1e-3 * *options.stepTime);
   setup.motion = pace.motion;
   setup.frames = pace.frames;
   setup.delivery = job.delivery;
@@ -238,7 +239,7 @@ void LiveRun::noteOwner(const ReceivedTile& tile) {
 // On the network thread.
 void LiveRun::stepDone(const StepKey& step) {
   const std::lock_guard lock(mutex_);
-  plan_.stepDone(step, Clock::now());
+  if (const auto done = plan_.stepDone(step, Clock::now())) steps_.push_back(*done);
 }
 
 // On the network thread.
@@ -292,6 +293,7 @@ void LiveRun::publish(const Open& done, Time completed) {
   shown->rays = machine_.cluster().tally().rays;
   const std::lock_guard lock(mutex_);
   open_.erase(open_.begin(), open_.upper_bound(done.frame.order.key.frame));
+  shown->steps = std::exchange(steps_, {});
   shown_ = std::move(shown);
 }
 

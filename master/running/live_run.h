@@ -38,7 +38,8 @@ struct Shown {
   Time completed{};
   int64_t frames = 0;  // that the image is the mean of
   double relativeError = 0;
-  RayCounts rays;  // of the run so far
+  RayCounts rays;               // of the run so far
+  std::vector<LiveStep> steps;  // done since the picture before
 };
 
 class LiveRun {
@@ -117,7 +118,8 @@ class LiveRun {
   bool picks_ = false;
   Pace pace_;
   std::map<uint32_t, std::shared_ptr<Open>> open_;
-  std::stop_source touching_;  // of the newest complete frame's last touch: a change ends it
+  std::stop_source touching_;    // of the newest complete frame's last touch: a change ends it
+  std::vector<LiveStep> steps_;  // done since the newest picture
   std::shared_ptr<const Shown> shown_;
 
   std::atomic<bool> ending_ = false;

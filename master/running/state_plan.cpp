@@ -62,7 +62,7 @@ void StatePlan::done(const StepKey& step, Duration took) {
   if (!open_ || !(open_->step.key == step)) return;
   const Open done = *std::exchange(open_, std::nullopt);
   latest_ = step.to;
-  if (!done.makesAll) pace_.took(static_cast<uint32_t>(done.step.units), took);
+  pace_.took(static_cast<uint32_t>(done.step.units), took);
   if (done.scene == scene_) stale_ -= std::min(stale_, static_cast<uint32_t>(done.step.units));
   if (done.makesAll && done.series == series_ && done.scene == scene_) ready_.push_back(step.to);
 }

@@ -158,7 +158,7 @@ TEST(SceneStamp, TellsEveryEditApart) {
   const Scene scene = b.build();
   const auto stampOf = [](const Scene& s) {
     const Tracer tracer(s, Isa::automatic);
-    return sceneStamp(Transport(tracer, testing::small(Method::selective)));
+    return sceneStamp(Transport(tracer, testing::small(Method::selective)), {});
   };
   const uint64_t before = stampOf(scene);
   EXPECT_EQ(stampOf(scene), before);

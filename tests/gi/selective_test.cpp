@@ -251,11 +251,13 @@ TEST(Selective, ARowThatIsTooLongIsThinned) {
   const PhotonGroups groups(s);
   const SurfaceNumbers surfaces(scene);
   const VisualMasking masking(scene, 0.1f);
+  const MinorLamps minor;
   const uint32_t pilots = groups.groups();
   RayCounts rays;
   const auto shot = [&](size_t room) {
-    return GroupShooting{transport, groups, surfaces, masking, 1, transport.lampFlux, room}.shoot(
-        pilots, 3, 1, rays);
+    const GroupShooting shooting{transport, groups, surfaces,           masking,
+                                 minor,     1,      transport.lampFlux, room};
+    return shooting.shoot(pilots, 3, 1, rays);
   };
   const auto flux = [](const PhotonRow& row) {
     double sum = 0;

@@ -33,11 +33,13 @@ class LivePlanState : public testing::Test {
     return frame.value_or(LiveFrame{});
   }
   void finish(const LiveFrame& frame) { EXPECT_TRUE(plan.completed(frame.order.key.frame, now)); }
-  // A picture at rest is there, and nothing is under way.
-  uint32_t rest() {
+  // A picture at rest is there, and nothing is under way. Each step took so long.
+  uint32_t rest(Duration time = {}) {
     const StepOrder made = step();
+    pass(time);
     plan.stepDone(made.key, now);
     const StepOrder next = step();
+    pass(time);
     finish(frame());
     plan.stepDone(next.key, now);
     return next.key.to;
@@ -146,20 +148,48 @@ TEST_F(LivePlanState, AnEditVoidsAStepOfAllThatShowsTheSceneBefore) {
   EXPECT_EQ(frame().order.key.state, small.key.to);
 }
 
-// Groups of photons: of 100 ms for a frame steps get a half.
+// Groups of photons: of 100 ms for a frame steps get a half. All 306 units at 1 ms, then 4.
 TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomFor) {
   LivePlan::Setup paced = setup();
   paced.state.settings.method = Method::selective;
   plan = LivePlan(paced, now);
-  rest();
+  rest(milliseconds(306));
   edit();
   finish(frame());
   const StepOrder first = step();
-  EXPECT_EQ(first.units, 64);
+  EXPECT_EQ(first.units, 50);
   pass(milliseconds(200));
   plan.stepDone(first.key, now);
   finish(frame());
-  EXPECT_EQ(step().units, 16);
+  EXPECT_EQ(step().units, 20);
+}
+
+TEST_F(LivePlanState, PacedStepsTakeTheTimeThatIsAskedFor) {
+  LivePlan::Setup paced = setup();
+  paced.state.settings.method = Method::selective;
+  paced.stepTime = milliseconds(200);
+  plan = LivePlan(paced, now);
+  rest(milliseconds(306));
+  edit();
+  finish(frame());
+  EXPECT_EQ(step().units, 200);
+}
+
+TEST_F(LivePlanState, StepsThatAreDoneAreTold) {
+  rest();
+  edit();
+  finish(frame());
+  const StepOrder small = step();
+  const Time opened = now;
+  pass(milliseconds(30));
+  const auto told = plan.stepDone(small.key, now);
+  ASSERT_TRUE(told);
+  EXPECT_EQ(told->key, small.key);
+  EXPECT_EQ(told->units, small.units);
+  EXPECT_TRUE(told->moving);
+  EXPECT_EQ(told->opened, opened);
+  EXPECT_EQ(told->done, now);
+  EXPECT_FALSE(plan.stepDone({small.key.number + 1}, now)) << "no such step is open";
 }
 
 TEST_F(LivePlanState, OtherSettingsOfTheMethodVoidOpenSteps) {

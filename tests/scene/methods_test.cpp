@@ -158,6 +158,17 @@ TEST(Methods, GroupsGoByTheSettingsOfTheirPhotons) {
   EXPECT_FALSE(isKept([](Settings& o) { o.photonGroups = 576; }));
   EXPECT_FALSE(isKept([](Settings& o) { o.pilotRatio = 32; }));
   EXPECT_FALSE(isKept([](Settings& o) { o.specularDepth = 2; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.minorLamps = 0.1f; }));
+}
+
+// Without virtual lights there is no direct light, whoever would bring it.
+TEST(Methods, GroupsGoByTheDirectLightOfMinorLamps) {
+  Settings s = settingsOf(factsOf(Method::selective));
+  s.minorLamps = 0.5f;
+  Settings dark = s, fewer = s;
+  dark.directVpls = 0, fewer.directVpls = 1;
+  EXPECT_FALSE(factsOf(s.method).state->isKept(s, dark));
+  EXPECT_TRUE(factsOf(s.method).state->isKept(s, fewer));
 }
 
 TEST(Methods, FieldsGoByTheSettingsOfTheirPhotonsAndLines) {

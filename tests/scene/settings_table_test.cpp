@@ -10,7 +10,7 @@ namespace {
 // Another value that the row allows.
 int changed(int value) { return value + 1; }
 uint64_t changed(uint64_t value) { return value + 1; }
-float changed(float value) { return 0.5f * value; }
+float changed(float value) { return value == 0 ? 0.5f : 0.5f * value; }
 bool changed(bool value) { return !value; }
 Interleave changed(Interleave value) { return {value.n + 1, value.m + 1}; }
 Radiance changed(Radiance value) { return value + Radiance(1, 2, 3); }

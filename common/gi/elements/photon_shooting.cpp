@@ -27,10 +27,10 @@ std::vector<PhotonStream> photonStreams(const Transport& t, SampleUse use, uint3
   return streams;
 }
 
-bool isForElements(const Transport& t, const Arrival& a) {
+bool isForElements(const Transport& t, const Arrival& a, bool isOfMinorLamp) {
   // A texel without D counts as area of its element all the same, so that its hits must count, too.
-  return a.turned && !a.focused && t.shader.mayBeDiffuse(a.point->surface.material) &&
-         t.allows(a.diffuseBefore + 1);
+  return (a.turned || isOfMinorLamp) && !a.focused &&
+         t.shader.mayBeDiffuse(a.point->surface.material) && t.allows(a.diffuseBefore + 1);
 }
 
 ElementHit elementHit(const Transport& t, const SurfaceNumbers& surfaces, const Arrival& a,

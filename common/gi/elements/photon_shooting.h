@@ -1,8 +1,8 @@
 // photon_shooting.h: one photon from its lamp to its end, and what it leaves in mesh elements.
 //
 // Photon i carries Phi_i/Z by the numbers of i (sampling/halton.h). A hit is kept if the last turn
-// before it was D or a glossy lobe. Light straight from a lamp, and by other S lobes, has other
-// ways (light_set/lamp_light.h).
+// before it was D or a glossy lobe, or if it comes straight from a minor lamp (minor_lamps.h).
+// Other light straight from a lamp, and by other S lobes, has other ways (light_set/lamp_light.h).
 //
 // Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): each
 // photon shoots once for each stream.
@@ -18,6 +18,7 @@
 #include "common/gi/elements/surface_numbers.h"
 #include "common/gi/light/light_path.h"
 #include "common/gi/light/media_around.h"
+#include "common/gi/light/minor_lamps.h"
 #include "common/sampling/halton.h"
 
 namespace ninefold {
@@ -33,7 +34,7 @@ struct PhotonStream {
 std::vector<PhotonStream> photonStreams(const Transport& t, SampleUse use, uint32_t randomization);
 
 // Whether elements keep what arrives.
-bool isForElements(const Transport& t, const Arrival& a);
+bool isForElements(const Transport& t, const Arrival& a, bool isOfMinorLamp);
 
 // The hit that an arrival leaves; its flux is 0 if that is too small. `share`: 1/Z.
 ElementHit elementHit(const Transport& t, const SurfaceNumbers& surfaces, const Arrival& a,
@@ -42,19 +43,21 @@ ElementHit elementHit(const Transport& t, const SurfaceNumbers& surfaces, const 
 // Adds the hits of photon `photon`. leave: as walkLightPathBy has it. gain(arrival): factor on the
 // flux of its hit.
 template <typename Leave, typename Gain>
-void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const PhotonStream& stream,
-                 uint32_t photon, float share, std::vector<ElementHit>& hits, RayCounts& rays,
-                 const Leave& leave, const Gain& gain) {
+void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const MinorLamps& minor,
+                 const PhotonStream& stream, uint32_t photon, float share,
+                 std::vector<ElementHit>& hits, RayCounts& rays, const Leave& leave,
+                 const Gain& gain) {
   const size_t first = hits.size();
   Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
                              stream.numbers.place(photon));
   // A lamp may lie in a solid that its light never leaves.
   const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
   start.flux *= t.shader.squaredIndex(media);
+  const bool isOfMinorLamp = t.settings.directVpls > 0 && minor.has(start.lamp);
   walkLightPathBy(
       t, start, media, 0, stream.numbers, photon, HaltonSampler::kWalkDimension, rays,
       [&](const Arrival& a) {
-        if (isForElements(t, a)) {
+        if (isForElements(t, a, isOfMinorLamp)) {
           const uint64_t word = hashWords(photon, stream.index, hits.size() - first);
           const ElementHit hit = elementHit(t, surfaces, a, share * gain(a), word);
           if (hit.flux != 0) hits.push_back(hit);

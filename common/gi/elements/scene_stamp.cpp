@@ -24,7 +24,7 @@ class Stamp {
 
 }  // namespace
 
-uint64_t sceneStamp(const Transport& t) {
+uint64_t sceneStamp(const Transport& t, const MinorLamps& minor) {
   Stamp stamp;
   for (const Instance& instance : t.scene.instances) stamp.add(instance.toWorld);
   for (const Material& m : t.scene.materials) {
@@ -39,6 +39,7 @@ uint64_t sceneStamp(const Transport& t) {
   // A lamp's share of the samples decides what its photons carry.
   for (size_t i = 0; i < t.emitters.size(); ++i)
     stamp.add(t.streams.probability(static_cast<uint32_t>(i)));
+  for (const uint32_t lamp : minor.lamps()) stamp.add(uint64_t{lamp});
   return stamp.value();
 }
 

@@ -9,10 +9,12 @@
 
 #include <cstdint>
 
+#include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 
 namespace ninefold {
 
-uint64_t sceneStamp(const Transport& transport);
+// Which lamps' direct light photons bring counts, too.
+uint64_t sceneStamp(const Transport& transport, const MinorLamps& minor);
 
 }  // namespace ninefold

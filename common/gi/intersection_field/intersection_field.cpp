@@ -22,7 +22,7 @@ IntersectionField::IntersectionField(const Transport& transport, const Intersect
     : LayeredMethod(transport),
       rows_(fieldRows(transport.settings), kPhotonsOfRow),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
-      stamp_(sceneStamp(transport)),
+      stamp_(sceneStamp(transport, {})),
       lampFlux_(fluxOfLamps(transport.emitters)),
       field_(transport.scene, transport.settings, begun == nullptr ? nullptr : &begun->field_),
       elements_(std::make_shared<const SceneElements>(
@@ -84,7 +84,7 @@ PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_
   const uint32_t end = std::min((row + 1) * kPhotonsOfRow, photons);
   for (uint32_t photon = row * kPhotonsOfRow; photon < end; ++photon)
     for (const PhotonStream& stream : streams)
-      shootPhoton(t_, *surfaces_, stream, photon, share, left.hits, rays, leave, gain);
+      shootPhoton(t_, *surfaces_, {}, stream, photon, share, left.hits, rays, leave, gain);
   if (left.hits.size() > rows_.room())
     thinHits(left, rows_.room(), hashWords(t_.settings.seed, randomization, row));
   return left;

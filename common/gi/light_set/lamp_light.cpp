@@ -10,9 +10,10 @@ constexpr int kOriginPathsLog2 = 5;  // of photons that start at lit surfaces, f
 
 }  // namespace
 
-void addLampLight(const Transport& t, const FrameKey& frame, int k, LightSet& set) {
+void addLampLight(const Transport& t, const FrameKey& frame, int k, LightSet& set,
+                  const MinorLamps& leftOut) {
   if (t.emitters.empty()) return;
-  addDirectVpls(t, frame, k, 1, set.vpls);
+  addDirectVpls(t, frame, k, 1, set.vpls, leftOut);
   addCausticPhotons(t, frame, k, set);
 }
 
@@ -27,10 +28,11 @@ void addCausticPhotons(const Transport& t, const FrameKey& frame, int k, LightSe
 
 void gatherLampLight(const Transport& t, const LightSet& lights, const ReceiverSamples& samples,
                      int pathVertices, LightSetScratch& scratch, Receivers& receivers,
-                     std::vector<Irradiance>* caustic, RayCounts& rays) {
+                     std::vector<Irradiance>* caustic, RayCounts& rays, const MinorLamps& leftOut) {
   gatherBounded(t, lights, samples, pathVertices, scratch, receivers, caustic, rays);
   if (t.settings.compensate)
-    compensate(t, samples, pathVertices, {.emission = true, .onward = false, .glossy = false},
+    compensate(t, samples, pathVertices,
+               {.emission = true, .onward = false, .glossy = false, .leftOut = &leftOut},
                scratch.compensation, receivers, rays, [](int, Receivers&) {});
 }
 

@@ -40,7 +40,7 @@ PhotonRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t ve
     const size_t first = left.hits.size();
     const uint32_t photon = groups.photon(row, k);
     for (const PhotonStream& stream : streams)
-      shootPhoton(t, surfaces, stream, photon, share, left.hits, rays, cosineWay,
+      shootPhoton(t, surfaces, minor, stream, photon, share, left.hits, rays, cosineWay,
                   [](const Arrival&) { return 1.0f; });
     if (groups.hasPilots(row)) left.pilots.push_back(pilotOf(left.hits, first, meanFlux));
   }

@@ -1,7 +1,8 @@
 // group_shooting.h: traces the photons of one row, and writes down what they leave.
 //
 // Photon i carries Phi_i/Z from its lamp, by the numbers of i (sampling/halton.h). A hit is kept if
-// the last turn before it was D or a glossy lobe. Other light has other ways (selective.h).
+// the last turn before it was D or a glossy lobe, or if it comes straight from a minor lamp. Other
+// light has other ways (selective.h).
 //
 // Lamps that were off when a gesture began have a stream of their own (light/light_streams.h): each
 // photon shoots once for each stream.
@@ -17,6 +18,7 @@
 
 #include "common/base/counters.h"
 #include "common/gi/elements/surface_numbers.h"
+#include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 #include "common/gi/selective/group_pages.h"
 #include "common/gi/selective/visual_masking.h"
@@ -28,6 +30,7 @@ struct GroupShooting {
   const PhotonGroups& groups;
   const SurfaceNumbers& surfaces;
   const VisualMasking& masking;
+  const MinorLamps& minor;
   uint64_t stamp = 0;  // of the transport's scene
   float lampFlux = 0;  // of all lamps as they are now, largest component [W]
   size_t room = 0;     // hits that a row has room for

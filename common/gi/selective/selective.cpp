@@ -42,7 +42,9 @@ Selective::Selective(const Transport& transport, const Selective* begun)
     : LayeredMethod(transport),
       groups_(transport.settings),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
-      stamp_(sceneStamp(transport)),
+      minor_(transport.emitters, transport.settings.minorLamps,
+             begun != nullptr ? &begun->minor_ : nullptr),
+      stamp_(sceneStamp(transport, minor_)),
       lampFlux_(fluxOfLamps(transport.emitters)),
       masking_(begun != nullptr
                    ? begun->masking_
@@ -55,7 +57,7 @@ std::shared_ptr<const FrameLight> Selective::light(const FrameKey& frame, int se
                                                    const MethodState* state) const {
   auto light = std::make_shared<SelectiveLight>();
   light->elements = static_cast<const ElementLight*>(state);
-  addLampLight(t_, frame, set, *light);
+  addLampLight(t_, frame, set, *light, minor_);
   return light;
 }
 
@@ -70,7 +72,8 @@ StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_
   const std::optional<PhotonRow> before = rows.read(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;
-  const GroupShooting shooting{t_, groups_, *surfaces_, *masking_, stamp_, lampFlux_, rows.room()};
+  const GroupShooting shooting{t_,     groups_, *surfaces_, *masking_,
+                               minor_, stamp_,  lampFlux_,  rows.room()};
   const PhotonRow now = shooting.shoot(row, randomization, step.to, result.rays);
   result.deltas = rows.replace(pages, row, now);
   GroupPages::addPriorities(priorityChanges(groups_, pages, row, before, now), result.deltas);
@@ -92,7 +95,8 @@ void Selective::query(const FrameLight& frameLight, const ReceiverSamples& sampl
                       std::vector<Irradiance>* caustic, RayCounts& rays) const {
   const auto& light = static_cast<const SelectiveLight&>(frameLight);
   auto& scratch = static_cast<LampLightScratch&>(memory);
-  gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays);
+  gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays,
+                  minor_);
   if (light.elements != nullptr) light.elements->addTo(t_.tracer, receivers);
 }
 

@@ -2,7 +2,8 @@
 // After an edit those groups of photons are traced anew first whose paths the edit concerns.
 //
 //   last turn before x          who brings it
-//   none: straight from a lamp  direct VPLs, and compensation of their bound: L_e alone
+//   none: straight from a lamp  direct VPLs, and compensation of their bound: L_e alone; from minor
+//                               lamps (minor_lamps.h) the pool
 //   D, or a glossy lobe         the pool, by mesh elements (element_light.h)
 //   any other S lobe            caustic photons (caustic_photons.h)
 //
@@ -62,6 +63,7 @@ class Selective final : public LayeredMethod {
  private:
   const PhotonGroups groups_;
   const std::shared_ptr<const SurfaceNumbers> surfaces_;
+  const MinorLamps minor_;
   const uint64_t stamp_;
   const float lampFlux_;  // of all lamps as they are now, largest component [W]
   const std::shared_ptr<const VisualMasking> masking_;  // a gesture keeps that of its beginning

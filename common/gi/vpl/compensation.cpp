@@ -47,9 +47,12 @@ void aim(const Transport& t, const ReceiverSamples& samples, int level, const Re
 float excess(float g, float bound) { return g > bound ? 1 - bound / g : 0.0f; }
 
 // What the hit emits, weighted by its own bound.
-Radiance excessEmission(const Transport& t, const Hit& hit, const ShadingPoint& y, float g) {
+Radiance excessEmission(const Transport& t, const MinorLamps* leftOut, const Hit& hit,
+                        const ShadingPoint& y, float g) {
   const int emitter = t.emitters.find(hit.instance, hit.triangle);
   if (emitter < 0) return Radiance(0);
+  if (leftOut != nullptr && leftOut->has(lampOf(t.emitters[static_cast<size_t>(emitter)])))
+    return Radiance(0);
   return excess(g, t.lightBound(static_cast<uint32_t>(emitter))) * emittedRadiance(t, y);
 }
 
@@ -109,7 +112,8 @@ struct Level {
     // Probability of a ray that is long enough, at least `above`.
     const float reached = std::max(1 - t.bound * hit.t * hit.t / cosX, above);
     if (parts.emission && seesLamps)
-      receivers.addIrradiance(i, kPi / reached * left * excessEmission(t, hit, y, g));
+      receivers.addIrradiance(i,
+                              kPi / reached * left * excessEmission(t, parts.leftOut, hit, y, g));
     const Vec3 factor = above * left * y.bsdf.diffuse;
     float q = std::min(maxComponent(factor), kMaxSurvival), qGlossy = 0;
     if (parts.glossy && isGlossy(y.bsdf)) {

@@ -33,6 +33,7 @@
 #include "common/base/counters.h"
 #include "common/gi/eye/receiver_samples.h"
 #include "common/gi/eye/receivers.h"
+#include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 
 namespace ninefold {
@@ -59,6 +60,8 @@ struct CompensationParts {
   bool emission = true;  // W_e L_e
   bool onward = true;    // W rho_y/pi E(y)
   bool glossy = true;    // what a glossy lobe of y sends
+  // Lamps without virtual lights lack nothing. Null: each lamp has some.
+  const MinorLamps* leftOut = nullptr;
 };
 
 // Adds compensation to receivers.er/eg/eb. pathVertices as in layered_method.h.

@@ -62,7 +62,7 @@ Vpl directVpl(const Transport& t, uint32_t index, Vec2 u, float share) {
 }
 
 void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k, int countOfFirst,
-                 std::vector<Vpl>& vpls) {
+                 const MinorLamps& leftOut, std::vector<Vpl>& vpls) {
   const int count = t.streams.samples(stream, countOfFirst);
   const LightSampler sampler(LightStreams::seedOf(stream, t.settings.seed), SampleUse::directVpl,
                              frame.randomization, static_cast<uint32_t>(k), log2Ceil(count),
@@ -71,7 +71,7 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Vec2 u = sampler.get2D(i, 0);
     const auto choice = t.streams.choose(stream, u.x);
-    if (!choice) continue;
+    if (!choice || leftOut.has(lampOf(t.emitters[choice->index]))) continue;
     const Vpl vpl = directVpl(t, choice->index, Vec2(choice->remapped, u.y),
                               1 / (static_cast<float>(count) * choice->probability));
     const EmitterKind kind = t.emitters[choice->index].kind;
@@ -90,12 +90,12 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
 }  // namespace
 
 void addDirectVpls(const Transport& t, const FrameKey& frame, int k, int times,
-                   std::vector<Vpl>& vpls) {
+                   std::vector<Vpl>& vpls, const MinorLamps& leftOut) {
   const bool onlyBehind = t.settings.directVpls == 0;
   if (onlyBehind && !t.allows(2)) return;
   const int count = onlyBehind ? Settings{}.directVpls : t.settings.directVpls;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
-    addOfStream(t, stream, frame, k, times * count, vpls);
+    addOfStream(t, stream, frame, k, times * count, leftOut, vpls);
   if (onlyBehind)
     for (Vpl& vpl : vpls) vpl.firstVertex = 2;
 }

@@ -10,13 +10,15 @@
 // Threads: pure function.   Errors: none.
 #pragma once
 
+#include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 #include "common/gi/vpl/vpl.h"
 
 namespace ninefold {
 
-// Adds the direct VPLs of set k: `times` as many as the settings say, at least once.
+// Adds the direct VPLs of set k: `times` as many as the settings say, at least once. Samples of
+// lamps that are left out bring none.
 void addDirectVpls(const Transport& transport, const FrameKey& frame, int k, int times,
-                   std::vector<Vpl>& vpls);
+                   std::vector<Vpl>& vpls, const MinorLamps& leftOut = {});
 
 }  // namespace ninefold
