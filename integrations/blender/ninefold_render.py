@@ -335,7 +335,10 @@ class NinefoldEngine(bpy.types.RenderEngine):
                 elif line.startswith("warning: "):
                     self.report({"WARNING"}, f"Ninefold: {line[len('warning: '):]}")
         except Cancelled:
-            self.end_result(result, cancel=not shown)
+            program.close()  # the master leaves the picture so far
+            if picture.exists():
+                self.show(result, picture, crop)
+            self.end_result(result, cancel=not picture.exists())
             raise
         self.end_result(result, cancel=not shown)
         if program.process.returncode:
