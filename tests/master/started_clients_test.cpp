@@ -15,7 +15,8 @@ namespace {
 using std::chrono::seconds;
 
 StartedClients::Plan shell(const std::string& script, int count) {
-  StartedClients::Plan plan{"/bin/sh", {"-c", script}, std::make_shared<const Key>(Key::random())};
+  StartedClients::Plan plan{
+      "/bin/sh", {"-c", script}, std::make_shared<const Key>(Key::random()), {}};
   for (int i = 1; i <= count; ++i)
     plan.clients.push_back({fmt::format("local{}", i), fmt::format("local client {}", i), {}});
   return plan;
