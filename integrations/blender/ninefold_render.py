@@ -24,6 +24,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import traceback
 import zlib
 
 import bpy
@@ -424,7 +425,7 @@ class NinefoldPanel(bpy.types.Panel):
 
 def shared_panels():
     """Blender's own panels of what is carried over: those of every engine, and of Eevee's those of lamps and surfaces."""
-    unfit = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_freestyle", "DATA_PT_light"}
+    unfit = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_freestyle", "RENDER_PT_gpencil", "DATA_PT_light"}
     eevee = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light"}
     for panel in bpy.types.Panel.__subclasses__():
         if panel.__name__ in eevee or ("BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in unfit):
@@ -528,7 +529,8 @@ class Exporter:
                 thing.data.resolution_u = thing.data.render_resolution_u
             elif thing.type == "META":
                 thing.data.resolution = thing.data.render_resolution
-        scene.render.use_simplify = False
+        scene.render.simplify_subdivision = scene.render.simplify_subdivision_render
+        scene.render.simplify_child_particles = scene.render.simplify_child_particles_render
 
     def realise(self, depsgraph):
         """All that is seen, as (name, mesh, matrix); lamps go into `lamps`."""
@@ -925,6 +927,9 @@ def export_main():
         Exporter(json.loads(sys.argv[sys.argv.index(EXPORT_FLAG) + 1])).run()
     except Trouble as trouble:
         sys.exit(f"{trouble}")
+    except Exception as error:  # the last line is what the other Blender tells
+        traceback.print_exc()
+        sys.exit(f"{type(error).__name__}: {' '.join(str(error).split())}")
 
 
 if __name__ == "__main__":

@@ -54,6 +54,7 @@ def go_wrong(scene):
     wrong("no camera", scene, "camera", None)
     wrong("no perspective", camera.data, "type", "ORTHO")
     wrong("no square pixels", scene.render, "pixel_aspect_x", 2)
+    wrong("a far shift", camera.data, "shift_x", 200)
     wrong("no program", preferences, "master", "/nowhere/ninefold-master")
     wrong("another program", preferences, "master", "/bin/true")
     wrong("no end", settings, "frames", 0)

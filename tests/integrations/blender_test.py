@@ -172,7 +172,7 @@ class Blender(unittest.TestCase):
 
     def test_what_is_wrong_is_told_in_a_line_and_blender_goes_on(self):
         outcomes = self.said(self.finish(self.start("blender_session.py", "wrong")), "OUTCOME")
-        told = {"no camera": "no camera", "no perspective": "is not perspective", "no square pixels": "must be square",
+        told = {"no camera": "no camera", "no perspective": "is not perspective", "no square pixels": "must be square", "a far shift": "at most are 16384 a side",
                 "no program": "/nowhere/ninefold-master", "another program": "/bin/true is no ninefold-master",
                 "no end": "nothing ends the render", "no client": "no client can come", "no key": "--key-file",
                 "no such option": "--brightness", "an open quotation": "more options"}
