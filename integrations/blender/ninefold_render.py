@@ -29,7 +29,7 @@ import zlib
 
 import bpy
 import numpy as np
-from mathutils import Matrix, Vector
+from mathutils import Matrix
 
 bl_info = {
     "name": "Ninefold",

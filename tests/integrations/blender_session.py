@@ -1,6 +1,6 @@
 """Renders that go wrong, one after another, and what Blender says of them: run inside Blender for blender_test.py.
 
-    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- wrong|long|passes|animation [FOLDER]
+    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- wrong|long|cluster|passes|animation FOLDER
 
 Prints for each render a line: OUTCOME {"what", "error" or "result", "mean"}.
 """
@@ -72,6 +72,13 @@ def take_long(scene):
     render("after that")
 
 
+def join_cluster(scene):
+    scene.ninefold.local_clients, scene.ninefold.listen = 0, (FOLDER / "address").read_text()
+    scene.ninefold.key_file = str(FOLDER / "cluster.key")
+    render("first")
+    render("second")
+
+
 def give_passes(scene):
     """Saves the passes, as the compositor gets them, into one .exr."""
     scene.ninefold.passes = True
@@ -113,4 +120,4 @@ def animate(scene):
 
 
 if __name__ == "__main__":
-    {"wrong": go_wrong, "long": take_long, "passes": give_passes, "animation": animate}[sys.argv[-2]](make_scene())
+    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate}[sys.argv[-2]](make_scene())

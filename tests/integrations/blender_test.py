@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -162,6 +163,21 @@ class Blender(unittest.TestCase):
         self.assertEqual(passes.keys(), expected.keys())
         for name, value in expected.items():
             np.testing.assert_allclose(passes[name], np.broadcast_to(value, 3), atol=0.01, err_msg=name)
+
+    def test_clients_that_come_from_elsewhere_render_one_picture_after_another(self):
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            address = f"127.0.0.1:{free.getsockname()[1]}"
+        (self.out / "address").write_text(address)
+        key = self.out / "cluster.key"
+        subprocess.run([BIN / "ninefold-master", "--new-key", key], check=True, capture_output=True)
+        client = f"while sleep 0.5; do '{BIN}/ninefold-client' --master {address} --key-file '{key}' --cache none; done"
+        loop = subprocess.Popen(["sh", "-c", client], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+        self.addCleanup(loop.wait)
+        self.addCleanup(os.killpg, loop.pid, signal.SIGKILL)
+        outcomes = self.said(self.finish(self.start("blender_session.py", "cluster")), "OUTCOME")
+        self.assertEqual([o["what"] for o in outcomes], ["first", "second"])
+        for outcome in outcomes:
+            self.assertGreater(outcome.get("mean", 0), 0.3, outcome)
 
     def test_animations_have_a_picture_for_each_frame(self):
         means, = self.said(self.finish(self.start("blender_session.py", "animation")), "FRAMES")
