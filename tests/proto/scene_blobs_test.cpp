@@ -111,8 +111,9 @@ TEST(SceneBlobs, ASceneComesBackBitForBit) {
   EXPECT_EQ(scene.profiles[0].values, someScene().profiles[0].values);
   EXPECT_EQ(scene.origin, DVec3(1e6, -2, 3));
   ASSERT_TRUE(scene.environmentMap);
-  const EnvironmentPicture &sky = scene.environmentMap->picture(),
-                           &sent = someScene().environmentMap->picture();
+  const Scene before = someScene();
+  const EnvironmentPicture& sky = scene.environmentMap->picture();
+  const EnvironmentPicture& sent = before.environmentMap->picture();
   EXPECT_EQ(sky.name, sent.name);
   EXPECT_EQ(sky.texels, sent.texels);
   EXPECT_EQ(sky.rotation, sent.rotation);
