@@ -22,7 +22,7 @@ ClusterSetup clusterSetup(const Options& options, const Listener::Keys& keys) {
   local.count = options.localClients;
   ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients};
   const auto patience =
-      options.window ? std::nullopt : std::optional(fromSeconds(options.patience));
+      isWatched(options) ? std::nullopt : std::optional(fromSeconds(options.patience));
   return {std::move(server), std::move(local), keys.cluster != nullptr, patience};
 }
 

@@ -12,8 +12,6 @@
 namespace ninefold {
 namespace {
 
-bool isAnyAddress(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
-
 std::string text(const in_addr& address) {
   char out[INET_ADDRSTRLEN] = {};
   return ::inet_ntop(AF_INET, &address, out, sizeof out);
@@ -29,6 +27,8 @@ bool isOutside(const ifaddrs& interface) {
 }
 
 }  // namespace
+
+bool isAnyAddress(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
 
 std::vector<std::string> addressesBehind(const std::string& anyAddress) {
   ifaddrs* first = nullptr;

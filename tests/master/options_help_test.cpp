@@ -45,7 +45,8 @@ TEST(OptionsHelp, NamesEveryFlagOfTheInterface) {
         "frames",         "seconds",     "until-error",   "animate",        "output",
         "aovs",           "exposure",    "view",          "window",         "headless",
         "seed",           "isa",         "stats",         "randomization",  "filter",
-        "vpl-roulette",   "denoise",     "script",        "frame-time",     "help"})
+        "vpl-roulette",   "denoise",     "script",        "frame-time",     "help",
+        "serve",          "serve-key"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;
