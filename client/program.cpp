@@ -143,8 +143,7 @@ void Program::startConnection(std::shared_ptr<Connection> connection) {
   Connection::Events events;
   events.onMessage = [this, ours](Message&& message) {
     if (connection_.get() != ours) return;
-    if (recorder_) recorder_->heard(message);
-    session_.received(std::move(message), now());
+    if (keep(message)) session_.received(std::move(message), now());
     carryOut();
   };
   events.onClosed = [this, ours](const std::string& reason) {
@@ -157,6 +156,18 @@ void Program::startConnection(std::shared_ptr<Connection> connection) {
   connection_->start(std::move(events));
   session_.connected(now());
   carryOut();
+}
+
+// Into the recording, if there is one. A failure is ours: the connection would take it for a bad
+// message, and the client would try again for ever.
+bool Program::keep(const Message& message) {
+  try {
+    if (recorder_) recorder_->heard(message);
+    return true;
+  } catch (const Error& error) {
+    session_.recordingFailed(error.what());
+    return false;
+  }
 }
 
 void Program::on(act::Send&& action) {

@@ -77,6 +77,7 @@ class Program {
   void runUnit(const RenderJob& job, const act::StartSteps& steps, uint32_t unit, int thread);
   void handOver();
   void drop(const std::function<bool(uint32_t number, bool isStep)>& isVoid);
+  bool keep(const Message& message);
   void keepRecording();
   void tick();
   // Runs `event` on the session in the loop's thread, and what follows from it.

@@ -232,6 +232,11 @@ void Session::taskFailed(const std::string& line) {
   end(1, fmt::format("cannot render {}", line));
 }
 
+void Session::recordingFailed(const std::string& line) {
+  if (online()) send(msg::Goodbye{"cannot record"});
+  end(1, line);
+}
+
 void Session::tasksRefused(Time now) {
   leave("the master sent more tasks than were asked for", now);
 }

@@ -60,6 +60,8 @@ class Session {
   void taskFinished(uint32_t line, msg::Result&& result, Time now);
   void unitFinished(uint32_t line, msg::Stepped&& result);
   void taskFailed(const std::string& line);
+  // What the master sends cannot be kept.
+  void recordingFailed(const std::string& line);
   void tasksRefused(Time now);  // more of them than our queue holds
 
   void tick(Time now);

@@ -3,6 +3,7 @@
 #include "common/base/error.h"
 #include "common/gi/automatic/automatic.h"
 #include "common/gi/bidirectional/bidirectional.h"
+#include "common/gi/intersection_field/intersection_field.h"
 #include "common/gi/photon_map/photon_map.h"
 #include "common/gi/radiosity/radiosity.h"
 #include "common/gi/reference/reference.h"
@@ -28,6 +29,9 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
       return std::make_unique<const PhotonMap>(t, dynamic_cast<const PhotonMap*>(begun));
     case Method::selective:
       return std::make_unique<const Selective>(t, dynamic_cast<const Selective*>(begun));
+    case Method::intersectionField:
+      return std::make_unique<const IntersectionField>(
+          t, dynamic_cast<const IntersectionField*>(begun));
     case Method::automatic: {
       const auto* before = dynamic_cast<const Automatic*>(begun);
       Automatic::Tried tried;

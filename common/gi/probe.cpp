@@ -108,7 +108,8 @@ std::string probeClass(Isa isa) {
   const Tracer tracer(scene, isa);
   Settings settings;
   settings.width = 48, settings.height = 36, settings.interleave = {2, 1}, settings.photons = 200;
-  settings.photonPool = 4608;
+  settings.photonPool = 4608, settings.fieldPhotons = 4096;
+  settings.fieldDirections = 5, settings.fieldDistances = 12;
   settings.camera = scene.cameras.front();
   uint64_t hash = 0;
   for (const MethodFacts& facts : allMethods()) {

@@ -50,7 +50,8 @@ enum class SampleUse : uint32_t {
   reverseVpl,
   resampling,
   mapPhoton,
-  groupPhoton
+  groupPhoton,
+  fieldPhoton
 };
 
 // The least m with 2^m >= n: LightSampler's log2Count for n points.

@@ -8,6 +8,7 @@
 //     n = p (11 + d) + d + 4 f       photon map: d direct VPLs, and eight rays that tell how much
 //                                    surface is around; a unit of its state: 4 rays a path
 //     n = p (3 + d) + d + 4 f        selective photons; a unit of its state: 4 rays a photon
+//     n = the same                   intersection field; a unit of its state: 2 rays a photon
 //     n = as bidirectional           auto, at most; a unit of its state: a set, and some pixels, by
 //                                    both of the methods that it tries
 #include "common/scene/methods.h"
@@ -75,7 +76,7 @@ double selectiveRays(const Settings& s, double pixels) {
 }
 
 // Photons that a step in motion traces, about: as long as a frame on a few cores.
-constexpr int kPhotonsInMotion = 1 << 14;
+constexpr uint32_t kPhotonsInMotion = 1 << 14;
 
 // Rows of photons: groups, and parts of the pilots that are about as large.
 uint32_t rowsOfAll(const Settings& s) {
@@ -84,7 +85,7 @@ uint32_t rowsOfAll(const Settings& s) {
 
 uint32_t rowsInMotion(const Settings& s) {
   const int photonsOfEach = std::max(s.photonPool / s.photonGroups, 1);
-  return std::clamp(static_cast<uint32_t>(kPhotonsInMotion / photonsOfEach), 1u, rowsOfAll(s));
+  return std::clamp(kPhotonsInMotion / static_cast<uint32_t>(photonsOfEach), 1u, rowsOfAll(s));
 }
 
 // Photons go by few settings; what elements make of them is no part of the state.
@@ -104,6 +105,25 @@ constexpr StateFacts kSelectiveState{
     .beginsAnew = true,
     .isPaced = true,
     .isKept = haveSameGroups,
+};
+
+// Lines stand for rays, and take about half as long.
+bool haveSameLines(const Settings& before, const Settings& after) {
+  return before.method == after.method && before.fieldDirections == after.fieldDirections &&
+         before.fieldDistances == after.fieldDistances &&
+         before.fieldPhotons == after.fieldPhotons && before.elementSize == after.elementSize &&
+         before.seed == after.seed && before.pathLength == after.pathLength &&
+         before.specularDepth == after.specularDepth && before.environment == after.environment;
+}
+
+constexpr StateFacts kFieldState{
+    .unitsOfAll = fieldRows,
+    .unitsInMotion =
+        [](const Settings& s) { return std::min(kPhotonsInMotion / kPhotonsOfRow, fieldRows(s)); },
+    .rays = [](const Settings&) { return 2.0 * kPhotonsOfRow; },
+    .beginsAnew = true,
+    .isPaced = true,
+    .isKept = haveSameLines,
 };
 
 double trialRays(const Settings& s) {
@@ -203,6 +223,20 @@ constexpr std::array kTable{
                 .rays = bidirectionalRays,
                 .state = &kTrial,
                 .isChoice = true},
+    MethodFacts{.method = Method::intersectionField,
+                .name = "intersection-field",
+                .title = "intersection field",
+                .help = "knows where a fixed set of lines meets the scene, and sends photons along "
+                        "them; blurs bounced light",
+                .parts = kDirectVpls | kCausticPhotons | kFieldPhotons,
+                .isUnfiltered = false,
+                .lightNeedsView = false,
+                .freeSets = false,
+                .missesPunctualCaustics = false,
+                .rays = selectiveRays,
+                .state = &kFieldState,
+                .bias = "light that has bounced goes along few lines, and is blurred over as wide "
+                        "as mesh elements are"},
 #ifdef NINEFOLD_TEST_METHODS
     MethodFacts{.method = Method::stateCheck,
                 .name = "state-check",

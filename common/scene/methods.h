@@ -24,8 +24,9 @@ enum LightPart : uint8_t {
   kIndirectVpls = 2,
   kCausticPhotons = 4,
   kReverseVpls = 8,
-  kMapPhotons = 16,     // of a pool that outlives frames
-  kElementPhotons = 32  // of a pool, kept as light of mesh elements
+  kMapPhotons = 16,      // of a pool that outlives frames
+  kElementPhotons = 32,  // of a pool, kept as light of mesh elements
+  kFieldPhotons = 64     // along lines, kept likewise
 };
 inline constexpr uint8_t kVpls = kDirectVpls | kIndirectVpls;
 
@@ -66,6 +67,13 @@ struct MethodFacts {
 
   bool has(uint8_t part) const { return (parts & part) == part; }
 };
+
+// Photons of an intersection field that one unit of a step traces, and how many such rows there
+// are.
+inline constexpr uint32_t kPhotonsOfRow = 256;
+inline uint32_t fieldRows(const Settings& s) {
+  return (static_cast<uint32_t>(s.fieldPhotons) + kPhotonsOfRow - 1) / kPhotonsOfRow;
+}
 
 // In the order of Method. allMethods: without those that exist for tests alone.
 std::span<const MethodFacts> allMethods();

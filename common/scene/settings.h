@@ -21,6 +21,7 @@ enum class Method : uint8_t {
   photonMap,
   selective,
   automatic,
+  intersectionField,
 #ifdef NINEFOLD_TEST_METHODS
   stateCheck,  // for tests alone (gi/state_check)
 #endif
@@ -30,7 +31,8 @@ enum class PartitionRule : uint8_t { balance, equal };
 enum class MapDistribution : uint8_t { random, frame, turn, nets };  // photon_map/shooting.h
 enum class MapIndex : uint8_t { grid, tree };
 enum class MapDirect : uint8_t { off, on };
-enum class ElementRule : uint8_t { linear, buckets };  // selective/element_light.h
+enum class ElementRule : uint8_t { linear, buckets };  // elements/element_light.h
+enum class FieldDirect : uint8_t { vpls, field };      // intersection_field/intersection_field.h
 enum class MapEstimate : uint8_t { pixels, vertices };
 
 struct Settings {
@@ -57,6 +59,11 @@ struct Settings {
   float minorLamps = 0;       // F: share of all power of lamps whose direct light is photons'
   float elementSize = 0.08f;  // h: side of an element, as a fraction of R
   ElementRule elementRule = ElementRule::linear;
+  int fieldDirections = 19;  // N: slopes of lines, horizontal and vertical (line_grid.h)
+  int fieldDistances = 32;   // M: lines of each slope side by side
+  int fieldPhotons = 65536;  // photons along lines whose light mesh elements keep
+  FieldDirect fieldDirect = FieldDirect::vpls;    // who brings light straight from area lamps
+  int maxFieldMemory = 1024;                      // [MiB]
   MapEstimate mapEstimate = MapEstimate::pixels;  // where photons tell the light
   int mapSubdivision = 3;      // levels of the mesh whose vertices they tell it at
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "common/base/error.h"
 #include "common/scene/methods.h"
@@ -77,6 +78,21 @@ void checkGroups(const Settings& s) {
        nearestMultiple(s.photonPool, static_cast<int>(unit)));
 }
 
+// Lines of different slopes would meet in the same points, again and again.
+void checkLines(const Settings& s) {
+  const int divisor = std::gcd(s.fieldDirections, s.fieldDistances);
+  if (divisor == 1) return;
+  // None fewer than two: else the next ones above.
+  int distances = s.fieldDistances;
+  while (std::gcd(s.fieldDirections, distances) != 1) --distances;
+  if (distances < 2) distances = s.fieldDistances + 1;
+  while (std::gcd(s.fieldDirections, distances) != 1) ++distances;
+  fail(
+      "field-directions {} and field-distances {} have the divisor {} in common, which focuses the "
+      "lines in some places: {} distances would do",
+      s.fieldDirections, s.fieldDistances, divisor, distances);
+}
+
 }  // namespace
 
 void checkTogether(const Settings& s) {
@@ -84,6 +100,7 @@ void checkTogether(const Settings& s) {
   if (facts.has(kReverseVpls)) checkReverse(s, facts);
   if (facts.has(kMapPhotons)) checkMap(s);
   if (facts.has(kElementPhotons)) checkGroups(s);
+  if (facts.has(kFieldPhotons)) checkLines(s);
 }
 
 void checkWith(const Scene& scene, const Settings& s) {

@@ -9,6 +9,9 @@
 // A rolling pool of photons is renewed in parts (gi/photon_map): as many a frame as divide it, and
 // 65536 parts at most.
 //
+// Lines of an intersection field lie evenly if N directions and M distances have no common divisor
+// (gi/intersection_field/line_grid.h).
+//
 // Light at the vertices of a finer mesh (gi/photon_map) takes memory by the scene's triangles,
 // whatever the method, as a window may choose another one:
 //

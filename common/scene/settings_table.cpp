@@ -62,6 +62,11 @@ std::span<const char* const> namesOf(ElementRule) {
   return kNames;
 }
 
+std::span<const char* const> namesOf(FieldDirect) {
+  static constexpr std::array kNames{"vpls", "field"};
+  return kNames;
+}
+
 std::span<const char* const> namesOf(PartitionRule) {
   static constexpr std::array kNames{"balance", "equal"};
   return kNames;

@@ -208,15 +208,55 @@ inline constexpr std::tuple kSettings{
                    .unit = "R",
                    .value = "F",
                    .help = "side of a mesh element as a fraction of R, above 0, up to {1}",
-                   .parts = kElementPhotons,
+                   .parts = kElementPhotons | kFieldPhotons,
                    .slider = {"element size", 0.005, 0.5, "%.3f R", true}},
     Setting<ElementRule>{.name = "element-rule",
                          .member = &Settings::elementRule,
                          .value = "linear|buckets",
                          .help = "light between the corners of elements: by degrees, or that of "
                                  "the nearest one, as published",
-                         .parts = kElementPhotons,
+                         .parts = kElementPhotons | kFieldPhotons,
                          .slider = {"light between elements"}},
+    // No sliders for these two: they must fit together, and the scene may be too large for them.
+    Setting<int>{.name = "field-directions",
+                 .member = &Settings::fieldDirections,
+                 .low = 2,
+                 .high = 128,
+                 .value = "N",
+                 .help = "slopes of the field's lines, {0} to {1}, horizontal and vertical; as "
+                         "published 76",
+                 .parts = kFieldPhotons},
+    Setting<int>{.name = "field-distances",
+                 .member = &Settings::fieldDistances,
+                 .low = 2,
+                 .high = 255,
+                 .value = "M",
+                 .help = "lines of each slope side by side, {0} to {1}, without a common divisor "
+                         "with the slopes; as published 127",
+                 .parts = kFieldPhotons},
+    Setting<int>{.name = "field-photons",
+                 .member = &Settings::fieldPhotons,
+                 .low = 1,
+                 .high = 4194304,
+                 .value = "N",
+                 .help = "photons along the field's lines whose light mesh elements keep, {0} to "
+                         "{1}",
+                 .parts = kFieldPhotons},
+    Setting<FieldDirect>{.name = "field-direct",
+                         .member = &Settings::fieldDirect,
+                         .value = "vpls|field",
+                         .help = "light straight from area lamps by virtual lights, or by the "
+                                 "field's lines, as published",
+                         .parts = kFieldPhotons,
+                         .slider = {"direct light"}},
+    Setting<int>{.name = "max-field-memory",
+                 .member = &Settings::maxFieldMemory,
+                 .low = 1,
+                 .high = 1048576,
+                 .unit = "MiB",
+                 .value = "N",
+                 .help = "of a client for its field; what needs more is refused",
+                 .parts = kFieldPhotons},
     // No sliders for these two: the scene may be too large for them (settings_check.h).
     Setting<MapEstimate>{
         .name = "map-estimate",
@@ -323,6 +363,7 @@ std::pair<int, int> parseSize(std::string_view text);
 std::span<const char* const> namesOf(Method);
 std::span<const char* const> namesOf(Caustics);
 std::span<const char* const> namesOf(ElementRule);
+std::span<const char* const> namesOf(FieldDirect);
 std::span<const char* const> namesOf(PartitionRule);
 std::span<const char* const> namesOf(MapDistribution);
 std::span<const char* const> namesOf(MapIndex);

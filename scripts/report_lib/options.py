@@ -4,7 +4,7 @@ import os
 
 from report_lib import motion_scripts, scenes
 
-SECTIONS = ("agreement", "speed", "motion", "bidirectional", "photon-map", "selective-photons", "crops", "interleaving", "randomization",
+SECTIONS = ("agreement", "speed", "motion", "bidirectional", "photon-map", "selective-photons", "intersection-field", "crops", "interleaving", "randomization",
             "needs")
 
 FULL = dict(budgets="0.5,1,2,4,8,16", short_budgets="1,4", target_seconds=128, reference_seconds=300, runs=8,

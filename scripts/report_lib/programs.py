@@ -26,7 +26,7 @@ class Programs:
     def __init__(self, folder, clients, progress):
         self.folder, self.clients, self.progress = folder, clients, progress
         for name in ("ninefold-master", "ninefold-client", "ninefold-compare", "ninefold-virtual-lights", "ninefold-photon-map",
-                     "ninefold-selective-photons"):
+                     "ninefold-selective-photons", "ninefold-intersection-field"):
             if not os.access(os.path.join(folder, name), os.X_OK):
                 raise Failure(f"{folder} has no program {name}; build it, or name its folder by --programs")
 
@@ -82,6 +82,11 @@ class Programs:
         """The object of ninefold-selective-photons."""
         self.progress(f"selective photons: {' '.join(arguments)}")
         return json.loads(self._call("ninefold-selective-photons", *arguments))
+
+    def intersection_field(self, *arguments):
+        """The object of ninefold-intersection-field."""
+        self.progress(f"intersection field: {' '.join(arguments)}")
+        return json.loads(self._call("ninefold-intersection-field", *arguments))
 
     def _call(self, name, *arguments):
         command = [os.path.join(self.folder, name), *arguments]

@@ -198,13 +198,15 @@ class Files(ClusterTest):
         self.assertEqual(self.parts(), [])
 
     def test_a_recording_on_a_full_disk_leaves_the_old_one_and_status_1(self):
-        (self.folder / "r").write_text("old")
-        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
-        _, client = self.remote("--cache", "none", "--record", "r", preexec_fn=limit)
-        self.assertEqual(client.ends(), 1, client.text)
-        self.assertIn("cannot write r: File too large", client.lines[-1])
-        self.assertEqual((self.folder / "r").read_text(), "old")
-        self.assertEqual(self.parts(), [])
+        """Whether it is what the master sends that has no room, or what the client answers."""
+        for room in (400, 1000, 2500):
+            (self.folder / "r").write_text("old")
+            limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (room, room))
+            _, client = self.remote("--cache", "none", "--record", "r", preexec_fn=limit)
+            self.assertEqual(client.ends(), 1, client.text)
+            self.assertIn("cannot write r: File too large", client.lines[-1])
+            self.assertEqual((self.folder / "r").read_text(), "old")
+            self.assertEqual(self.parts(), [])
 
 
 RELEASE = r"^{} \d+\.\d+\.\d+(\+[0-9a-f]{{12}}(-dirty\.[0-9a-f]{{8}})?)?\n$"

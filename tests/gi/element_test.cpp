@@ -4,8 +4,9 @@
 #include <set>
 
 #include "common/base/error.h"
-#include "common/gi/selective/element_light.h"
-#include "common/gi/selective/packed_flux.h"
+#include "common/gi/elements/element_light.h"
+#include "common/gi/elements/packed_flux.h"
+#include "common/gi/selective/group_pages.h"
 #include "common/sampling/sampler.h"
 #include "common/sampling/warp.h"
 #include "tests/gi/make_scene.h"
@@ -191,8 +192,8 @@ class Pool {
     settings_.photonPool = 4608;
   }
   PhotonGroups groups() const { return PhotonGroups(settings_); }
-  GroupRow row(uint64_t seed) const {
-    GroupRow row{seed, 0, 1, 1.0f, {}, {}};
+  PhotonRow row(uint64_t seed) const {
+    PhotonRow row{seed, 0, 1, 1.0f, {}, {}};
     for (uint64_t i = 0; i < 50; ++i) {
       const uint64_t word = hashWords(seed, i);
       const auto instance = static_cast<uint32_t>(word % 2);
@@ -212,7 +213,7 @@ class Pool {
                                              const Scene& scene) const {
     auto elements = std::make_shared<const SceneElements>(
         scene, 0.2f, before != nullptr ? before->elements().get() : nullptr);
-    return std::make_shared<const ElementLight>(pages, groups(), surfaces_, elements,
+    return std::make_shared<const ElementLight>(pages, GroupPages(groups()), surfaces_, elements,
                                                 ElementRule::linear, before);
   }
   // E at many points of both sides.
@@ -258,15 +259,14 @@ TEST(ElementLight, LosesNoLight) {
   const Pool pool;
   const GroupPages rows(pool.groups());
   StatePages pages;
-  const GroupRow row = pool.row(9);
+  const PhotonRow row = pool.row(9);
   pages.apply(rows.replace(pages, 3, row));
   glm::dvec3 sent(0);
   for (const ElementHit& hit : row.hits) sent += glm::dvec3(unpackFlux(hit.flux));
   for (const ElementRule rule : {ElementRule::linear, ElementRule::buckets}) {
     auto elements = std::make_shared<const SceneElements>(pool.scene(), 0.2f, nullptr);
-    const ElementLight light(pages, pool.groups(),
-                             std::make_shared<const SurfaceNumbers>(pool.scene()), elements, rule,
-                             nullptr);
+    const ElementLight light(pages, rows, std::make_shared<const SurfaceNumbers>(pool.scene()),
+                             elements, rule, nullptr);
     glm::dvec3 found(0);
     for (uint32_t instance = 0; instance < 2; ++instance) {
       const Mesh& mesh = std::as_const(pool.scene()).meshes[instance];

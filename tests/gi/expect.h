@@ -35,6 +35,7 @@ inline Estimator estimator(const MethodFacts& facts, int side = 8, int pathLengt
   e.settings.resampling = 3;
   e.settings.photons = 2000, e.settings.photonRadius = 0.01f;
   e.settings.pathLength = pathLength, e.settings.specularDepth = 128;
+  e.settings.fieldPhotons = 16384;
   e.settings.photonPool = 16384, e.settings.photonGroups = 16, e.settings.elementSize = 0.12f;
   return e;
 }

@@ -5,9 +5,9 @@
 #include <limits>
 #include <set>
 
+#include "common/gi/elements/packed_flux.h"
+#include "common/gi/elements/scene_stamp.h"
 #include "common/gi/selective/group_pages.h"
-#include "common/gi/selective/packed_flux.h"
-#include "common/gi/selective/scene_stamp.h"
 #include "common/sampling/sampler.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"
@@ -43,8 +43,8 @@ TEST(PhotonGroups, HaveEachPhotonOfThePoolOnce) {
   }
 }
 
-GroupRow randomRow(uint64_t seed, size_t pilots, size_t hits) {
-  GroupRow row{hashWords(seed, 1), static_cast<uint32_t>(seed), 7, 3.5f, {}, {}};
+PhotonRow randomRow(uint64_t seed, size_t pilots, size_t hits) {
+  PhotonRow row{hashWords(seed, 1), static_cast<uint32_t>(seed), 7, 3.5f, {}, {}};
   for (size_t i = 0; i < pilots; ++i)
     row.pilots.push_back(
         {static_cast<uint32_t>(hashWords(seed, 2, i)), 0.25f, static_cast<uint32_t>(i)});
@@ -62,7 +62,7 @@ TEST(GroupPages, GiveBackWhatWasWrittenHoweverLong) {
   StatePages pages;
   EXPECT_FALSE(rows.read(pages, 5));
   for (const size_t hits : {size_t{1000}, rows.room(), size_t{0}, size_t{5448}, size_t{7000}}) {
-    const GroupRow row = randomRow(hits, 300, hits);
+    const PhotonRow row = randomRow(hits, 300, hits);
     pages.apply(rows.replace(pages, 5, row));
     ASSERT_TRUE(rows.read(pages, 5));
     EXPECT_EQ(*rows.read(pages, 5), row);
@@ -90,18 +90,18 @@ TEST(GroupPages, ReadARowThatIsCutShortAsNothing) {
 TEST(GroupPages, ReadImpossibleNumbersAsNothing) {
   const PhotonGroups groups(poolOf(4608, 288, 16));
   const GroupPages rows(groups);
-  const auto isRead = [&](const std::function<void(GroupRow&)>& spoil) {
-    GroupRow row = randomRow(1, 1, 40);
+  const auto isRead = [&](const std::function<void(PhotonRow&)>& spoil) {
+    PhotonRow row = randomRow(1, 1, 40);
     spoil(row);
     StatePages pages;
     pages.apply(rows.replace(pages, 7, row));
     return rows.read(pages, 7).has_value();
   };
   const float nan = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_TRUE(isRead([](GroupRow&) {}));
+  EXPECT_TRUE(isRead([](PhotonRow&) {}));
   for (const float x : {nan, -1.0f, 3e38f, std::numeric_limits<float>::infinity()}) {
-    EXPECT_FALSE(isRead([&](GroupRow& row) { row.lampFlux = x; }));
-    EXPECT_FALSE(isRead([&](GroupRow& row) { row.pilots[0].weight = x; }));
+    EXPECT_FALSE(isRead([&](PhotonRow& row) { row.lampFlux = x; }));
+    EXPECT_FALSE(isRead([&](PhotonRow& row) { row.pilots[0].weight = x; }));
   }
 }
 

@@ -91,6 +91,7 @@ inline Settings small(Method method, int side = 12) {
   Settings s;
   s.method = method, s.width = side, s.height = side;
   s.photonPool = 4608;  // enough for so few pixels
+  s.fieldPhotons = 4096, s.fieldDirections = 9, s.fieldDistances = 16;
   return s;
 }
 

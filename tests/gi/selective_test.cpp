@@ -8,8 +8,8 @@
 #include <map>
 #include <set>
 
+#include "common/gi/elements/packed_flux.h"
 #include "common/gi/selective/group_shooting.h"
-#include "common/gi/selective/packed_flux.h"
 #include "tests/gi/expect.h"
 #include "tests/gi/make_scene.h"
 
@@ -95,7 +95,7 @@ class Session {
         return hashWords(h.surface, uint64_t{h.u} << 16 | h.v, h.flux);
       };
       std::multiset<uint64_t> wanted;
-      const GroupRow there = *rows.read(other, g), here = *rows.read(pages_, g);
+      const PhotonRow there = *rows.read(other, g), here = *rows.read(pages_, g);
       for (const ElementHit& hit : there.hits) wanted.insert(hash(hit));
       for (const ElementHit& hit : here.hits) {
         const auto found = wanted.find(hash(hit));
@@ -108,7 +108,7 @@ class Session {
 
  private:
   // Whatever version they were made for.
-  static bool isSame(GroupRow a, const GroupRow& b) {
+  static bool isSame(PhotonRow a, const PhotonRow& b) {
     a.version = b.version;
     return a == b;
   }
@@ -169,7 +169,7 @@ TEST(Selective, ALampOfASecondStreamIsSampledAllOver) {
     const GroupPages rows(groups);
     std::map<uint32_t, double> flux;  // by surface
     for (uint32_t r = 0; r < groups.rows(); ++r) {
-      const GroupRow row = *rows.read(pages, r);
+      const PhotonRow row = *rows.read(pages, r);
       for (const ElementHit& hit : row.hits)
         flux[hit.surface] += static_cast<double>(unpackFlux(hit.flux).x);
     }
@@ -259,12 +259,12 @@ TEST(Selective, ARowThatIsTooLongIsThinned) {
                                  minor,     1,      transport.lampFlux, room};
     return shooting.shoot(pilots, 3, 1, rays);
   };
-  const auto flux = [](const GroupRow& row) {
+  const auto flux = [](const PhotonRow& row) {
     double sum = 0;
     for (const ElementHit& hit : row.hits) sum += static_cast<double>(unpackFlux(hit.flux).x);
     return sum;
   };
-  const GroupRow all = shot(1 << 20), some = shot(all.hits.size() / 3);
+  const PhotonRow all = shot(1 << 20), some = shot(all.hits.size() / 3);
   EXPECT_EQ(some.hits.size(), all.hits.size() / 3);
   EXPECT_NEAR(flux(some), flux(all), 0.05 * flux(all));
   EXPECT_EQ(some.pilots.back().end, some.hits.size());
@@ -330,7 +330,7 @@ TEST(Selective, ALampThatIsSwitchedOnInAGestureShines) {
     const GroupPages rows(groups);
     double sum = 0;
     for (uint32_t g = 0; g < groups.rows(); ++g) {
-      const GroupRow row = *rows.read(pages, g);
+      const PhotonRow row = *rows.read(pages, g);
       for (const ElementHit& hit : row.hits) sum += static_cast<double>(unpackFlux(hit.flux).y);
     }
     return sum;

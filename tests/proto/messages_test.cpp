@@ -33,8 +33,11 @@ Settings oddSettings() {
   s.mapDirect = MapDirect::on, s.mapDistribution = MapDistribution::turn;
   s.mapIndex = MapIndex::tree;
   s.mapEstimate = MapEstimate::vertices, s.mapSubdivision = 6;
-  s.photonPool = 4194304, s.photonGroups = 20160, s.pilotRatio = 2, s.minorLamps = 0.25f, s.elementSize = 1.5f;
+  s.photonPool = 4194304, s.photonGroups = 20160, s.pilotRatio = 2, s.minorLamps = 0.25f,
+  s.elementSize = 1.5f;
   s.elementRule = ElementRule::buckets;
+  s.fieldDirections = 76, s.fieldDistances = 127, s.fieldPhotons = 4194304;
+  s.fieldDirect = FieldDirect::field, s.maxFieldMemory = 1048576;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;

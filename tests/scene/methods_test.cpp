@@ -171,6 +171,28 @@ TEST(Methods, GroupsGoByTheDirectLightOfMinorLamps) {
   EXPECT_TRUE(factsOf(s.method).state->isKept(s, fewer));
 }
 
+TEST(Methods, FieldsGoByTheSettingsOfTheirPhotonsAndLines) {
+  const MethodFacts& facts = factsOf(Method::intersectionField);
+  Settings s = settingsOf(facts);
+  EXPECT_EQ(facts.state->unitsOfAll(s), 256u);
+  EXPECT_EQ(facts.state->unitsInMotion(s), 64u);
+  s.fieldPhotons = 1000;
+  EXPECT_EQ(facts.state->unitsOfAll(s), 4u);
+  EXPECT_EQ(facts.state->unitsInMotion(s), 4u);
+  const auto isKept = [&](const std::function<void(Settings&)>& change) {
+    Settings after = s;
+    change(after);
+    return facts.state->isKept(s, after);
+  };
+  EXPECT_TRUE(isKept([](Settings& o) { o.fieldDirect = FieldDirect::field, o.directVpls = 0; }));
+  EXPECT_TRUE(isKept([](Settings& o) { o.elementRule = ElementRule::buckets, o.photons = 0; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.fieldDirections = 17; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.fieldDistances = 33; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.fieldPhotons = 2000; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.elementSize = 0.1f; }));
+  EXPECT_FALSE(isKept([](Settings& o) { o.specularDepth = 2; }));
+}
+
 // Without photons no eye path meets a point by chance: what comes from one by a smooth surface is
 // missing, and said to be; rough lobes sample lights, area lights are met.
 TEST(LeftOut, MethodsThatMissTheCausticsOfPunctualLightsNameThem) {

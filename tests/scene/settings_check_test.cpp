@@ -88,6 +88,26 @@ TEST(SettingsCheck, GroupsOfPhotonsFitTogether) {
     }
 }
 
+TEST(SettingsCheck, LinesOfAFieldHaveNoDivisorInCommon) {
+  const std::tuple<int, int, const char*> cases[] = {
+      {12, 32,
+       "field-directions 12 and field-distances 32 have the divisor 4 in common, which focuses the "
+       "lines in some places: 31 distances would do"},
+      {6, 2,
+       "field-directions 6 and field-distances 2 have the divisor 2 in common, which focuses the "
+       "lines in some places: 5 distances would do"},
+      {76, 127, ""},
+      {19, 32, ""},
+      {2, 3, ""}};
+  for (const MethodFacts& facts : allMethods())
+    for (const auto& [directions, distances, text] : cases) {
+      const std::string said = refusal(facts, [&](Settings& s) {
+        s.fieldDirections = directions, s.fieldDistances = distances;
+      });
+      EXPECT_EQ(said, facts.has(kFieldPhotons) ? text : "") << facts.name;
+    }
+}
+
 // Whatever the method: a window may choose another one.
 TEST(SettingsCheck, LightAtVerticesFitsTheScene) {
   const std::tuple<size_t, int, const char*> cases[] = {

@@ -8,6 +8,9 @@
 // factor (shading.h); for S lobes see particle_scatter.h. Walks end after kMaxVertices at the
 // latest (survival 0.99^k is nil).
 //
+// After D a particle goes where a ray in a cosine-distributed direction goes, or another way that
+// the caller knows (walkLightPathBy).
+//
 // Dimensions of vertex j = 1, 2, ...: 4j, 4j+1 direction; 4j+2 choice of lobe and survival;
 // 4j+3 inside the lobe. A sampler may use what the choice of D leaves of its number once more, for
 // the direction.
@@ -15,6 +18,9 @@
 // Source:  Keller, "Instant Radiosity", 1997; Veach 1997, 5.3 (shading normals).
 // Threads: reentrant.   Errors: none.
 #pragma once
+
+#include <optional>
+#include <utility>
 
 #include "common/base/counters.h"
 #include "common/gi/light/emission.h"
@@ -37,6 +43,7 @@ struct Arrival {
   bool focused;       // the last lobe that turned it was S and not glossy: photons bring this light
   bool hidden;        // the light is punctual and met a smooth lobe first: no eye path finds it
   int diffuseBefore;  // D vertices before this one
+  bool known;         // the way on after D told where, not a ray
 };
 
 // Probabilities of the three ways on, D, reflection, transmission; their sum is the survival.
@@ -54,21 +61,40 @@ inline LobeChoice albedoChoice(const Bsdf& bsdf, float cosThetaO) {
   return c;
 }
 
+// How a particle goes on.
+struct WayOn {
+  Vec3 origin{0}, direction{0};  // direction: unit
+  std::optional<Hit> hit = {};   // what it meets, or none; nothing: a ray tells
+};
+
+// After D, in a cosine-distributed direction.
+inline WayOn cosineWay(const ShadingPoint& p, Vec2 u) {
+  const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(u));
+  return {offsetOrigin(p.surface, wi), wi};
+}
+
 // Follows a particle that starts in `media` after `diffuseBefore` D vertices. Its numbers are those
 // of sample `index`, from `firstDimension` on. `sampler`: get1D, get2D and diffuseDirection as
 // LightSampler has them. visit(const Arrival&) returns whether the walk goes
-// on after a D scattering here; after S it always does.
-template <typename Sampler, typename Visit>
-void walkLightPath(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
-                   const Sampler& sampler, uint32_t index, uint32_t firstDimension, RayCounts& rays,
-                   Visit&& visit) {
+// on after a D scattering here; after S it always does. leave(const ShadingPoint&, Vec2) tells the
+// way on after D.
+template <typename Sampler, typename Visit, typename Leave>
+void walkLightPathBy(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
+                     const Sampler& sampler, uint32_t index, uint32_t firstDimension,
+                     RayCounts& rays, Visit&& visit, const Leave& leave) {
+  std::optional<Hit> known;  // what the particle meets next
   bool turned = false, focused = false, hidden = false;
   int specularRun = 0;
   for (int vertex = 0; vertex < kMaxVertices; ++vertex) {
     if (isBlack(particle.flux)) return;
-    ++rays.photon;
-    const Hit hit = t.tracer.closest(particle.origin, particle.direction,
-                                     std::numeric_limits<float>::infinity());
+    const bool wasKnown = known.has_value();
+    if (!wasKnown) {
+      ++rays.photon;
+      known = t.tracer.closest(particle.origin, particle.direction,
+                               std::numeric_limits<float>::infinity());
+    }
+    const Hit hit = *known;
+    known.reset();
     if (!hit) return;
     const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -particle.direction, media);
     if (t.shader.neverEntered(p, media)) {  // it started inside: the light was taken for one in air
@@ -78,7 +104,7 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     }
     particle.flux *= t.shader.attenuation(p, media, hit.t);
     const bool goOn =
-        visit(Arrival{&p, particle.flux, media, turned, focused, hidden, diffuseBefore});
+        visit(Arrival{&p, particle.flux, media, turned, focused, hidden, diffuseBefore, wasKnown});
 
     // Choose D or an S lobe, or the end.
     const uint32_t d = firstDimension + 4 * static_cast<uint32_t>(vertex);
@@ -91,9 +117,9 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
     if (u < choice.diffuse) {
       if (!goOn) return;
       const Vec2 uDirection = sampler.diffuseDirection(index, d, u / choice.diffuse);
-      const Vec3 wi = Basis(p.ng).toWorld(squareToCosineHemisphere(uDirection));
+      const WayOn way = leave(p, uDirection);
       particle.flux *= shadingFactor(p, p.ns, p.wo) / choice.diffuse * p.bsdf.diffuse;
-      particle.origin = offsetOrigin(p.surface, wi), particle.direction = wi;
+      particle.origin = way.origin, particle.direction = way.direction, known = way.hit;
       turned = true, focused = hidden = false, specularRun = 0, ++diffuseBefore;
       continue;
     }
@@ -115,6 +141,15 @@ void walkLightPath(const Transport& t, Particle particle, MediumStack media, int
       turned = focused = true;  // else it goes on as it came
     if (vertex == 0) hidden = particle.punctual && scattered->smooth;
   }
+}
+
+// The same by rays alone.
+template <typename Sampler, typename Visit>
+void walkLightPath(const Transport& t, const Particle& particle, const MediumStack& media,
+                   int diffuseBefore, const Sampler& sampler, uint32_t index,
+                   uint32_t firstDimension, RayCounts& rays, Visit&& visit) {
+  walkLightPathBy(t, particle, media, diffuseBefore, sampler, index, firstDimension, rays,
+                  std::forward<Visit>(visit), cosineWay);
 }
 
 }  // namespace ninefold

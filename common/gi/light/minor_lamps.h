@@ -2,8 +2,8 @@
 //
 //   the faintest lamps that have together at most the share F of all power
 //
-// The virtual lights are left to the lamps whose shadows matter. Shadows of the others have edges as
-// soft as mesh elements are wide, and what light they bring into narrow places is blurred.
+// The virtual lights are left to the lamps whose shadows matter. Shadows of the others have edges
+// as soft as mesh elements are wide, and what light they bring into narrow places is blurred.
 //
 // In a gesture the lamps are those that it began with, so that nothing that is done to one lamp
 // changes how the light of another is found. Lamps that were off then are not among them.

@@ -23,9 +23,9 @@
 #include <mutex>
 #include <vector>
 
+#include "common/gi/elements/surface_numbers.h"
 #include "common/gi/eye/task.h"
 #include "common/gi/selective/group_pages.h"
-#include "common/gi/selective/surface_numbers.h"
 
 namespace ninefold {
 

@@ -17,10 +17,10 @@
 #pragma once
 
 #include "common/base/counters.h"
+#include "common/gi/elements/surface_numbers.h"
 #include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 #include "common/gi/selective/group_pages.h"
-#include "common/gi/selective/surface_numbers.h"
 #include "common/gi/selective/visual_masking.h"
 
 namespace ninefold {
@@ -36,7 +36,7 @@ struct GroupShooting {
   size_t room = 0;     // hits that a row has room for
 
   // version: that it is made for.
-  GroupRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
+  PhotonRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
 
  private:
   Pilot pilotOf(const std::vector<ElementHit>& hits, size_t first, double meanFlux) const;

@@ -1,9 +1,10 @@
 #include "common/gi/selective/selective.h"
 
+#include "common/gi/elements/element_light.h"
+#include "common/gi/elements/photon_shooting.h"
+#include "common/gi/elements/scene_stamp.h"
 #include "common/gi/light_set/lamp_light.h"
-#include "common/gi/selective/element_light.h"
 #include "common/gi/selective/group_shooting.h"
-#include "common/gi/selective/scene_stamp.h"
 #include "common/state/fixed_point.h"
 
 namespace ninefold {
@@ -14,17 +15,11 @@ struct SelectiveLight final : LightSet {
   const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
 };
 
-float fluxOf(const Emitters& emitters) {
-  glm::dvec3 sum(0);
-  for (size_t i = 0; i < emitters.size(); ++i) sum += glm::dvec3(emitters[i].flux);
-  return static_cast<float>(std::max({sum.x, sum.y, sum.z}));
-}
-
 // What tracing a row changes of the groups' priorities. Pilots that took another path than before
 // add to groups that were not yet traced in the scene with this stamp; a group's own is spent.
 std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePages& pages,
-                                     uint32_t row, const std::optional<GroupRow>& before,
-                                     const GroupRow& now) {
+                                     uint32_t row, const std::optional<PhotonRow>& before,
+                                     const PhotonRow& now) {
   const GroupPages rows(groups);
   std::vector<int64_t> changes(groups.groups(), 0);
   if (!groups.hasPilots(row)) changes[row] = -GroupPages::priority(pages, row);
@@ -50,7 +45,7 @@ Selective::Selective(const Transport& transport, const Selective* begun)
       minor_(transport.emitters, transport.settings.minorLamps,
              begun != nullptr ? &begun->minor_ : nullptr),
       stamp_(sceneStamp(transport, minor_)),
-      lampFlux_(fluxOf(transport.emitters)),
+      lampFlux_(fluxOfLamps(transport.emitters)),
       masking_(begun != nullptr
                    ? begun->masking_
                    : std::make_shared<const VisualMasking>(
@@ -74,12 +69,12 @@ StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_
                            const View& view) const {
   const GroupPages rows(groups_);
   const uint32_t row = order_.rowAt(pages, view, unit - step.firstUnit);
-  const std::optional<GroupRow> before = rows.read(pages, row);
+  const std::optional<PhotonRow> before = rows.read(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;
   const GroupShooting shooting{t_,     groups_, *surfaces_, *masking_,
                                minor_, stamp_,  lampFlux_,  rows.room()};
-  const GroupRow now = shooting.shoot(row, randomization, step.to, result.rays);
+  const PhotonRow now = shooting.shoot(row, randomization, step.to, result.rays);
   result.deltas = rows.replace(pages, row, now);
   GroupPages::addPriorities(priorityChanges(groups_, pages, row, before, now), result.deltas);
   return result;
@@ -91,8 +86,8 @@ std::shared_ptr<const MethodState> Selective::digest(const StatePages& pages,
   const SceneElements* known = earlier == nullptr ? nullptr : earlier->elements().get();
   auto elements =
       std::make_shared<const SceneElements>(t_.scene, t_.settings.elementSize * t_.radius, known);
-  return std::make_shared<const ElementLight>(pages, groups_, surfaces_, std::move(elements),
-                                              t_.settings.elementRule, earlier);
+  return std::make_shared<const ElementLight>(
+      pages, GroupPages(groups_), surfaces_, std::move(elements), t_.settings.elementRule, earlier);
 }
 
 void Selective::query(const FrameLight& frameLight, const ReceiverSamples& samples,
@@ -102,13 +97,7 @@ void Selective::query(const FrameLight& frameLight, const ReceiverSamples& sampl
   auto& scratch = static_cast<LampLightScratch&>(memory);
   gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays,
                   minor_);
-  if (light.elements == nullptr) return;
-  for (size_t i = 0; i < receivers.size(); ++i) {
-    const uint32_t object = receivers.object[i], triangle = receivers.triangle[i];
-    const bool isBack = glm::dot(receivers.ng(i), t_.tracer.frontNormal(object, triangle)) < 0;
-    receivers.addIrradiance(
-        i, light.elements->at({object, triangle, isBack}, receivers.u[i], receivers.v[i]));
-  }
+  if (light.elements != nullptr) light.elements->addTo(t_.tracer, receivers);
 }
 
 }  // namespace ninefold

@@ -32,10 +32,10 @@
 // Threads, owner, errors: as method.h says.
 #pragma once
 
+#include "common/gi/elements/surface_numbers.h"
 #include "common/gi/light_set/light_set.h"
 #include "common/gi/selective/group_order.h"
 #include "common/gi/selective/photon_groups.h"
-#include "common/gi/selective/surface_numbers.h"
 #include "common/gi/selective/visual_masking.h"
 
 namespace ninefold {

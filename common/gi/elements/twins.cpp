@@ -1,4 +1,4 @@
-#include "common/gi/selective/twins.h"
+#include "common/gi/elements/twins.h"
 
 #include <bit>
 #include <optional>

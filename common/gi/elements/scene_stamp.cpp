@@ -1,4 +1,4 @@
-#include "common/gi/selective/scene_stamp.h"
+#include "common/gi/elements/scene_stamp.h"
 
 #include <bit>
 

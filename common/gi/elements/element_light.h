@@ -17,10 +17,11 @@
 #include <memory>
 #include <vector>
 
+#include "common/gi/elements/element_block.h"
+#include "common/gi/elements/photon_rows.h"
+#include "common/gi/elements/surface_numbers.h"
+#include "common/gi/eye/receivers.h"
 #include "common/gi/method/method.h"
-#include "common/gi/selective/element_block.h"
-#include "common/gi/selective/group_pages.h"
-#include "common/gi/selective/surface_numbers.h"
 
 namespace ninefold {
 
@@ -43,13 +44,15 @@ class SceneElements {
 class ElementLight : public MethodState {
  public:
   // `before`: of other pages or another state of the same scene, or null: it saves work alone.
-  ElementLight(const StatePages& pages, const PhotonGroups& groups,
+  ElementLight(const StatePages& pages, const PhotonRows& rows,
                std::shared_ptr<const SurfaceNumbers> surfaces,
                std::shared_ptr<const SceneElements> elements, ElementRule rule,
                const ElementLight* before);
 
   const std::shared_ptr<const SceneElements>& elements() const { return elements_; }
   Irradiance at(const SurfaceNumbers::Surface& surface, float u, float v) const;
+  // Adds E to receivers.
+  void addTo(const Tracer& tracer, Receivers& receivers) const;
 
  private:
   static constexpr size_t kPerNode = 6;  // R, G, B in front; the same on the back
@@ -59,14 +62,13 @@ class ElementLight : public MethodState {
   // Takes over from `before` the sums of instances that are the same, and tells the others.
   Wanted begin(const ElementLight* before);
   // Adds a row's hits, `sign` times, to the instances that are wanted.
-  void add(const GroupRow& row, int64_t sign, const Wanted& wanted);
+  void add(const PhotonRow& row, int64_t sign, const Wanted& wanted);
   Sums& own(uint32_t instance);
 
   ElementPlace place(const SurfaceNumbers::Surface& surface, float u, float v) const;
 
   StatePages pages_;
-  const PhotonGroups groups_;
-  const GroupPages rows_;
+  const PhotonRows rows_;
   std::shared_ptr<const SurfaceNumbers> surfaces_;
   std::shared_ptr<const SceneElements> elements_;
   ElementRule rule_;

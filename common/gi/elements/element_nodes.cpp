@@ -1,4 +1,4 @@
-#include "common/gi/selective/element_nodes.h"
+#include "common/gi/elements/element_nodes.h"
 
 #include <bit>
 #include <numeric>

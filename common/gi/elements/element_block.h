@@ -28,7 +28,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/gi/selective/twins.h"
+#include "common/gi/elements/twins.h"
 #include "common/scene/scene.h"
 
 namespace ninefold {

@@ -1,10 +1,10 @@
-#include "common/gi/selective/element_block.h"
+#include "common/gi/elements/element_block.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/error.h"
-#include "common/gi/selective/element_nodes.h"
+#include "common/gi/elements/element_nodes.h"
 #include "common/sampling/hash.h"
 #include "common/scene/alpha_test.h"
 

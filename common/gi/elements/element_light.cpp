@@ -1,18 +1,18 @@
-#include "common/gi/selective/element_light.h"
+#include "common/gi/elements/element_light.h"
 
 #include <algorithm>
 
 #include "common/base/error.h"
-#include "common/gi/selective/packed_flux.h"
+#include "common/gi/elements/packed_flux.h"
 #include "common/state/fixed_point.h"
 
 namespace ninefold {
 namespace {
 
 // u of the brightest lamps that any row was traced with.
-double quantumOf(const StatePages& pages, const PhotonGroups& groups, const GroupPages& rows) {
+double quantumOf(const StatePages& pages, const PhotonRows& rows) {
   float brightest = 0;
-  for (uint32_t r = 0; r < groups.rows(); ++r)
+  for (uint32_t r = 0; r < rows.count(); ++r)
     if (const auto header = rows.header(pages, r))
       brightest = std::max(brightest, header->lampFlux);
   return fluxQuantum(fluxBand(std::max(brightest, 0x1p-100f)));
@@ -44,25 +44,24 @@ SceneElements::SceneElements(const Scene& scene, Metres size, const SceneElement
   }
 }
 
-ElementLight::ElementLight(const StatePages& pages, const PhotonGroups& groups,
+ElementLight::ElementLight(const StatePages& pages, const PhotonRows& rows,
                            std::shared_ptr<const SurfaceNumbers> surfaces,
                            std::shared_ptr<const SceneElements> elements, ElementRule rule,
                            const ElementLight* before)
     : pages_(pages),
-      groups_(groups),
-      rows_(groups),
+      rows_(rows),
       surfaces_(std::move(surfaces)),
       elements_(std::move(elements)),
       rule_(rule),
-      quantum_(quantumOf(pages_, groups_, rows_)) {
+      quantum_(quantumOf(pages_, rows_)) {
   const bool goesOn = before != nullptr && before->quantum_ == quantum_ && before->rule_ == rule_ &&
-                      before->groups_ == groups_ &&
+                      before->rows_ == rows_ &&
                       before->elements_->instances() == elements_->instances();
   const Wanted fresh = begin(goesOn ? before : nullptr);
   Wanted kept = fresh;
   kept.flip();
   const Wanted all(fresh.size(), true);
-  for (uint32_t r = 0; r < groups_.rows(); ++r) {
+  for (uint32_t r = 0; r < rows_.count(); ++r) {
     const bool isSame = goesOn && rows_.isShared(pages_, before->pages_, r);
     if (isSame && !hasAny(fresh)) continue;
     if (goesOn && !isSame)
@@ -90,7 +89,7 @@ ElementLight::Sums& ElementLight::own(uint32_t instance) {
   return *sums_[instance];
 }
 
-void ElementLight::add(const GroupRow& row, int64_t sign, const Wanted& wanted) {
+void ElementLight::add(const PhotonRow& row, int64_t sign, const Wanted& wanted) {
   if (!hasAny(wanted)) return;
   for (const ElementHit& hit : row.hits) {
     if (!surfaces_->isThere(hit.surface)) continue;
@@ -131,6 +130,14 @@ Irradiance ElementLight::at(const SurfaceNumbers::Surface& surface, float u, flo
     for (int c = 0; c < 3; ++c) e[c] += scale * static_cast<float>(fromFixed(of[c], quantum_));
   }
   return e;
+}
+
+void ElementLight::addTo(const Tracer& tracer, Receivers& receivers) const {
+  for (size_t i = 0; i < receivers.size(); ++i) {
+    const uint32_t object = receivers.object[i], triangle = receivers.triangle[i];
+    const bool isBack = glm::dot(receivers.ng(i), tracer.frontNormal(object, triangle)) < 0;
+    receivers.addIrradiance(i, at({object, triangle, isBack}, receivers.u[i], receivers.v[i]));
+  }
 }
 
 }  // namespace ninefold

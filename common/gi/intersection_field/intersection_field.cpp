@@ -1,0 +1,114 @@
+#include "common/gi/intersection_field/intersection_field.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/gi/elements/photon_shooting.h"
+#include "common/gi/elements/scene_stamp.h"
+#include "common/gi/light_set/lamp_light.h"
+#include "common/scene/methods.h"
+
+namespace ninefold {
+namespace {
+
+// The VPLs stand on lamps alone.
+struct FieldLight final : LightSet {
+  const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
+};
+
+}  // namespace
+
+IntersectionField::IntersectionField(const Transport& transport, const IntersectionField* begun)
+    : LayeredMethod(transport),
+      rows_(fieldRows(transport.settings), kPhotonsOfRow),
+      surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
+      stamp_(sceneStamp(transport, {})),
+      lampFlux_(fluxOfLamps(transport.emitters)),
+      field_(transport.scene, transport.settings, begun == nullptr ? nullptr : &begun->field_),
+      elements_(std::make_shared<const SceneElements>(
+          transport.scene, transport.settings.elementSize * transport.radius,
+          begun == nullptr ? nullptr : begun->elements_.get())),
+      lines_(field_, transport.scene, *elements_, begun == nullptr ? nullptr : &begun->field_,
+             begun == nullptr ? nullptr : begun->elements_.get(),
+             begun == nullptr ? nullptr : &begun->lines_),
+      lamps_(transport.settings.fieldDirect == FieldDirect::field &&
+                     transport.settings.directVpls > 0
+                 ? std::make_unique<const LampVisibility>(transport, field_, *elements_)
+                 : nullptr) {}
+
+std::shared_ptr<const FrameLight> IntersectionField::light(const FrameKey& frame, int set,
+                                                           std::span<const View>,
+                                                           const MethodState* state) const {
+  auto light = std::make_shared<FieldLight>();
+  light->elements = static_cast<const ElementLight*>(state);
+  addLampLight(t_, frame, set, *light);
+  if (lamps_ != nullptr) std::erase_if(light->vpls, [](const Vpl& vpl) { return vpl.emits; });
+  return light;
+}
+
+std::unique_ptr<Scratch> IntersectionField::makeScratch() const {
+  return std::make_unique<LampLightScratch>();
+}
+
+uint32_t IntersectionField::rowAt(const StatePages& pages, uint32_t rank) const {
+  std::vector<std::tuple<bool, uint32_t, uint32_t>> order;  // traced now, version, row
+  for (uint32_t r = 0; r < rows_.count(); ++r) {
+    const auto header = rows_.header(pages, r);
+    order.emplace_back(header && header->stamp == stamp_, header ? header->version : 0, r);
+  }
+  const auto place = order.begin() + static_cast<std::ptrdiff_t>(rank % order.size());
+  std::nth_element(order.begin(), place, order.end());
+  return std::get<2>(*place);
+}
+
+StepResult IntersectionField::step(const StatePages& pages, const StepKey& step, uint32_t unit,
+                                   const View&) const {
+  const uint32_t row = rowAt(pages, unit - step.firstUnit);
+  const auto before = rows_.header(pages, row);
+  const uint32_t randomization = before ? before->randomization : step.randomization;
+  StepResult result;
+  result.deltas = rows_.replace(pages, row, shoot(row, randomization, step.to, result.rays));
+  return result;
+}
+
+PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_t version,
+                                   RayCounts& rays) const {
+  PhotonRow left{stamp_, randomization, version, lampFlux_, {}, {}};
+  if (t_.emitters.empty()) return left;
+  const auto photons = static_cast<uint32_t>(t_.settings.fieldPhotons);
+  const float share = 1 / static_cast<float>(photons);
+  const LineWalk walk{t_.tracer, field_, *elements_, lines_};
+  const auto leave = [&](const ShadingPoint& p, Vec2 u) { return walk.leave(p, u); };
+  const auto gain = [&](const Arrival& a) { return a.known ? walk.gain(*a.point) : 1.0f; };
+  const auto streams = photonStreams(t_, SampleUse::fieldPhoton, randomization);
+  const uint32_t end = std::min((row + 1) * kPhotonsOfRow, photons);
+  for (uint32_t photon = row * kPhotonsOfRow; photon < end; ++photon)
+    for (const PhotonStream& stream : streams)
+      shootPhoton(t_, *surfaces_, {}, stream, photon, share, left.hits, rays, leave, gain);
+  if (left.hits.size() > rows_.room())
+    thinHits(left, rows_.room(), hashWords(t_.settings.seed, randomization, row));
+  return left;
+}
+
+std::shared_ptr<const MethodState> IntersectionField::digest(const StatePages& pages,
+                                                             const MethodState* before) const {
+  return std::make_shared<const ElementLight>(pages, rows_, surfaces_, elements_,
+                                              t_.settings.elementRule,
+                                              static_cast<const ElementLight*>(before));
+}
+
+void IntersectionField::query(const FrameLight& frameLight, const ReceiverSamples& samples,
+                              int pathVertices, LayeredScratch& memory, Receivers& receivers,
+                              std::vector<Irradiance>* caustic, RayCounts& rays) const {
+  const auto& light = static_cast<const FieldLight&>(frameLight);
+  auto& scratch = static_cast<LampLightScratch&>(memory);
+  if (lamps_ != nullptr) {
+    gatherBounded(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays);
+    lamps_->gather(samples, pathVertices, receivers, rays);
+  } else {
+    gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays);
+  }
+  if (light.elements != nullptr) light.elements->addTo(t_.tracer, receivers);
+}
+
+}  // namespace ninefold
