@@ -27,7 +27,7 @@ RenderJob::RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersi
       grid_(settings.width, settings.height, settings.interleave),
       layerMask_(light_->layerMask),
       renderer_(light_->renderer, settings),
-      toneMap_(delivery.exposure) {}
+      toneMap_(Tone{delivery.exposure, delivery.curve}) {}
 
 RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& settings,
                      const Delivery& delivery)
@@ -38,7 +38,7 @@ RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& 
       grid_(settings.width, settings.height, settings.interleave),
       layerMask_(lit.layerMask_),
       renderer_(light_->renderer, settings),
-      toneMap_(delivery.exposure) {}
+      toneMap_(Tone{delivery.exposure, delivery.curve}) {}
 
 RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& its,
                         const Delivery& delivery, int threads, Light* before)

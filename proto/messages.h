@@ -80,7 +80,7 @@ enum class MessageType : uint16_t {
 enum class Peer : uint8_t { master, client };
 
 // page: of a method's state (state_wire.h); the others are parts of a scene (scene_blobs.h).
-enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2, page = 3 };
+enum class BlobKind : uint8_t { rest = 0, image = 1, meshes = 2, environment = 3, page = 4 };
 
 struct BlobInfo {
   Sha256 hash{};          // of the raw bytes
@@ -108,6 +108,7 @@ struct Delivery {
   Form form = Form::layers;
   SurfaceTest filter = SurfaceTest::surface;  // of whole tiles
   float exposure = 0;                         // [EV] of codes
+  ToneCurve curve = ToneCurve::srgb;          // of codes
   bool wholeTiles() const { return form != Form::layers; }
   bool operator==(const Delivery&) const = default;
 };
@@ -121,10 +122,13 @@ struct Hello {
   uint32_t threads = 1;    // 1..1024
   std::string isa;         // what runs: "avx2", "avx512"
   std::string probeClass;  // probeClass() of gi/renderer.h
+  bool visits = false;     // asks and goes, renders nothing and is no client (ninefold-doctor)
 };
 struct Welcome {
   uint32_t clientId = 0;  // unique in this run of the master
   std::string release = releaseName();
+  std::string probeClass = {};  // of the run, by its first client; empty: none was there yet
+  uint64_t wallClockMs = 0;     // the master's, since 1970; the server fills it in
 };
 struct Refuse {
   std::string reason;

@@ -68,11 +68,13 @@ msg::Hello decode(const pb::Hello& in, Bytes&&) {
   m.threads = upTo<uint32_t>("threads", in.threads(), 1024, 1);
   m.isa = text("isa", in.isa());
   m.probeClass = text("probe class", in.probe_class());
+  m.visits = in.visits();
   return m;
 }
 
 msg::Welcome decode(const pb::Welcome& in, Bytes&&) {
-  return {in.client_id(), text("release", in.release())};
+  return {in.client_id(), text("release", in.release()), text("probe class", in.probe_class()),
+          in.wall_clock_ms()};
 }
 
 msg::Refuse decode(const pb::Refuse& in, Bytes&&) { return {text("reason", in.reason())}; }
@@ -84,7 +86,7 @@ msg::SceneOffer decode(const pb::SceneOffer& in, Bytes&&) {
       upTo<size_t>("number of blobs", static_cast<uint64_t>(in.blobs_size()), kMaxBlobs);
   m.blobs.reserve(count);
   for (const pb::BlobInfo& blob : in.blobs())
-    m.blobs.push_back(blobInfo(blob, kMaxBlobBytes, BlobKind::rest, BlobKind::meshes));
+    m.blobs.push_back(blobInfo(blob, kMaxBlobBytes, BlobKind::rest, BlobKind::environment));
   return m;
 }
 
@@ -114,6 +116,7 @@ msg::Configure decode(const pb::Configure& in, Bytes&&) {
   m.delivery.exposure = in.exposure();
   if (!(std::abs(in.exposure()) <= kMostExposure))
     fail("exposure {} is out of range", in.exposure());
+  m.delivery.curve = upTo<ToneCurve>("tone curve", in.curve(), kToneCurveNames.size() - 1);
   if (m.delivery.wholeTiles() &&
       m.settings.interleave.sets() * kTaskSide * kTaskSide > kMaxTilePixels)
     fail("tiles are too large to be filtered by clients");

@@ -178,11 +178,16 @@ void describe(A& a, Of<LightProfile> auto& profile) {
 }
 
 template <typename A>
+void describe(A& a, Of<EnvironmentPicture> auto& picture) {
+  a(picture.name, picture.width, picture.height, picture.texels, picture.rotation);
+}
+
+template <typename A>
 void describe(A& a, Of<Camera> auto& camera) {
   a(camera.name, camera.eye, camera.forward, camera.up, camera.verticalFov);
 }
 
-// Everything but images and meshes.
+// Everything but images, meshes and the environment's picture.
 template <typename A>
 void describe(A& a, Of<Scene> auto& scene) {
   a(scene.name, scene.materials, scene.instances, scene.photonInstances);

@@ -55,6 +55,12 @@ void readOne(const Bytes& raw, T& value) {
   in.expectEnd();
 }
 
+std::shared_ptr<const EnvironmentMap> unpackEnvironment(const Bytes& raw) {
+  EnvironmentPicture picture;
+  readOne(raw, picture);
+  return std::make_shared<const EnvironmentMap>(std::move(picture));
+}
+
 void readMeshes(const Bytes& raw, std::vector<Mesh>& meshes) {
   ByteReader in = readerOf(raw);
   ReadArchive archive(in);
@@ -68,6 +74,8 @@ std::vector<Blob> packScene(const Scene& scene) {
   for (const TextureImage& image : scene.images)
     blobs.push_back(seal(BlobKind::image, bytesOf(image)));
   packMeshes(scene.meshes, blobs);
+  if (scene.environmentMap)
+    blobs.push_back(seal(BlobKind::environment, bytesOf(scene.environmentMap->picture())));
   blobs.push_back(seal(BlobKind::rest, bytesOf(scene)));
   std::vector<BlobInfo> manifest;
   for (const Blob& blob : blobs) manifest.push_back(blob.info);
@@ -78,11 +86,13 @@ std::vector<Blob> packScene(const Scene& scene) {
 void checkManifest(const std::vector<BlobInfo>& manifest) {
   if (manifest.empty() || manifest.size() > kMaxBlobs)
     fail("scene: {} parts, must be 1 to {}", manifest.size(), kMaxBlobs);
-  uint64_t total = 0;
+  uint64_t total = 0, environments = 0;
   for (const BlobInfo& info : manifest) {
     const bool last = &info == &manifest.back();
     if (last != (info.kind == BlobKind::rest)) fail("scene: its parts are out of order");
     if (info.kind == BlobKind::page) fail("scene: a part of it is a page of a state");
+    environments += info.kind == BlobKind::environment ? 1 : 0;
+    if (environments > 1) fail("scene: it has more than one environment");
     if (info.rawBytes == 0 || info.rawBytes > kMaxBlobBytes)
       fail("scene: a part of {} bytes, must be 1 to {}", info.rawBytes, kMaxBlobBytes);
     total += info.rawBytes;
@@ -114,10 +124,16 @@ Scene unpackScene(const std::vector<BlobInfo>& manifest, const std::vector<Bytes
   std::vector<TextureImage> images;
   std::vector<Mesh> meshes;
   for (size_t i = 0; i + 1 < manifest.size(); ++i) {
-    if (manifest[i].kind == BlobKind::image)
-      readOne(raw[i], images.emplace_back());
-    else
-      readMeshes(raw[i], meshes);
+    switch (manifest[i].kind) {
+      case BlobKind::image:
+        readOne(raw[i], images.emplace_back());
+        break;
+      case BlobKind::environment:
+        scene.environmentMap = unpackEnvironment(raw[i]);
+        break;
+      default:
+        readMeshes(raw[i], meshes);
+    }
   }
   scene.images = std::move(images), scene.meshes = std::move(meshes);
   validate(scene);

@@ -1,10 +1,10 @@
 // scene_blobs.h: a scene as blobs, named by their content, and back, bit for bit.
 //
 // Each texture image is a blob. Meshes, in order, are gathered into blobs of about kMeshBlobBytes;
-// a larger mesh has its own. Everything else (materials, instances, lights, cameras, ...) is the
-// last blob. A blob's name is the SHA-256 of its raw bytes: a client need not fetch what it has
-// seen, in this scene or another. On the wire and in caches a blob is one zstd frame of its raw
-// bytes.
+// a larger mesh has its own. An environment's picture is one more blob. Everything else (materials,
+// instances, lights, cameras, ...) is the last blob. A blob's name is the SHA-256 of its raw bytes:
+// a client need not fetch what it has seen, in this scene or another. On the wire and in caches a
+// blob is one zstd frame of its raw bytes.
 //
 // Limits: a blob has at most kMaxBlobBytes raw, a scene kMaxSceneBytes. Decompression takes memory
 // only as bytes appear, and stops at the declared size.

@@ -159,12 +159,12 @@ void FieldWriter::words(const std::vector<uint32_t>& values) {
 }
 
 void FieldWriter::display(const RgbPlane& radiance, const ToneMap& toneMap) {
-  const std::array planes = {&radiance.r, &radiance.g, &radiance.b};
-  for (size_t c = 0; c < 3; ++c) {
-    std::transform(planes[c]->begin(), planes[c]->end(), scratch_.plane[c].begin(),
-                   [&](float value) { return toneMap.code(usable(value)); });
-    count(unusable(*planes[c]));
+  for (size_t i = 0; i < radiance.r.size(); ++i) {
+    const ToneMap::Codes codes =
+        toneMap.codes(Vec3(usable(radiance.r[i]), usable(radiance.g[i]), usable(radiance.b[i])));
+    for (size_t c = 0; c < 3; ++c) scratch_.plane[c][i] = codes[c];
   }
+  for (const auto* plane : {&radiance.r, &radiance.g, &radiance.b}) count(unusable(*plane));
   flush(3);
 }
 

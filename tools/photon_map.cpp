@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-photon-map";
 constexpr const char* kHelp =
-    "usage: ninefold-photon-map SCENE [options]\n"
+    "Usage: ninefold-photon-map SCENE [options]\n"
     "       ninefold-photon-map --box N [options]\n\n"
     "What a frame of the photon map costs stage by stage, and with --light how its pictures\n"
     "fluctuate, how wrong they are and how late, as JSON. One thread.\n\n"
@@ -164,7 +164,7 @@ Json fluctuationOf(const MapMotion& motion, const Wanted& w) {
 
 Scene sceneOf(const Wanted& w) {
   Scene scene = w.surfaces > 0 ? MapBox::make(cutsOf(w.surfaces))
-                               : readScene(w.options.scene, w.options.clip);
+                               : readScene(w.options.scene, w.options.reading);
   if (w.photonsMeet > 0) addPhotonScene(scene, MapBox::make(cutsOf(w.photonsMeet)));
   return withPhotonScene(std::move(scene), w.options.photonScene);
 }

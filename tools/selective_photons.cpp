@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-selective-photons";
 constexpr const char* kHelp =
-    "usage: ninefold-selective-photons SCENE --edit FILE [options]\n\n"
+    "Usage: ninefold-selective-photons SCENE --edit FILE [options]\n\n"
     "How soon the photons that an edit concerns are traced anew, as JSON. One thread.\n\n"
     "  --edit FILE     a script (docs/script.md); the edit is all that it has done at its end\n"
     "  --units N       groups of a step, each step in the order that the one before tells\n"
@@ -144,7 +144,7 @@ int run(int argc, char** argv) {
   if (words.has("--help") || words.has("-h")) return writeOutput(kHelp), 0;
   if (words.has("--version")) return writeOutput(versionText(kProgram)), 0;
   const Wanted w = wantedOf(words);
-  const Scene scene = readScene(w.options.scene, w.options.clip);
+  const Scene scene = readScene(w.options.scene, w.options.reading);
   const Settings settings = makeSettings(w.options, scene);
   const Script script = readScript(w.edit, scene);
   const SceneEdit edit = script.at(script.seconds, scene, settings.camera).edit;

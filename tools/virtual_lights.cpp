@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-virtual-lights";
 constexpr const char* kHelp =
-    "usage: ninefold-virtual-lights SCENE [options]\n\n"
+    "Usage: ninefold-virtual-lights SCENE [options]\n\n"
     "Which virtual point lights a run uses, as JSON, without rendering.\n\n"
     "  --frames N      of so many frames (default 1)\n"
     "  --help, -h      print this and end\n"
@@ -73,7 +73,7 @@ int run(int argc, char** argv) {
   if (has(argc, argv, "--version")) return writeOutput(versionText(kProgram)), 0;
   const Options options = masterOptions(argc, argv);
   const Job job = makeJob(options);
-  const Scene scene = readScene(options.scene, options.clip);
+  const Scene scene = readScene(options.scene, options.reading);
   const Tracer tracer(scene, Isa::automatic);
   const Renderer renderer(tracer, job.settings);
   const int sets = job.settings.interleave.sets();

@@ -1,13 +1,14 @@
 // auto_exposure.h: the exposure [EV] that suits a picture by itself.
 //
-//   EV = log2(a / L), rounded to tenths     a = kBright; L: luminance that kShare of the pixels
-//                                           that are not black stay below
+//   EV = log2(a / exp(mean of log L)), rounded to tenths     a = kMiddleGrey
+//                                                            L: luminance of a pixel
 //
-// From kBright (code 188) to the bend of the tone map's curve two thirds of a stop are left for
-// what is brighter; lamps are rolled off. EV is 0 for a picture that is black or has no finite L.
-// The same picture always has the same exposure.
+// So the picture's log-average is shown as middle grey. Pixels that are black, or no finite number,
+// do not count: a background without light tells nothing. EV is held to +-kMostExposure, and 0 for
+// a picture of such pixels alone. The same picture always has the same exposure.
 //
-// Fails:   a picture that is lamps for more than 1 - kShare is made too dark.
+// Source:  Reinhard et al. 2002, the key of a scene.
+// Fails:   a picture that is meant to be dark or bright is shown like any other.
 // Proved:  tests/image/auto_exposure_test.cpp.   Threads: pure.   Errors: none.
 #pragma once
 
@@ -15,7 +16,7 @@
 
 namespace ninefold {
 
-inline constexpr double kShare = 0.9, kBright = 0.5;
+inline constexpr double kMiddleGrey = 0.18;
 
 float autoExposure(const RgbImage& radiance);
 

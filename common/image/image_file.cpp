@@ -19,8 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kLargestSide = 16384;  // of files read; the largest picture that we make
-constexpr int kBandRows = 64;        // rows interleaved and written at a time
+constexpr int kBandRows = 64;  // rows interleaved and written at a time
 
 std::string extensionOf(const std::string& path) {
   std::string extension = fs::path(path).extension().string();
@@ -199,14 +198,14 @@ void writePng(const std::string& path, const DisplayImage& picture) {
   writeCodes(path, picture, {});
 }
 
-RgbImage readImage(const std::string& path) {
+RgbImage readImage(const std::string& path, const ImageBounds& bounds) {
   const auto input = OIIO::ImageInput::open(path);
   if (!input) fail("cannot read image {}: {}", path, oneLine(OIIO::geterror()));
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > kLargestSide ||
-      spec.height > kLargestSide || spec.depth > 1)
-    fail("cannot read image {}: it has {}x{}x{} pixels, {} on a side are allowed", path, spec.width,
-         spec.height, spec.depth, kLargestSide);
+  if (spec.width < 1 || spec.height < 1 || spec.width > bounds.width ||
+      spec.height > bounds.height || spec.depth > 1)
+    fail("cannot read image {}: it has {}x{}x{} pixels, {}x{} are allowed: scale it down", path,
+         spec.width, spec.height, spec.depth, bounds.width, bounds.height);
   const bool isSrgb = !spec.format.is_floating_point();
   const std::array<int, 3> channels = colourChannels(spec);
   RgbImage image;

@@ -6,6 +6,7 @@
 
 #include "common/math/rounding.h"
 #include "common/sampling/hash.h"
+#include "common/sampling/warp.h"
 #include "common/scene/emitter_power.h"
 #include "common/scene/texture.h"
 #include "common/scene/world.h"
@@ -147,7 +148,8 @@ bool Emitters::anyIn(const Scene& scene) {
 Emitters::Emitters(const Scene& scene, Radiance environment)
     : scene_(&scene),
       profiles_(scene.profiles.begin(), scene.profiles.end()),
-      environment_(environment) {
+      environment_(environment),
+      map_(scene.environmentMap.get()) {
   std::vector<float> power;
   TriangleRadiance radiance(scene);
   Places places;
@@ -168,6 +170,7 @@ Emitters::Emitters(const Scene& scene, Radiance environment)
   }
   Emitter sky;
   sky.kind = EmitterKind::environment, sky.flux = 4 * kPi * kPi * R * R * environment;
+  if (map_ != nullptr) sky.flux *= map_->mean();
   append(sky, maxComponent(sky.flux), power);
   byPower_ = Distribution(choiceWeights(emitters_, power));
 }
@@ -202,6 +205,12 @@ EmitterPoint Emitters::pointAt(uint32_t emitter, Vec2 b) const {
   p.error = triangleError(e.a, e.b, e.c, e.normal, p.position);
   return p;
 }
+
+Vec3 Emitters::sampleEnvironment(Vec2 u) const {
+  return map_ != nullptr ? map_->sample(u) : squareToSphere(u);
+}
+
+float Emitters::environmentPdf(Vec3 w) const { return map_ != nullptr ? map_->pdf(w) : kSpherePdf; }
 
 int Emitters::find(uint32_t instance, uint32_t triangle) const {
   const auto first = emitters_.begin() + firstOfInstance_[instance];

@@ -7,7 +7,7 @@
 //   spot         Phi = I integrated over its cone with glTF's falloff
 //   goniometric  Phi = I Omega, see light_profile.h
 //   directional  Phi = E0 pi R^2
-//   environment  Phi = L 4 pi pi R^2  (constant radiance from outside)
+//   environment  Phi = mean L 4 pi pi R^2  (radiance from outside, constant or environment_map.h)
 //
 // Power is the largest component of Phi [W]: no channel of a light is ever starved. A textured
 // triangle counts for at least a hundredth of what its brightest texel would make of it, so that no
@@ -80,7 +80,17 @@ class Emitters {
   size_t size() const { return emitters_.size(); }
   const Emitter& operator[](size_t i) const { return emitters_[i]; }
   const Distribution& byPower() const { return byPower_; }
-  Radiance environment() const { return environment_; }
+
+  // Radiance from outside, out of unit direction w.
+  Radiance environment(Vec3 w) const {
+    if (map_ == nullptr || isBlack(environment_)) return environment_;
+    return environment_ * map_->towards(w);
+  }
+  // Where the environment's light comes from, and the density of that [1/sr]. u in [0, 1)^2.
+  Vec3 sampleEnvironment(Vec2 u) const;
+  float environmentPdf(Vec3 w) const;
+  bool hasEnvironment() const { return !isBlack(environment_); }
+  Radiance environmentStrength() const { return environment_; }
 
   EmitterPoint pointAt(uint32_t emitter, Vec2 barycentrics) const;  // barycentrics of b and c
   // Entry of an emissive triangle, or -1.
@@ -107,7 +117,8 @@ class Emitters {
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> doubles_;  // (instance, triangle): its entry
   std::vector<ProfileSampling> profiles_;                      // one for each of the scene's
   Distribution byPower_;
-  Radiance environment_{0};
+  Radiance environment_{0};              // strength of the map, or all of it
+  const EnvironmentMap* map_ = nullptr;  // the scene's
 };
 
 }  // namespace ninefold

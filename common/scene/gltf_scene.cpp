@@ -57,12 +57,12 @@ DMat4 translation(DVec3 by) {
 
 class SceneBuilder {
  public:
-  SceneBuilder(const GltfFile& file, const SceneFolder& folder,
-               const std::optional<std::string>& clip)
+  SceneBuilder(const GltfFile& file, const SceneFolder& folder, const ReadOptions& options)
       : model_(file.model.get()),
         meshes_(file, draft_.scene),
         profiles_(file, folder, draft_.scene),
-        animations_(*model_, clip),
+        animations_(*model_, options.clip),
+        lightUnits_(options.lightUnits),
         seen_(model_->nodes.size(), 0) {}
 
   SceneDraft build();
@@ -88,12 +88,14 @@ class SceneBuilder {
   void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
   void addProfiled(const tinygltf::Node& node, const tinygltf::Value& use, const DMat4& toWorld);
   void keepLight(PunctualLight light, const DMat4& toWorld);
+  void applyLightUnits();
 
   const tinygltf::Model* model_;
   SceneDraft draft_;
   GltfMeshes meshes_;
   GltfProfiles profiles_;
   GltfAnimations animations_;
+  const LightUnits lightUnits_;
   std::vector<char> seen_;
   std::vector<Skinned> skinned_;
 };
@@ -155,6 +157,11 @@ SceneDraft SceneBuilder::build() {
     }
   }
   meshes_.warnOfLosses();
+  applyLightUnits();
+  if (model_->extensions.contains("EXT_lights_image_based"))
+    warn(
+        "EXT_lights_image_based is not read: its light from outside is missing; give a picture "
+        "with --environment FILE.hdr or .exr");
   draft_.scene.exposure = exposure();
   draft_.scene.animated = animations_.take();
   findDeformed();
@@ -245,7 +252,10 @@ void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {
     fail("camera {} does not exist", node.camera);
   const tinygltf::Camera& from = model_->cameras[static_cast<size_t>(node.camera)];
   if (from.type != "perspective") {
-    warn("camera '{}' is not perspective: left out", node.name);
+    warn(
+        "camera '{}' is not perspective: left out; one that is far away and has a narrow angle "
+        "looks nearly the same",
+        node.name);
     return;
   }
   Camera camera;
@@ -297,12 +307,26 @@ void SceneBuilder::keepLight(PunctualLight light, const DMat4& toWorld) {
   draft_.lightPositions.emplace_back(toWorld[3]);
 }
 
+// All lamps together, as one file has one unit.
+void SceneBuilder::applyLightUnits() {
+  std::vector<PunctualLight>& lights = draft_.scene.lights;
+  if (lights.empty()) return;
+  float brightest = 0;
+  for (const PunctualLight& light : lights)
+    brightest = std::max(brightest, maxComponent(light.intensity));
+  const LightReading reading =
+      readingOf(lightUnits_, model_->asset.generator, static_cast<double>(brightest));
+  reading.isDoubtful ? warn("{}", reading.line) : log("{}", reading.line);
+  if (!reading.isPhotometric) return;
+  for (PunctualLight& light : lights) light.intensity /= static_cast<float>(kLumensPerWatt);
+}
+
 }  // namespace
 
 SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder,
-                    const std::optional<std::string>& clip) {
+                    const ReadOptions& options) {
   const GltfFile parsed = parseGltf(file, folder);
-  return SceneBuilder(parsed, folder, clip).build();
+  return SceneBuilder(parsed, folder, options).build();
 }
 
 }  // namespace ninefold

@@ -4,18 +4,16 @@
 // Threads: reentrant.   Errors: throws Error.
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
 
+#include "common/scene/reader.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_folder.h"
 
 namespace ninefold {
 
 // `file`: content of a .gltf or .glb; `folder`: where its other files are.
-// `clip`: the animation that plays; the first if it is not named.
 SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder,
-                    const std::optional<std::string>& clip);
+                    const ReadOptions& options);
 
 }  // namespace ninefold

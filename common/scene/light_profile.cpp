@@ -23,7 +23,16 @@ Place placeIn(const std::vector<float>& angles, float x) {
   return {i, std::clamp(t, 0.0f, 1.0f)};
 }
 
-float between(float a, float b, float t) { return a + t * (b - a); }  // exact where a is b
+std::optional<ProfilePlace> placeAt(const LightProfile& p, float theta, float phi) {
+  if (!(theta >= p.vertical.front() && theta <= p.vertical.back())) return std::nullopt;
+  if (phi < 0) phi += 360;
+  const Place row = placeIn(p.vertical, theta), column = placeIn(p.horizontal, phi);
+  return ProfilePlace{row.i, column.i, row.t, column.t};
+}
+
+float valueAt(const LightProfile& p, const std::optional<ProfilePlace>& place) {
+  return place ? place->mix([&](size_t i, size_t j) { return p.at(i, j); }) : 0.0f;
+}
 
 void checkAscending(const std::vector<float>& angles, const std::string& what, const char* name) {
   if (angles.size() < 2) fail("{}: {} {} angles, must be two or more", what, angles.size(), name);
@@ -35,20 +44,19 @@ void checkAscending(const std::vector<float>& angles, const std::string& what, c
 }  // namespace
 
 float profileAt(const LightProfile& p, float theta, float phi) {
-  if (!(theta >= p.vertical.front() && theta <= p.vertical.back())) return 0;
-  if (phi < 0) phi += 360;
-  const Place row = placeIn(p.vertical, theta), column = placeIn(p.horizontal, phi);
-  const auto along = [&](size_t i) {
-    return between(p.at(i, column.i), p.at(i, column.i + 1), column.t);
-  };
-  return between(along(row.i), along(row.i + 1), row.t);
+  return valueAt(p, placeAt(p, theta, phi));
 }
 
-float profileTowards(const LightProfile& profile, Vec3 axis, Vec3 across, Vec3 w) {
+std::optional<ProfilePlace> placeTowards(const LightProfile& profile, Vec3 axis, Vec3 across,
+                                         Vec3 w) {
   const float x = glm::dot(w, across), y = glm::dot(w, glm::cross(across, axis));
   const float theta = std::atan2(std::sqrt(x * x + y * y), glm::dot(w, axis));
   constexpr auto kDegrees = static_cast<float>(1 / kDegree);
-  return profileAt(profile, kDegrees * theta, kDegrees * std::atan2(y, x));
+  return placeAt(profile, kDegrees * theta, kDegrees * std::atan2(y, x));
+}
+
+float profileTowards(const LightProfile& profile, Vec3 axis, Vec3 across, Vec3 w) {
+  return valueAt(profile, placeTowards(profile, axis, across, w));
 }
 
 // Differences of cosines and sines as products: narrow bands keep their digits.

@@ -21,6 +21,7 @@
 // Threads: plain data, pure functions.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,26 @@ struct LightProfile {
 // f at angles in degrees; phi in [-360, 360].
 float profileAt(const LightProfile& profile, float theta, float phi);
 
-// f towards unit w. axis, across: unit and perpendicular.
+// The cell of the table that holds a direction: between `row` and the next one, at share `down` of
+// the way, and likewise across.
+struct ProfilePlace {
+  size_t row = 0, column = 0;
+  float down = 0, along = 0;
+
+  // Exact where all four values are the same.
+  template <typename Value>
+  auto mix(const Value& value) const {
+    const auto between = [](auto a, auto b, float t) { return a + t * (b - a); };
+    return between(between(value(row, column), value(row, column + 1), along),
+                   between(value(row + 1, column), value(row + 1, column + 1), along), down);
+  }
+};
+
+// Towards unit w. axis, across: unit and perpendicular. Nothing at a theta that is not in the
+// table.
+std::optional<ProfilePlace> placeTowards(const LightProfile& profile, Vec3 axis, Vec3 across,
+                                         Vec3 w);
+// f there.
 float profileTowards(const LightProfile& profile, Vec3 axis, Vec3 across, Vec3 w);
 
 // Integral over theta of a value that goes straight from m0 at theta0 to m1 at theta1, times

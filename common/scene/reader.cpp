@@ -20,15 +20,16 @@ std::string lowerExtension(const std::filesystem::path& file) {
   return extension;
 }
 
-SceneDraft readDraft(const std::filesystem::path& file, const std::optional<std::string>& clip) {
+SceneDraft readDraft(const std::filesystem::path& file, const ReadOptions& options) {
   const std::string extension = lowerExtension(file);
   const bool gltf = extension == ".gltf" || extension == ".glb";
   if (!gltf && extension != ".obj")
     fail("not a scene that can be read: .gltf, .glb and .obj are known");
   const std::vector<unsigned char> bytes = readRegularFile(file, kMaxFileBytes);
   const SceneFolder folder(file);
-  if (!gltf && clip) fail("an .obj file has no animation, so --clip {} names none", *clip);
-  return gltf ? readGltf(bytes, folder, clip) : readObj(bytes, folder);
+  if (!gltf && options.clip)
+    fail("an .obj file has no animation, so --clip {} names none", *options.clip);
+  return gltf ? readGltf(bytes, folder, options) : readObj(bytes, folder);
 }
 
 // Names inside a scene file may hold anything; a message stays one line.
@@ -38,16 +39,30 @@ std::string oneLine(std::string text) {
   return text;
 }
 
-}  // namespace
+// Its messages name the picture's file.
+void addEnvironment(const EnvironmentSource& source, Scene& scene) {
+  scene.environmentMap = readEnvironment(source);
+  if (scene.environmentMap) scene.environment = Radiance(strengthOf(source));
+}
 
-Scene readScene(const std::filesystem::path& file, const std::optional<std::string>& clip) try {
-  Scene scene = finishScene(readDraft(file, clip));
+Scene readFile(const std::filesystem::path& file, const ReadOptions& options) try {
+  SceneDraft draft = readDraft(file, options);
+  const bool isLit = !std::holds_alternative<std::monostate>(options.environment);
+  Scene scene = finishScene(std::move(draft), isLit);
   scene.name = file.stem().string();
   return scene;
 } catch (const Error& e) {
   fail("{}: {}", file.string(), oneLine(e.what()));
 } catch (const std::bad_alloc&) {
   fail("{}: not enough memory for this scene: simplify it", file.string());
+}
+
+}  // namespace
+
+Scene readScene(const std::filesystem::path& file, const ReadOptions& options) {
+  Scene scene = readFile(file, options);
+  addEnvironment(options.environment, scene);
+  return scene;
 }
 
 }  // namespace ninefold

@@ -15,6 +15,8 @@
 #include <optional>
 #include <string>
 
+#include "common/scene/environment_file.h"
+#include "common/scene/light_units.h"
 #include "common/scene/scene.h"
 
 namespace ninefold {
@@ -26,9 +28,14 @@ inline constexpr uint64_t kMaxImageSide = 16384;
 inline constexpr uint64_t kMaxFileBytes = 4ull << 30;
 inline constexpr uint64_t kMaxInstances = 1'000'000;
 
-// `clip`: which of the file's animations plays; the first if it is not named.
-Scene readScene(const std::filesystem::path& file,
-                const std::optional<std::string>& clip = std::nullopt);
+// How a file is to be read.
+struct ReadOptions {
+  std::optional<std::string> clip = {};  // which of its animations plays; nothing: the first
+  LightUnits lightUnits = LightUnits::automatic;
+  EnvironmentSource environment = {};  // instead of the scene's own
+};
+
+Scene readScene(const std::filesystem::path& file, const ReadOptions& options = {});
 
 // The checks that every scene passes, from a file or from the wire. Throws Error.
 void validate(const Scene& scene);

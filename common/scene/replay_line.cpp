@@ -12,11 +12,16 @@ namespace {
 
 // " --NAME VALUE", if the setting has a flag of its own.
 template <typename T>
-std::string flagOf(const Setting<T>& row, const T& value) {
+std::string flagOf(const Scene&, const Setting<T>& row, const T& value) {
   return row.value == nullptr ? "" : fmt::format(" --{} {}", row.name, textOf(value));
 }
 
-std::string flagOf(const Setting<Camera>&, const Camera&) { return ""; }
+std::string flagOf(const Scene&, const Setting<Camera>&, const Camera&) { return ""; }
+
+std::string flagOf(const Scene& scene, const Setting<Radiance>& row, const Radiance& value) {
+  if (scene.environmentMap) return " " + scene.environmentMap->picture().name;
+  return fmt::format(" --{} {}", row.name, textOf(value));
+}
 
 // A camera of the scene by its number: that is exact.
 std::string cameraOf(const Scene& scene, const Camera& camera) {
@@ -43,7 +48,7 @@ std::string replayLine(const Scene& scene, const Settings& s, const FrameKey& fr
       s.height, cameraOf(scene, s.camera), lightCamerasOf(scene, frame),
       s.compensate ? "" : " --preset paper");
   forEachSetting([&](const auto& row) {
-    if (row.isUsedBy(s.method)) line += flagOf(row, s.*row.member);
+    if (row.isUsedBy(s.method)) line += flagOf(scene, row, s.*row.member);
   });
   if (!scene.photonInstances.empty() && factsOf(s.method).has(kMapPhotons))
     line += " --photon-scene FILE";

@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,6 +22,7 @@
 #include "common/math/camera.h"
 #include "common/math/units.h"
 #include "common/scene/animated_node.h"
+#include "common/scene/environment_map.h"
 #include "common/scene/light_profile.h"
 
 namespace ninefold {
@@ -114,8 +116,8 @@ struct Instance {
 
 enum class LightKind : uint8_t { point, spot, directional, goniometric };
 
-// Punctual lights: no surface, so nothing ever hits them. Candela and lux of files are read as W/sr
-// and W/m^2.
+// Punctual lights: no surface, so nothing ever hits them. light_units.h tells what candela and lux
+// of files become.
 struct PunctualLight {
   std::string name;
   LightKind kind = LightKind::point;
@@ -139,10 +141,11 @@ struct Scene {
   std::vector<Camera> cameras;        // at least one after reading
   SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
   std::string deformed;               // the first object whose shape the animation changes
-  Radiance environment{0};            // constant radiance from outside
-  std::optional<float> exposure;      // [EV] that it is meant to be shown with; not on the wire
-  DVec3 origin{0};                    // file coordinates = scene coordinates + origin
-  Bounds bounds;                      // of all instances, in scene coordinates
+  Radiance environment{0};            // from outside; times the map's values, if there is one
+  std::shared_ptr<const EnvironmentMap> environmentMap;  // null: the same from all directions
+  std::optional<float> exposure;  // [EV] that it is meant to be shown with; not on the wire
+  DVec3 origin{0};                // file coordinates = scene coordinates + origin
+  Bounds bounds;                  // of all instances, in scene coordinates
 };
 
 }  // namespace ninefold

@@ -71,7 +71,7 @@ Camera framingCamera(const Bounds& bounds) {
   return camera;
 }
 
-Scene finishScene(SceneDraft draft) {
+Scene finishScene(SceneDraft draft, bool isLit) {
   Scene& scene = draft.scene;
   if (draft.flatInstances > 0)
     warn("{} objects that are scaled to nothing are left out", draft.flatInstances);
@@ -85,7 +85,7 @@ Scene finishScene(SceneDraft draft) {
   }
   validate(scene);
   keepTexelRanges(scene);
-  if (!Emitters::anyIn(scene)) {
+  if (!isLit && !Emitters::anyIn(scene)) {
     warn("no light in the file: a white environment of radiance 1 lights it");
     scene.environment = Radiance(1);
   }

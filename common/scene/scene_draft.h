@@ -23,8 +23,9 @@ struct SceneDraft {
   size_t flatInstances = 0;  // left out
 };
 
-// Throws Error if there is no geometry or anything is out of bounds.
-Scene finishScene(SceneDraft draft);
+// Throws Error if there is no geometry or anything is out of bounds. isLit: light comes from
+// outside the file.
+Scene finishScene(SceneDraft draft, bool isLit = false);
 
 // A camera that sees all of the bounds: from +z, or from above where the scene is flat. Vertical
 // field of view 40 degrees; fits images at least as wide as high.

@@ -99,7 +99,8 @@ inline constexpr std::tuple kSettings{
                  .high = 1000,
                  .value = "R",
                  .help = "candidates for each virtual light that is kept, {0} to {1}; few of them "
-                         "for small pictures",
+                         "for small pictures. At rest a fifth of them, and half of the "
+                         "camera points, where a look at the view says that it does as well",
                  .parts = kReverseVpls,
                  .slider = {"candidates", 1, 50}},
     Setting<int>{.name = "camera-points",
@@ -320,9 +321,10 @@ inline constexpr std::tuple kSettings{
                       .low = 0,
                       .high = 1e6,
                       .unit = "W/(m^2 sr)",
-                      .value = "none|COLOR",
-                      .help = "light from outside, R,G,B or one number [W/(m^2 sr)] (default none; "
-                              "white 1, with a warning, if the scene has no light at all)"},
+                      .value = "none|COLOR|FILE",
+                      .help = "light from outside: R,G,B or one number [W/(m^2 sr)], or a picture "
+                              "of all directions, FILE.hdr|.exr[:ROTATION[:STRENGTH]] (default "
+                              "none; white 1, with a warning, if the scene has no light at all)"},
     Setting<Randomization>{
         .name = "randomization",
         .member = &Settings::randomization,

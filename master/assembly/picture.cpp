@@ -1,5 +1,6 @@
 #include "master/assembly/picture.h"
 
+#include "common/base/log.h"
 #include "common/image/auto_exposure.h"
 #include "common/sampling/whole_tile.h"
 
@@ -103,10 +104,18 @@ void PictureMaker::write(const std::string& path, const Metadata& metadata) cons
   if (guides_) denoise(mean, film_.standardError(), guides_->guides(), setup_.workers);
   if (setup_.view == PictureView::error)
     paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
-  float exposure = 0;
-  if (!isFalseColor(setup_.view))
-    exposure = setup_.exposure ? *setup_.exposure : autoExposure(mean);
-  writeImage(path, {mean, extraChannels(), metadata}, ToneMap(exposure));
+  Tone tone;
+  if (path.ends_with(".png") && !isFalseColor(setup_.view))
+    tone = {setup_.exposure ? *setup_.exposure : exposureByPicture(mean), setup_.curve};
+  writeImage(path, {mean, extraChannels(), metadata}, ToneMap(tone));
+}
+
+float exposureByPicture(const RgbImage& radiance) {
+  const float ev = autoExposure(radiance);
+  log("exposure {:+.1f} EV, by the picture; --exposure {:.1f} says the same, --exposure 0 leaves "
+      "light as it is",
+      ev, ev);
+  return ev;
 }
 
 }  // namespace ninefold

@@ -30,7 +30,8 @@ class PictureMaker {
     PictureView view = PictureView::beauty;
     float depthScale = 1;  // [m], see view.h
     SurfaceTest surfaceTest = SurfaceTest::surface;
-    std::optional<float> exposure;  // [EV]; none: auto_exposure.h
+    std::optional<float> exposure;  // [EV] of a .png; none: exposureByPicture
+    ToneCurve curve = ToneCurve::srgb;
     int workers = 1;
     bool denoise = false;  // what is written, where layers came and the view is light
   };
@@ -56,6 +57,9 @@ class PictureMaker {
   std::optional<AovFilm> aovs_;      // if extra layers are wanted
   std::optional<GuideFilm> guides_;  // if what is written is denoised
 };
+
+// Exposure of a picture of light by itself (auto_exposure.h) [EV]. A line in the log says it.
+float exposureByPicture(const RgbImage& radiance);
 
 // A tile of the next frame onto the film: unfiltered and filtered, if it keeps both, else beauty.
 void addTile(Film& film, const FilterDesk& desk, const TaskRect& rect);

@@ -12,7 +12,7 @@ void RestTouch::begin(const TileGrid& grid, bool isFirst) {
     guides_.emplace(width_, height_);
 }
 
-void RestTouch::show(const Film& film, const RgbImage& mean, float exposure, bool isLast,
+void RestTouch::show(const Film& film, const RgbImage& mean, const ToneMap& toneMap, bool isLast,
                      int threads, const std::stop_token& stop, DisplayImage& codes) {
   const int64_t frames = film.frames();
   if (frames < 2 || guides_->frames() != frames) return;
@@ -22,7 +22,7 @@ void RestTouch::show(const Film& film, const RgbImage& mean, float exposure, boo
     if (!denoise(touched_, film.standardError(), guides_->guides(), threads, stop)) return;
     frames_ = frames;
   }
-  if (frames_ > 0) ToneMap(exposure).apply(touched_, codes);
+  if (frames_ > 0) toneMap.apply(touched_, codes);
 }
 
 }  // namespace ninefold

@@ -28,8 +28,8 @@ class RestTouch {
   void frameDone() { guides_->frameDone(); }
   // After the film's frame is done. mean: the film's. isLast: no further frame will be seen. Leaves
   // the codes alone where there is nothing to touch, or when it is stopped.
-  void show(const Film& film, const RgbImage& mean, float exposure, bool isLast, int threads,
-            const std::stop_token& stop, DisplayImage& codes);
+  void show(const Film& film, const RgbImage& mean, const ToneMap& toneMap, bool isLast,
+            int threads, const std::stop_token& stop, DisplayImage& codes);
 
  private:
   std::optional<GuideFilm> guides_;

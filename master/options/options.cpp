@@ -34,22 +34,36 @@ void applyPreset(Options& o) {
   o.converging = false;
 }
 
+// Light from outside.
+void readOutside(const RawOptions& raw, Options& o) {
+  const auto environment = raw.text("environment"), sky = raw.text("sky");
+  if (environment && sky) failUsage("--environment and --sky exclude each other");
+  if (sky) o.reading.environment = parseSky(*sky);
+  if (!environment) return;
+  if (namesPicture(*environment))
+    o.reading.environment = parseEnvironmentFile(*environment);
+  else
+    o.environment = o.settings.environment;
+}
+
 void readPicture(const RawOptions& raw, Options& o) {
   if (const auto size = raw.text("size"))
     std::tie(o.settings.width, o.settings.height) = parseSize(*size);
   readSettings(raw, o.settings);
-  if (raw.has("environment")) o.environment = o.settings.environment;
+  readOutside(raw, o);
   try {
     checkTogether(o.settings);
   } catch (const Error& error) {
     throw UsageError(error.what());
   }
   o.camera = raw.text("camera").value_or("");
+  assign(o.reading.lightUnits, raw.choice("light-units", kLightUnitsNames));
   assign(o.surfaceTest, raw.choice("filter", std::array{"none", "paper", "surface"}));
   o.autoExposure = raw.text("exposure") == "auto";
   if (!o.autoExposure)
     if (const auto ev = raw.real("exposure", -double{kMostExposure}, double{kMostExposure}))
       o.exposure = static_cast<float>(*ev);
+  assign(o.toneCurve, raw.choice("tone-map", kToneCurveNames));
   o.aovs = raw.isOn("aovs");
   if (const auto touch = raw.choice("denoise", std::array{"off", "on"})) o.denoise = *touch == 1;
   if (o.denoise == true && factsOf(o.settings.method).isUnfiltered)
@@ -72,10 +86,18 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
   assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
+  o.addressFile = raw.text("address-file");
+  o.hosts = raw.text("hosts");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = raw.choice("isa", kIsas)) o.isa = kIsas[*isa];
   o.listen = raw.text("listen").value_or(o.listen);
-  if (!isLoopback(parseAddress(o.listen, "--listen").host) && !o.keyFile)
+  const bool isHere = isLoopback(parseAddress(o.listen, "--listen").host);
+  if (isHere && o.hosts)
+    failUsage(
+        "--hosts {} needs --listen ADDR:PORT where they reach this machine, for example "
+        "0.0.0.0:4700",
+        *o.hosts);
+  if (!isHere && !o.keyFile)
     failUsage(
         "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
         "ninefold-master --new-key FILE",
@@ -139,7 +161,7 @@ void readServe(const RawOptions& raw, Options& o) {
 void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
-  o.clip = raw.text("clip");
+  o.reading.clip = raw.text("clip");
   o.photonScene = raw.text("photon-scene");
   readAnimation(raw, o);
   if (o.photonScene && !isLive(o) && !factsOf(o.settings.method).has(kMapPhotons))
@@ -163,9 +185,12 @@ void readLive(const RawOptions& raw, Options& o) {
 
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
+  o.outputEvery = raw.real("output-every", 0.1, kMaxSeconds);
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !isWatched(o))
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
+  if (o.outputEvery && (!o.output || isLive(o)))
+    failUsage("--output-every is for --output without --window, --serve, --script and --animate");
   if (o.animate && !isWatched(o) && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;

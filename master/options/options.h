@@ -17,7 +17,7 @@
 #include "common/base/command_line.h"
 #include "common/image/surface_test.h"
 #include "common/scene/methods.h"
-#include "common/scene/scene.h"
+#include "common/scene/reader.h"
 #include "common/scene/settings.h"
 #include "master/assembly/view.h"
 #include "master/options/preset.h"
@@ -32,8 +32,9 @@ struct Options {
   bool version = false;               // print the release and end; nothing else counts
   std::optional<std::string> newKey;  // make this key file and end; nothing else counts
 
-  std::string scene;   // file
-  std::string camera;  // see scene/camera_choice.h; empty: the scene's first
+  std::string scene;    // file
+  ReadOptions reading;  // of it
+  std::string camera;   // see scene/camera_choice.h; empty: the scene's first
   Preset preset = Preset::interactive;
   Settings settings;                    // camera and environment are the scene's: makeSettings
   std::optional<Radiance> environment;  // nothing: the scene's
@@ -46,6 +47,8 @@ struct Options {
   int clientThreads = 1;
   std::string listen = "127.0.0.1:0";  // ADDR:PORT
   std::optional<std::string> keyFile;
+  std::optional<std::string> addressFile;  // gets the addresses at which it listens
+  std::optional<std::string> hosts;        // file: where ssh starts clients
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
   double patience = 120;     // unless somebody looks on, with clients that are all stuck [s]
@@ -54,7 +57,6 @@ struct Options {
   std::optional<std::string> script;       // file
   std::optional<AnimationRange> animate;   // then stop.frames is for each picture
   std::optional<std::string> photonScene;  // file; nothing: photons meet the scene itself
-  std::optional<std::string> clip;         // of the scene file's animations; nothing: the first
   PictureView view = PictureView::beauty;
   double frameTime = 100;          // target while something moves [ms]
   std::optional<double> stepTime;  // of a step of a state, then [ms]; nothing: half of frameTime
@@ -62,10 +64,12 @@ struct Options {
   StopRule stop;  // 64 frames if no flag says otherwise
 
   std::optional<std::string> output;  // .exr, .png or .hdr
+  std::optional<double> outputEvery;  // also before the end [s]
   bool aovs = false;
   std::optional<bool> denoise;    // nothing: as denoises() says
-  std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0
-  bool autoExposure = false;      // instead: auto_exposure.h
+  std::optional<float> exposure;  // [EV]; nothing: the scene's, or by the picture
+  bool autoExposure = false;      // by the picture, whatever the scene says
+  ToneCurve toneCurve = ToneCurve::srgb;
   std::optional<std::string> stats;
 
   std::optional<std::string> serve;                       // ADDR:PORT for browsers

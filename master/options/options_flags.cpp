@@ -26,10 +26,20 @@ struct Flag {
 constexpr Flag kPicture[] = {
     {"camera", "NAME|INDEX|SPEC",
      "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
+    {"sky", "A:E[:T]",
+     "light from outside: a clear sky and its sun at azimuth A (0 to 360, clockwise from north, "
+     "-z) and elevation E (0 to 90), turbidity T (2 clear to 10 hazy; default 3)"},
+    {"light-units", "NAME",
+     "what a glTF file's candela and lux are: radiometric (1 cd is 1 W/sr), photometric (683 cd "
+     "are), or auto, by who wrote the file (default auto; docs/light-units.md)"},
     {"exposure", "EV|auto",
-     "brightness of .png files and of what is looked at, -50 to 50, or by the picture itself "
-     "(default: "
-     "what the scene says, else 0)"},
+     "brightness of .png files and of what is looked at, -50 to 50, or by the first picture "
+     "itself, held "
+     "from then on (default: what the scene says, else auto)"},
+    {"tone-map", "NAME",
+     "how light becomes the colours of .png files and of what is looked at: srgb (as it is, lamps "
+     "rolled "
+     "off), filmic or agx (default srgb; common/image/tone_map.h)"},
     {"denoise", "off|on",
      "a last touch of filtering, by no more than a pixel's standard error (default: on in the "
      "window and for .png, else off; off for path tracing, paper and --filter-at clients)"},
@@ -86,6 +96,10 @@ constexpr Flag kCluster[] = {
     {"listen", "ADDR:PORT",
      "where clients connect; port 0 takes a free one and prints it; 0.0.0.0:4700 for a LAN "
      "(default 127.0.0.1:0)"},
+    {"address-file", "FILE",
+     "write there where the master listens, ADDR:PORT lines, for --master-file of clients"},
+    {"hosts", "FILE",
+     "start a client on each of these machines by ssh, HOST [PROGRAM] a line, again when it ends"},
     {"key-file", "FILE", "cluster key; needed to listen beyond this machine"},
     {"new-key", "FILE", "make a cluster key and end"},
     {"wait-clients", "N", "do not start before N clients are ready (default 1)"},
@@ -102,6 +116,9 @@ constexpr Flag kCluster[] = {
 };
 constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
+    {"output-every", "S",
+     "write it after the first frame, too, and then every S seconds, 0.1 or more, as far as it has "
+     "converged"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
     {"stats", "FILE", "what happened, as JSON; - is standard output"},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/scene/environment_file.h"
 #include "common/scene/settings_table.h"
 #include "master/options/preset.h"
 
@@ -56,6 +57,7 @@ void read(const RawOptions& raw, const Setting<Radiance>& row, Radiance& to) {
   const auto text = raw.text(row.name);
   if (!text) return;
   if (*text == "none") return void(to = Radiance(0));
+  if (namesPicture(*text)) return;  // it is the scene's
   std::vector<double> c = parseNumbers(row.name, *text);
   if (c.size() == 1) c = {c[0], c[0], c[0]};
   if (c.size() != 3) failUsage("--{} {}: write none, R,G,B or one number", row.name, *text);

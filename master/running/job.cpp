@@ -27,7 +27,7 @@ std::string hashOf(const std::vector<Blob>& blobs) {
 
 std::string candidatesOf(const Settings& s) {
   if (!factsOf(s.method).has(kReverseVpls)) return "";
-  return fmt::format(" ({} candidates for each, chosen by {} camera points)", s.resampling,
+  return fmt::format(" (up to {} candidates for each, chosen by {} camera points)", s.resampling,
                      s.cameraPoints);
 }
 
@@ -59,7 +59,7 @@ void tellPhotonScene(const Options& options, const Scene& scene) {
 
 Job makeJob(const Options& options) {
   Job job;
-  auto read = std::make_shared<const Scene>(readScene(options.scene, options.clip));
+  auto read = std::make_shared<const Scene>(readScene(options.scene, options.reading));
   const Scene& scene = *read;
   job.settings = settingsFor(isLive(options) ? PictureView::beauty : options.view,
                              makeSettings(options, scene));
@@ -77,7 +77,7 @@ Job makeJob(const Options& options) {
                   : FrameShape{grid, layerMaskOf(job.needs, job.settings.method),
                                extraPlanes(options, job.needs)};
   job.sceneRadius = scene.bounds.radius();
-  job.exposure = options.exposure.value_or(scene.exposure.value_or(0));
+  job.exposure = options.autoExposure || options.exposure ? options.exposure : scene.exposure;
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
   std::vector<Blob> blobs = packScene(withPhotonScene(scene, options.photonScene));
   job.sceneHash = hashOf(blobs);

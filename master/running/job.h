@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "common/image/patch.h"
 #include "common/scene/needs.h"
@@ -17,12 +18,12 @@ namespace ninefold {
 struct Job {
   Settings settings;
   Needs needs;
-  Delivery delivery;             // of headless runs, and of live ones that begin at rest
-  FrameShape shape;              // of what clients send then
-  Metres firstPhotonRadius = 0;  // [m]
-  Metres sceneRadius = 0;        // R [m]
-  float exposure = 0;            // [EV], unless options.autoExposure
-  std::string sceneHash;         // SHA-256 over the names of its blobs
+  Delivery delivery;              // of headless runs, and of live ones that begin at rest
+  FrameShape shape;               // of what clients send then
+  Metres firstPhotonRadius = 0;   // [m]
+  Metres sceneRadius = 0;         // R [m]
+  std::optional<float> exposure;  // [EV]; nothing: by the picture
+  std::string sceneHash;          // SHA-256 over the names of its blobs
   std::unique_ptr<JobOffer> offer;
   std::shared_ptr<const Scene> scene;  // kept if isLive(options)
 };

@@ -19,7 +19,7 @@ struct PickPlanes {
 struct LiveImage {
   int width = 0, height = 0;
   RgbImage radiance;     // empty if clients sent codes
-  float exposure = 0;    // [EV] of `display`
+  Tone tone;             // of `display`
   DisplayImage display;  // of the radiance; empty if nobody looks
   // Of the frame, or of an earlier one at rest, which shows the same; null if neither carried them.
   std::shared_ptr<const PickPlanes> picks;

@@ -57,7 +57,7 @@ void LivePicture::takeImage(const FrameShape& shape, bool isFirst) {
   const bool coded = shape.layerMask == kDisplayMask;
   image_->width = width, image_->height = height;
   image_->radiance.reshape(coded ? 0 : width, coded ? 0 : height);
-  image_->exposure = look_.exposure.value_or(0);
+  image_->tone = look_.tone();
   image_->display.reshape(look_.exposure ? width : 0, look_.exposure ? height : 0);
   if (hasPicks(shape)) {
     picks_ = std::make_shared<PickPlanes>();
@@ -131,7 +131,7 @@ void LivePicture::copyTile(const TaskRect& tile, const RgbImage& beauty) {
 }
 
 void LivePicture::toneMap(const TaskRect& tile) {
-  const ToneMap map(*look_.exposure);
+  const ToneMap map(look_.tone());
   for (int y = tile.j0; y < tile.j0 + tile.height; ++y) {
     const size_t first = image_->at(tile.i0, y);
     map.apply(image_->radiance.pixels, first, static_cast<size_t>(tile.width),
@@ -167,7 +167,7 @@ void LivePicture::showWholeMean() {
 void LivePicture::touchUp(const std::stop_token& stop) {
   touch_.frameDone();
   if (!look_.exposure || !isLight(look_.view)) return;
-  touch_.show(light_.film(), image_->radiance, *look_.exposure, setup_.frames == frames(),
+  touch_.show(light_.film(), image_->radiance, ToneMap(look_.tone()), setup_.frames == frames(),
               setup_.workers, stop, image_->display);
 }
 

@@ -34,6 +34,9 @@ struct LiveLook {
   std::optional<float> exposure;  // [EV] of the tone map; none: nobody looks at codes
   FilmKeeps keeps = {};           // of the light at rest; changes at a rest's beginning
   bool denoise = false;  // codes of light at rest get the last touch (rest_touch.h); as keeps
+  ToneCurve curve = ToneCurve::srgb;
+
+  Tone tone() const { return {exposure.value_or(0), curve}; }
 };
 
 class LivePicture {

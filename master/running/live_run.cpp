@@ -123,9 +123,9 @@ void LiveRun::setTarget(Duration target) {
   plan_.setTarget(target);
 }
 
-void LiveRun::setExposure(float exposure) {
+void LiveRun::setTone(const Tone& tone) {
   const std::lock_guard lock(mutex_);
-  pace_.exposure = exposure;
+  pace_.exposure = tone.exposure, pace_.curve = tone.curve;
   setDelivery();
 }
 
@@ -172,7 +172,9 @@ LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
   look.keeps.twoRadii = options_.converging && usesPhotons(needs_, settings);
   if (sharesNeighbours(options_, settings.method, PictureView::beauty))
     look.keeps.pattern = settings.interleave;
-  if (look.exposure && isFalseColor(view_)) look.exposure = 0;
+  const bool isLightShown = !isFalseColor(view_);
+  if (look.exposure && !isLightShown) look.exposure = 0;
+  if (isLightShown) look.curve = pace_.curve;
   const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
   if (!isSeen) look.exposure.reset();
   return look;
@@ -187,7 +189,7 @@ Delivery LiveRun::delivery(bool summedUp) const {
   d.form = !whole                                           ? Form::layers
            : !summedUp && pace_.codesOnly && pace_.exposure ? Form::display
                                                             : Form::radiance;
-  if (d.form == Form::display) d.exposure = *pace_.exposure;
+  if (d.form == Form::display) d.exposure = *pace_.exposure, d.curve = pace_.curve;
   return d;
 }
 

@@ -49,6 +49,7 @@ class LiveRun {
     Duration target = milliseconds(100);  // of frames in motion
     bool motion = true;                   // false: every state is rendered as if it rested
     std::optional<float> exposure = {};   // [EV]: somebody looks at codes; none: at radiance only
+    ToneCurve curve = ToneCurve::srgb;    // of codes
     bool codesOnly = false;               // and at nothing else, unless frames are summed up
     std::optional<int64_t> frames = {};   // of a picture at rest, at most
     bool person = false;                  // somebody may click, and look at its error, at any time
@@ -64,9 +65,9 @@ class LiveRun {
   void setSettings(const Settings& settings);
   void setCamera(const Camera& camera);
   void setView(PictureView view);
-  void wantPicks(bool on);           // in motion, too, from now on
-  void setTarget(Duration target);   // of frames in motion
-  void setExposure(float exposure);  // [EV] of the codes of frames from now on
+  void wantPicks(bool on);          // in motion, too, from now on
+  void setTarget(Duration target);  // of frames in motion
+  void setTone(const Tone& tone);   // of the codes of frames from now on
   // Needs checkEdit.
   void edit(const SceneEdit& edit);
 

@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "common/base/log.h"
-#include "common/image/auto_exposure.h"
 #include "common/image/image_file.h"
+#include "master/assembly/picture.h"
 #include "master/options/numbered_name.h"
 #include "master/output/output_files.h"
 #include "master/output/stats.h"
@@ -28,8 +28,9 @@ constexpr Duration kStep = milliseconds(4);   // between two looks at the script
 // An exposure that is not known yet is made of radiance.
 LiveRun::Pace paceOf(const Options& options, const Job& job, const Script& script) {
   LiveRun::Pace pace{fromSeconds(1e-3 * options.frameTime), !script.rate};
-  pace.codesOnly = wantsCodesOnly(options) && !options.autoExposure;
+  pace.codesOnly = wantsCodesOnly(options) && job.exposure;
   if (pace.codesOnly) pace.exposure = job.exposure;
+  pace.curve = options.toneCurve;
   if (script.rate) pace.frames = script.frames;
   return pace;
 }
@@ -155,7 +156,7 @@ class ScriptRun {
   }
 
   void write(const std::string& path, const Shown& shown) {
-    if (path.ends_with(".png") && options_.autoExposure)
+    if (path.ends_with(".png") && !job_.exposure)
       writeExposed(path, shown);
     else if (path.ends_with(".png"))
       writePng(path, shown.image->display);
@@ -165,14 +166,18 @@ class ScriptRun {
 
   // By the first picture for all, so that nothing flickers.
   void writeExposed(const std::string& path, const Shown& shown) {
-    if (!exposure_) exposure_ = isFalseColor(shown.view) ? 0 : autoExposure(shown.image->radiance);
+    Tone tone;
+    if (!isFalseColor(shown.view)) {
+      if (!exposure_) exposure_ = exposureByPicture(shown.image->radiance);
+      tone = {*exposure_, options_.toneCurve};
+    }
     DisplayImage codes;
-    ToneMap(*exposure_).apply(shown.image->radiance, codes);
+    ToneMap(tone).apply(shown.image->radiance, codes);
     writePng(path, codes);
   }
 
   const Options& options_;
-  std::optional<float> exposure_;  // of options_.autoExposure
+  std::optional<float> exposure_;  // [EV] by the first picture, if the job has none
   Job job_;
   ScriptPlayer player_;
   std::mutex mutex_;

@@ -32,7 +32,7 @@ struct PanelView {
   std::vector<std::string> needs;
   Settings settings;
   PictureView view = PictureView::beauty;
-  float exposure = 0;  // [EV]
+  Tone tone;
   bool autoExposure = false;
   float target = 100;  // frame time in motion [ms]
   double speed = 0;    // of flying [m/s]
@@ -50,6 +50,7 @@ struct PanelChanges {
   std::optional<Settings> settings;
   std::optional<PictureView> view;
   std::optional<float> exposure, target;  // [EV], [ms]
+  std::optional<ToneCurve> curve;
   std::optional<bool> autoExposure;
   std::optional<float> verticalFov;  // [rad]
   std::optional<MaterialEdit> material;

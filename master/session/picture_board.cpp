@@ -46,12 +46,12 @@ void PictureBoard::count(uint64_t tasks) {
   raysThen_ = rays, tasksThen_ = tasks, ratesAt_ = shown_->completed;
 }
 
-float PictureBoard::exposureShown() const { return isFalseColor(shown_->view) ? 0 : exposure_; }
+Tone PictureBoard::toneShown() const { return isFalseColor(shown_->view) ? Tone{} : tone_; }
 
 const DisplayImage* PictureBoard::draw(const Scene& scene,
                                        const std::optional<Selection>& selection) {
   if (!shown_) return nullptr;
-  Drawn now{shown_.get(), exposureShown(), selection};
+  Drawn now{shown_.get(), toneShown(), selection};
   if (now == drawn_) return nullptr;
   drawn_ = std::move(now);
   const DisplayImage& codes = display();
@@ -61,12 +61,12 @@ const DisplayImage* PictureBoard::draw(const Scene& scene,
   return &outlined_;
 }
 
-// The workers made the codes with the picture. They are made anew only if the exposure has changed
-// since. Codes from clients stay: the next frame is at hand.
+// The workers made the codes with the picture. They are made anew only if exposure or curve have
+// changed since. Codes from clients stay: the next frame is at hand.
 const DisplayImage& PictureBoard::display() {
   const LiveImage& image = *shown_->image;
-  if (image.exposure == exposureShown() || image.radiance.count() == 0) return image.display;
-  ToneMap(exposureShown()).apply(image.radiance, exposed_);
+  if (image.tone == toneShown() || image.radiance.count() == 0) return image.display;
+  ToneMap(toneShown()).apply(image.radiance, exposed_);
   return exposed_;
 }
 
@@ -96,7 +96,7 @@ void PictureBoard::tell(PanelView& view) const {
   view.shown = shown_.get();
   view.frameTimes = frameTimes_;
   view.raysPerSecond = raysPerSecond_, view.tasksPerSecond = tasksPerSecond_;
-  view.exposure = exposure_;
+  view.tone = tone_;
   view.recording = recording_;
 }
 

@@ -1,7 +1,8 @@
 // picture_board.h: the latest picture of a session: as it is shown, in files, in the panel's
 // numbers.
 //
-// Pictures come tone mapped; one is mapped anew only when the exposure changes while it is shown.
+// Pictures come tone mapped; one is mapped anew only when the exposure or the curve changes while
+// it is shown.
 // Files are ninefold.NNNN and, while it records, record.NNNN in the working folder, with numbers
 // that no file has.
 // Threads: the main thread.   Errors: one line for what cannot be written; that ends a recording.
@@ -20,7 +21,7 @@ namespace ninefold {
 
 class PictureBoard {
  public:
-  PictureBoard(float exposure, Notice& notice) : notice_(notice), exposure_(exposure) {}
+  explicit PictureBoard(Notice& notice) : notice_(notice) {}
 
   // The run's latest picture; `tasks`: that the cluster has done so far. False if it is known.
   bool take(const std::shared_ptr<const Shown>& latest, uint64_t tasks);
@@ -29,8 +30,8 @@ class PictureBoard {
 
   const DisplayImage& display();                       // needs a picture
   const Shown* shown() const { return shown_.get(); }  // null before the first
-  float exposure() const { return exposure_; }         // [EV]
-  void expose(float exposure) { exposure_ = exposure; }
+  const Tone& tone() const { return tone_; }
+  void setTone(const Tone& tone) { tone_ = tone; }
   void toggleRecording() { recording_ = !recording_; }
   // Into the next file with that extension. Radiance waits for a picture that has it.
   void save(const std::string& extension);
@@ -40,14 +41,14 @@ class PictureBoard {
 
  private:
   void count(uint64_t tasks);
-  float exposureShown() const;
+  Tone toneShown() const;
 
   Notice& notice_;
   std::shared_ptr<const Shown> shown_;
-  float exposure_;
+  Tone tone_;
   struct Drawn {
     const Shown* shown = nullptr;
-    float exposure = 0;
+    Tone tone;
     std::optional<Selection> selection;
     bool operator==(const Drawn&) const = default;
   };

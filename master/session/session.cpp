@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "common/base/log.h"
-#include "common/image/auto_exposure.h"
 #include "common/scene/camera_choice.h"
+#include "master/assembly/picture.h"
 #include "master/output/run_record.h"
 #include "master/output/stats.h"
 #include "master/running/cluster_setup.h"
@@ -17,11 +17,10 @@ Session::Session(const Options& options, Notice& notice, std::function<void()> w
       wake_(std::move(wake)),
       loading_(std::async(std::launch::async, [&options] { return makeJob(options); })),
       input_(Clock::now()),
-      board_(options.exposure.value_or(0), notice_),
+      board_(notice_),
       latency_(Clock::now()),
       view_(options.view),
-      target_(static_cast<float>(options.frameTime)),
-      autoExposure_(options.autoExposure) {}
+      target_(static_cast<float>(options.frameTime)) {}
 
 Session::~Session() = default;
 
@@ -36,10 +35,13 @@ bool Session::load() {
 void Session::start() {
   cameras_ = job_->scene->cameras;
   savedCameras_ = cameras_.size();
-  board_.expose(job_->exposure);
+  board_.setTone({job_->exposure.value_or(0), options_.toneCurve});
+  autoExposure_ = exposureIsSought_ = !job_->exposure;
   camera_ = std::make_unique<CameraControl>(job_->settings.camera, job_->scene->bounds);
-  LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.exposure(),
-                     wantsCodesOnly(options_)};
+  LiveRun::Pace pace{fromSeconds(1e-3 * double(target_)), true, board_.tone().exposure,
+                     board_.tone().curve};
+  // An exposure that is not known yet is made of radiance.
+  pace.codesOnly = wantsCodesOnly(options_) && job_->exposure;
   pace.person = true;
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
                                     [this](const std::shared_ptr<const Shown>& shown) {
@@ -93,7 +95,7 @@ void Session::takePicture() {
   const std::shared_ptr<const Shown> latest = live_->shown();
   if (!board_.take(latest, live_->cluster().tally().tasks.accepted)) return;
   editor_->look(*latest);
-  if (autoExposure_) exposeByPicture();
+  if (exposureIsSought_) exposeByPicture();
 }
 
 std::string Session::progress(double& done) const {
@@ -125,8 +127,7 @@ bool Session::carryOut(const Command& command, const WindowArea& area) {
       show(command.view);
       return true;
     case Kind::exposure:
-      autoExposure_ = false;
-      expose(board_.exposure() + command.amount);
+      expose(board_.tone().exposure + command.amount);
       return true;
     case Kind::reset:
       camera_->reset();
@@ -187,12 +188,10 @@ void Session::apply(const PanelChanges& changes) {
   editor_->take(changes);
   if (changes.settings) live_->setSettings(*changes.settings);
   if (changes.view) show(*changes.view);
-  if (changes.autoExposure) autoExposure_ = *changes.autoExposure;
-  if (changes.autoExposure && autoExposure_) exposeByPicture();
-  if (changes.exposure) {
-    autoExposure_ = false;
-    expose(*changes.exposure);
-  }
+  if (changes.autoExposure) autoExposure_ = exposureIsSought_ = *changes.autoExposure;
+  if (exposureIsSought_) exposeByPicture();
+  if (changes.exposure) expose(*changes.exposure);
+  if (changes.curve) setTone({board_.tone().exposure, *changes.curve});
   if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
   if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
   if (changes.camera) camera_->go(cameras_[*changes.camera]);
@@ -203,17 +202,24 @@ void Session::apply(const PanelChanges& changes) {
   if (changes.record) board_.toggleRecording();
 }
 
-void Session::expose(float wanted) {
-  const float exposure = std::clamp(wanted, -kMostExposure, kMostExposure);
-  board_.expose(exposure);
-  live_->setExposure(exposure);
+void Session::setTone(const Tone& tone) {
+  board_.setTone(tone);
+  live_->setTone(tone);
 }
 
-// Of light at rest; what moves, and what is no light, leaves it as it was.
+// By hand.
+void Session::expose(float wanted) {
+  autoExposure_ = exposureIsSought_ = false;
+  setTone({std::clamp(wanted, -kMostExposure, kMostExposure), board_.tone().curve});
+}
+
+// By the first picture of light at rest that comes. From then on it holds still.
 void Session::exposeByPicture() {
   const Shown* shown = board_.shown();
   if (shown == nullptr || shown->frame.moving || !isLight(shown->view)) return;
-  if (shown->image->radiance.count() > 0) expose(autoExposure(shown->image->radiance));
+  if (shown->image->radiance.count() == 0) return;
+  exposureIsSought_ = false;
+  setTone({exposureByPicture(shown->image->radiance), board_.tone().curve});
 }
 
 // One more camera, in the panel, under C, and in scenes that are saved.

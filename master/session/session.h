@@ -64,6 +64,7 @@ class Session {
   void takePicture();
   bool carryOut(const Command& command, const WindowArea& area);  // false: it is the shell's
   void show(PictureView view) { live_->setView(view_ = view); }
+  void setTone(const Tone& tone);
   void expose(float exposure);
   void exposeByPicture();
   void keepView();
@@ -89,8 +90,9 @@ class Session {
   size_t savedCameras_ = 0;      // of them, in the file
 
   PictureView view_ = PictureView::beauty;
-  float target_ = 100;  // of frames in motion [ms]
-  bool autoExposure_ = false;
+  float target_ = 100;             // of frames in motion [ms]
+  bool autoExposure_ = false;      // by the picture
+  bool exposureIsSought_ = false;  // and that has not come yet
   size_t nextCamera_ = 1;
 };
 

@@ -54,7 +54,7 @@ std::string stateText(const PanelView& view, const std::string& scene, const std
   state["rays"] = view.raysPerSecond;
   state["view"] = nameOf(view.view);
   state["views"] = kViewNames;
-  state["exposure"] = view.exposure;
+  state["exposure"] = view.tone.exposure;
   state["auto"] = view.autoExposure;
   state["playing"] = view.playing ? json(*view.playing) : json();
   state["selection"] = view.selection ? json(view.selection->name) : json();

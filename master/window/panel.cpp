@@ -156,11 +156,14 @@ void drawViews(const PanelView& view, PanelChanges& changes) {
 void drawPicture(const PanelView& view, PanelChanges& changes) {
   if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
   drawViews(view, changes);
-  float exposure = view.exposure, target = view.target;
+  float exposure = view.tone.exposure, target = view.target;
   bool automatic = view.autoExposure;
   slide(slider("exposure", exposure, Vec2(-8, 8), "%.1f EV", -kMostExposure, kMostExposure),
         changes.exposure, exposure);
   slide(ImGui::Checkbox("auto exposure", &automatic), changes.autoExposure, automatic);
+  auto curve = static_cast<int>(view.tone.curve);
+  slide(ImGui::Combo("tone map", &curve, kToneCurveNames.data(), int{kToneCurveNames.size()}),
+        changes.curve, static_cast<ToneCurve>(curve));
   slide(slider("frame in motion", target, Vec2(20, 500), "%.0f ms", 1, 10000), changes.target,
         target);
   float fov = view.settings.camera.verticalFov * 180 / kPi;

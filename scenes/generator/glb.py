@@ -211,7 +211,7 @@ def encode(scene):
     content = {
         "asset": {"version": "2.0", "generator": "scenes/generate.py of Ninefold"},
         "scene": 0,
-        "scenes": [{"name": scene.name, "nodes": list(range(len(nodes)))}],
+        "scenes": [{"name": scene.name, "nodes": list(range(len(nodes))), "extras": {"exposure": scene.exposure}}],
         "nodes": nodes,
         "cameras": _cameras(scene),
         "meshes": meshes,
@@ -220,8 +220,6 @@ def encode(scene):
         "bufferViews": views,
         "buffers": [{"byteLength": len(chunk)}],
     }
-    if scene.exposure:
-        content["scenes"][0]["extras"] = {"exposure": scene.exposure}
     if scene.motions:
         content["animations"] = [animation]
     if document.textures:

@@ -149,7 +149,7 @@ TEST_F(LivePictureTest, InMotionShowsTheFrameAndItsCodes) {
     const auto image = inMotion(frame, {kBeauty, -2.0f});
     EXPECT_TRUE(image->radiance == expectedMean({&frame, 1}));
     EXPECT_TRUE(image->display == codesOf(image->radiance, -2));
-    EXPECT_EQ(image->exposure, -2);
+    EXPECT_EQ(image->tone.exposure, -2);
   }
 }
 

@@ -46,6 +46,7 @@ TEST(OptionsHelp, NamesEveryFlagOfTheInterface) {
         "aovs",           "exposure",    "view",          "window",         "headless",
         "seed",           "isa",         "stats",         "randomization",  "filter",
         "vpl-roulette",   "denoise",     "script",        "frame-time",     "help",
+        "light-units",    "tone-map",    "sky",           "clip",           "photon-scene",
         "serve",          "serve-key"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);

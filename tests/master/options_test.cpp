@@ -144,7 +144,42 @@ TEST(Options, ClientsFilterWhatTheyCan) {
 TEST(Options, TheExposureIsTheScenesOrGivenOrThePictures) {
   EXPECT_EQ(parse("room.glb").exposure, std::nullopt);
   EXPECT_TRUE(parse("room.glb --exposure auto").autoExposure);
+  EXPECT_FALSE(parse("room.glb").autoExposure) << "unless the scene has none";
   EXPECT_EQ(parse("room.glb --exposure 0").exposure, 0.0f);
+}
+
+TEST(Options, LightUnitsAndToneMapAreNamed) {
+  EXPECT_EQ(parse("a.glb").reading.lightUnits, LightUnits::automatic);
+  EXPECT_EQ(parse("a.glb --light-units photometric").reading.lightUnits, LightUnits::photometric);
+  EXPECT_EQ(parse("a.glb --light-units radiometric").reading.lightUnits, LightUnits::radiometric);
+  EXPECT_EQ(parse("a.glb").toneCurve, ToneCurve::srgb);
+  EXPECT_EQ(parse("a.glb --tone-map filmic").toneCurve, ToneCurve::filmic);
+  EXPECT_EQ(parse("a.glb --tone-map agx").toneCurve, ToneCurve::agx);
+}
+
+TEST(Options, LightFromOutsideIsAColourAPictureOrASky) {
+  const Options picture = parse("a.glb --environment b.hdr:90:2");
+  EXPECT_FALSE(picture.environment) << "the scene's, with the picture";
+  const auto& file = std::get<EnvironmentFile>(picture.reading.environment);
+  EXPECT_EQ(file.path, "b.hdr");
+  EXPECT_EQ(file.rotation, 90);
+  EXPECT_EQ(file.strength, 2);
+  const Options sky = parse("a.glb --sky 120:30");
+  EXPECT_EQ(std::get<SkyModel>(sky.reading.environment).elevation, 30);
+  const Options colour = parse("a.glb --environment 1,2,3");
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(colour.reading.environment));
+}
+
+// A task under a picture is done again with that picture.
+TEST(Options, AReplayLineNamesThePictureOfTheEnvironment) {
+  Scene scene = simpleScene();
+  EnvironmentPicture sky{"--sky 120:30:3", 2, 1, std::vector<Vec3>(2, Vec3(1)), 0};
+  scene.environmentMap = std::make_shared<const EnvironmentMap>(std::move(sky));
+  Settings s;
+  s.camera = scene.cameras[0], s.environment = Radiance(1);
+  const std::string line = replayLine(scene, s, FrameKey{}, 0, 0);
+  EXPECT_NE(line.find(" --sky 120:30:3"), std::string::npos) << line;
+  EXPECT_EQ(line.find("--environment"), std::string::npos) << line;
 }
 
 TEST(Options, EqualSignsWorkToo) {

@@ -66,13 +66,16 @@ StatePage somePage(uint16_t kind, uint32_t index) {
 // One message of every type, with every field different from its default.
 std::vector<Message> oneOfEach() {
   return {
-      msg::Hello{7, "1.2.3", "host ü/42", 64, "avx512", "0123456789abcdef"},
-      msg::Welcome{5, "1.2.3"},
+      msg::Hello{7, "1.2.3", "host ü/42", 64, "avx512", "0123456789abcdef", true},
+      msg::Welcome{5, "1.2.3", "0123456789abcdef", 1'700'000'000'000},
       msg::Refuse{"another release"},
       msg::SceneOffer{3, {{someHash(1), 10, BlobKind::image}, {someHash(2), 20, BlobKind::rest}}},
       msg::BlobRequest{someHash(3), 1 << 20},
       msg::BlobChunk{someHash(4), 100, 103, Bytes(3, std::byte{9})},
-      msg::Configure{3, 4, oddSettings(), {9, Delivery::Form::display, SurfaceTest::none, -1.5f}},
+      msg::Configure{3,
+                     4,
+                     oddSettings(),
+                     {9, Delivery::Form::display, SurfaceTest::none, -1.5f, ToneCurve::agx}},
       msg::Ready{3, 4},
       msg::Progress{Phase::building, 2, 5},
       msg::Tasks{4,
@@ -298,6 +301,7 @@ TEST(Messages, DeliveriesOutOfRangeAreNamed) {
       {"filter", [](msg::Configure& m) { m.delivery.filter = static_cast<SurfaceTest>(9); }},
       {"exposure", [](msg::Configure& m) { m.delivery.exposure = 51; }},
       {"exposure", [](msg::Configure& m) { m.delivery.exposure = NAN; }},
+      {"tone curve", [](msg::Configure& m) { m.delivery.curve = static_cast<ToneCurve>(3); }},
       {"too large",
        [](msg::Configure& m) {
          m.delivery.form = Delivery::Form::display, m.settings.interleave = {5, 4};

@@ -60,6 +60,9 @@ Scene someScene() {
   scene.profiles = {{"profile", {0, 30, 90}, {0, 360}, {1, 1, 0.5f, 0.5f, 0, 0.25f}}};
   scene.cameras = {Camera{}};
   scene.environment = Vec3(0.5f);
+  EnvironmentPicture sky{"--sky 1:2:3", 4, 2, std::vector<Vec3>(8, Vec3(0.25f)), 0.5f};
+  sky.texels[5] = Vec3(1e6f, 0, 2);
+  scene.environmentMap = std::make_shared<const EnvironmentMap>(std::move(sky));
   scene.origin = DVec3(1e6, -2, 3);
   scene.bounds.add(Vec3(-1)), scene.bounds.add(Vec3(1));
   return scene;
@@ -107,6 +110,12 @@ TEST(SceneBlobs, ASceneComesBackBitForBit) {
   EXPECT_EQ(scene.profiles[0].horizontal, someScene().profiles[0].horizontal);
   EXPECT_EQ(scene.profiles[0].values, someScene().profiles[0].values);
   EXPECT_EQ(scene.origin, DVec3(1e6, -2, 3));
+  ASSERT_TRUE(scene.environmentMap);
+  const EnvironmentPicture &sky = scene.environmentMap->picture(),
+                           &sent = someScene().environmentMap->picture();
+  EXPECT_EQ(sky.name, sent.name);
+  EXPECT_EQ(sky.texels, sent.texels);
+  EXPECT_EQ(sky.rotation, sent.rotation);
 }
 
 TEST(SceneBlobs, EveryFieldOfAMaterialIsInTheName) {
@@ -242,6 +251,9 @@ TEST(SceneBlobs, ManifestsAreCheckedBeforeAnythingIsFetched) {
   EXPECT_NE(errorOf([&] { checkManifest({image}); }), "") << "no rest";
   EXPECT_NE(errorOf([&] { checkManifest({rest, image}); }), "") << "rest not last";
   EXPECT_NE(errorOf([&] { checkManifest({rest, rest}); }), "");
+  const BlobInfo sky{{}, 10, BlobKind::environment};
+  EXPECT_EQ(errorOf([&] { checkManifest({sky, rest}); }), "");
+  EXPECT_NE(errorOf([&] { checkManifest({sky, sky, rest}); }), "") << "one outside";
   const BlobInfo page{{}, 10, BlobKind::page};
   EXPECT_NE(errorOf([&] { checkManifest({page, rest}); }), "") << "a state is no part of a scene";
   const BlobInfo big{{}, kMaxBlobBytes, BlobKind::image};

@@ -55,7 +55,7 @@ TEST(StateMessages, FieldsOutOfRangeAreNamed) {
       {"page 2.3", msg::StateOffer{1, 0, {somePage(2, 4), somePage(2, 3)}}},
       {"page 1.9", msg::StateOffer{1, 0, {somePage(2, 4), somePage(1, 9)}}},
       {"blob kind", msg::StateOffer{1, 0, {somePage(0, 0, 1, BlobKind::meshes)}}},
-      {"blob kind", msg::StateOffer{1, 0, {somePage(0, 0, 1, static_cast<BlobKind>(4))}}},
+      {"blob kind", msg::StateOffer{1, 0, {somePage(0, 0, 1, static_cast<BlobKind>(9))}}},
       {"blob size", msg::StateOffer{1, 0, {somePage(0, 0, 0)}}},
       {"blob size", msg::StateOffer{1, 0, {somePage(0, 0, kMaxPageBlobBytes + 1)}}},
   };

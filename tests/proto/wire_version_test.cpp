@@ -112,6 +112,8 @@ Scene someScene() {
   scene.photonInstances.resize(1);
   scene.lights.resize(1);
   scene.profiles.push_back({"profile", {0, 90}, {0, 360}, {1, 1, 0.5f, 0.5f}});
+  scene.environmentMap = std::make_shared<const EnvironmentMap>(
+      EnvironmentPicture{"outside", 2, 1, {Vec3(1, 2, 3), Vec3(4, 5, 6)}, 0.5f});
   scene.cameras.resize(1);
   scene.bounds.add(Vec3(-1)), scene.bounds.add(Vec3(1));
   return scene;

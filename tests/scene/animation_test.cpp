@@ -282,22 +282,24 @@ TEST(Animation, PlaysOneClipAlone) {
   const Scene first = readScene(file);
   EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
                   "walk plays; --clip NAME chooses among walk, grow");
-  const Scene walk = readScene(file, "walk"), grow = readScene(file, "grow");
+  const Scene walk = readScene(file, {.clip = "walk"}), grow = readScene(file, {.clip = "grow"});
   for (const Scene* scene : {&first, &walk})
     expectNear(placeAt(*scene, 1, DVec3(2, 0, 0)), DVec3(5, 3, 3));
   expectNear(placeAt(grow, 1, DVec3(2, 0, 0)), DVec3(6, 0, 0));
-  EXPECT_CONTAINS(errorOf([&] { readScene(file, "run"); }),
+  EXPECT_CONTAINS(errorOf([&] { readScene(file, {.clip = "run"}); }),
                   "it has no animation 'run'; there is: walk, grow");
 }
 
 TEST(Animation, ClipsWithoutANameAreToldByTheirNumber) {
   const TempFolder folder;
   const auto file = folder.write("scene.glb", glb(twoClips("", ""), twoClipBytes()));
-  expectNear(placeAt(readScene(file, "1"), 1, DVec3(2, 0, 0)), DVec3(6, 0, 0));
+  expectNear(placeAt(readScene(file, {.clip = "1"}), 1, DVec3(2, 0, 0)), DVec3(6, 0, 0));
   const auto still = folder.write("still.glb", triangleGlb());
-  EXPECT_CONTAINS(errorOf([&] { readScene(still, "walk"); }), "the file has no animation");
+  EXPECT_CONTAINS(errorOf([&] { readScene(still, {.clip = "walk"}); }),
+                  "the file has no animation");
   const auto obj = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  EXPECT_CONTAINS(errorOf([&] { readScene(obj, "walk"); }), "an .obj file has no animation");
+  EXPECT_CONTAINS(errorOf([&] { readScene(obj, {.clip = "walk"}); }),
+                  "an .obj file has no animation");
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ TEST(WebState, TellsWhatThePanelShows) {
   PanelView view;
   view.shown = &shown;
   view.state = "2 ready";
-  view.exposure = 1.5f;
+  view.tone.exposure = 1.5f;
   view.view = PictureView::depth;
   view.selection = Selection{3, "a cup", 0, {}};
   view.lights = {"lamp one"};

@@ -35,7 +35,7 @@ uint64_t sceneStamp(const Transport& t, const MinorLamps& minor) {
     stamp.add(light.position), stamp.add(light.direction), stamp.add(light.across);
     stamp.add(light.intensity);
   }
-  stamp.add(t.emitters.environment());
+  stamp.add(t.emitters.environmentStrength());
   // A lamp's share of the samples decides what its photons carry.
   for (size_t i = 0; i < t.emitters.size(); ++i)
     stamp.add(t.streams.probability(static_cast<uint32_t>(i)));

@@ -47,9 +47,10 @@ Radiance metEmission(const Transport& t, const Chain& c, const Hit& hit, Vec3 w)
   return balance(c.lobePdf, lightPdf(t, hit, c.point.surface, w, hit.t)) * emitted;
 }
 
-Radiance metEnvironment(const Transport& t, const Chain& c) {
-  const Radiance l = t.emitters.environment();
-  return c.lobePdf == 0 ? l : balance(c.lobePdf, environmentPdf(t)) * l;
+Radiance metEnvironment(const Transport& t, const Chain& c, Vec3 w) {
+  const Radiance l = t.emitters.environment(w);
+  if (isBlack(l) || c.lobePdf == 0) return l;
+  return balance(c.lobePdf, environmentPdf(t, w)) * l;
 }
 
 // Scatters by `lobe` and moves on to the next surface. False: the chain is over, U is complete.
@@ -71,7 +72,7 @@ bool step(const Transport& t, Chain& c, Lobe lobe, const PixelSampler& sampler, 
   const Vec3 origin = offsetOrigin(p.surface, wi);
   const Hit hit = t.tracer.closest(origin, wi, std::numeric_limits<float>::infinity());
   if (!hit) {
-    unfiltered += c.gain * c.throughput * metEnvironment(t, c);
+    unfiltered += c.gain * c.throughput * metEnvironment(t, c, wi);
     return false;
   }
   c.point = t.shader.shade(t.tracer.surface(hit), -wi, c.media);

@@ -37,7 +37,7 @@ void LayerReceivers::followLayer(TaskContext& c, const FirstHit& first, Lobe lob
 void LayerReceivers::split(TaskContext& c, const FirstHit& first) {
   LayerPlanes& diffuse = c.out.layers[kDiffuse];
   if (!first) {
-    put(diffuse.unfiltered, first.pixel, c.t.emitters.environment());
+    put(diffuse.unfiltered, first.pixel, c.t.emitters.environment(first.direction));
     return;
   }
   const ShadingPoint& p = first.point;

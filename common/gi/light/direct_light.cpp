@@ -27,9 +27,9 @@ std::optional<LightSample> sampleTriangle(const Transport& t, const Emitter& e, 
 
 LightSample sampleEnvironment(const Transport& t, float P, const ShadingPoint& p, Vec2 u) {
   LightSample s;
-  s.w = squareToSphere(u);
-  s.pdf = P * kSpherePdf;
-  s.weight = t.emitters.environment() / s.pdf;
+  s.w = t.emitters.sampleEnvironment(u);
+  s.pdf = P * t.emitters.environmentPdf(s.w);
+  s.weight = t.emitters.environment(s.w) / s.pdf;
   s.origin = offsetOrigin(p.surface, s.w), s.segment = s.w;
   s.tFar = std::numeric_limits<float>::infinity();
   return s;
@@ -86,10 +86,11 @@ float lightPdf(const Transport& t, const Hit& hit, const SurfacePoint& surface, 
   return t.streams.probability(static_cast<uint32_t>(index)) / e.area * distance * distance / cosY;
 }
 
-float environmentPdf(const Transport& t) {
-  if (t.emitters.empty() || isBlack(t.emitters.environment())) return 0;
+float environmentPdf(const Transport& t, Vec3 w) {
+  if (t.emitters.empty() || !t.emitters.hasEnvironment()) return 0;
   const size_t last = t.emitters.size() - 1;
-  return t.streams.probability(static_cast<uint32_t>(last)) * kSpherePdf;
+  if (t.emitters[last].kind != EmitterKind::environment) return 0;  // a black picture
+  return t.streams.probability(static_cast<uint32_t>(last)) * t.emitters.environmentPdf(w);
 }
 
 Radiance emittedRadiance(const Transport& t, const ShadingPoint& p) {

@@ -2,13 +2,14 @@
 // D vertices of the reference path tracer. First an emitter (light_streams.h), then a place on it.
 //
 //   area          pdf = (P/A) d^2 / cos_y     weight = L / pdf
-//   environment   pdf = P / (4 pi)            weight = L / pdf
+//   environment   pdf = P q(w)                weight = L(w) / pdf
 //   point, spot, goniometric
 //                 pdf = 0                     weight = I(w) / (d^2 P)
 //   directional   pdf = 0                     weight = E0 / P
 //
 //   P, A   probability of the emitter, area of its triangle [m^2]
 //   cos_y  cosine at the emitter
+//   q      density of the environment's directions (emitters.h), 1/(4 pi) if it is constant
 //   pdf    per solid angle [1/sr]; 0 stands for delta: no other technique finds such a light
 //
 // Multiple importance sampling with the balance heuristic, see balance().
@@ -44,8 +45,8 @@ Vec3 lightTransmittance(const Transport& transport, const ShadingPoint& p, const
 // Density with which sampleLight would have found what a BSDF ray met: an emissive triangle ...
 float lightPdf(const Transport& transport, const Hit& hit, const SurfacePoint& surface, Vec3 w,
                float distance);
-// ... or the environment.
-float environmentPdf(const Transport& transport);
+// ... or the environment, out of unit direction w.
+float environmentPdf(const Transport& transport, Vec3 w);
 
 // Radiance that the surface emits towards the side of wo; 0 if it is no emitter there.
 Radiance emittedRadiance(const Transport& transport, const ShadingPoint& p);

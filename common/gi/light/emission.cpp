@@ -180,7 +180,8 @@ Beam chooseBeam(const Transport& t, const Source& s, Vec2 u23) {
     const PunctualLight& light = t.lights[s.emitter->light];
     return {light.direction, light.intensity / s.probability};
   }
-  return {squareToSphere(u23), t.emitters.environment() / (kSpherePdf * s.probability)};
+  const Vec3 from = t.emitters.sampleEnvironment(u23);
+  return {-from, t.emitters.environment(from) / (t.emitters.environmentPdf(from) * s.probability)};
 }
 
 Vec3 beamOrigin(const Transport& t, const Beam& beam, Vec3 across) {

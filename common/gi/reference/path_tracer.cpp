@@ -74,8 +74,9 @@ Radiance met(const Transport& t, const Path& path, const Hit& hit, const Shading
 }
 
 Radiance escaped(const Transport& t, const Path& path) {
-  const Radiance l = t.emitters.environment();
-  return path.lobePdf == 0 ? l : balance(path.lobePdf, environmentPdf(t)) * l;
+  const Radiance l = t.emitters.environment(path.direction);
+  if (isBlack(l) || path.lobePdf == 0) return l;
+  return balance(path.lobePdf, environmentPdf(t, path.direction)) * l;
 }
 
 Turn turnOf(const Bsdf& bsdf, Way way) {

@@ -25,7 +25,8 @@ void addIncident(TaskContext& c, const FirstHit& first, const PixelSampler& samp
 
 void addPath(TaskContext& c, const FirstHit& first, const PixelSampler& sampler) {
   LayerPlanes& out = c.out.layers[kDiffuse];
-  if (!first) return add(out.unfiltered, first.pixel, kShare * c.t.emitters.environment());
+  if (!first)
+    return add(out.unfiltered, first.pixel, kShare * c.t.emitters.environment(first.direction));
   const ShadingPoint& p = first.point;
   const Vec3 through = kShare * c.t.shader.attenuation(p, c.view.eyeMedia, first.distance);
   const PathLight light = scatteredLight(c.t, p, c.view.eyeMedia, sampler, c.out.rays);
