@@ -9,6 +9,7 @@
 #include "common/base/standard_streams.h"
 #include "master/running/headless.h"
 #include "master/running/script_run.h"
+#include "master/web/web_session.h"
 #include "master/window/session.h"
 #include "proto/key.h"
 
@@ -29,6 +30,7 @@ int run(const Options& options) {
     return 0;
   }
   if (options.window) return runWindow(options);
+  if (options.serve) return runWeb(options);
   if (isLive(options)) return runScript(options);
   return runHeadless(options);
 }

@@ -8,6 +8,7 @@
 #include <cctype>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "common/base/error.h"
@@ -112,17 +113,23 @@ bool writeFloats(OIIO::ImageOutput& output, const OIIO::ImageSpec& spec, const P
   return true;
 }
 
-// Calls write(output) for the open file.
+// What went wrong, or nothing. Calls write(output) for the open file. `name` tells the format.
+template <typename Write>
+std::optional<std::string> writeTo(OIIO::Filesystem::IOProxy& proxy, const std::string& name,
+                                   const OIIO::ImageSpec& spec, const Write& write) {
+  const auto output = OIIO::ImageOutput::create(name, &proxy);
+  if (!output) return oneLine(OIIO::geterror());
+  if (output->open(name, spec) && write(*output) && output->close()) return std::nullopt;
+  return oneLine(output->geterror());
+}
+
 template <typename Write>
 void writeFile(const std::string& path, const OIIO::ImageSpec& spec, const Write& write) {
   WrittenFile file(path);
   FileProxy proxy(file);
-  const std::string name = "a" + extensionOf(path);  // tells the format
-  const auto output = OIIO::ImageOutput::create(name, &proxy);
-  if (!output) fail("cannot write {}: {}", path, oneLine(OIIO::geterror()));
-  const bool written = output->open(name, spec) && write(*output) && output->close();
+  const auto problem = writeTo(proxy, "a" + extensionOf(path), spec, write);
   if (!proxy.failure().empty()) fail("{}", proxy.failure());
-  if (!written) fail("cannot write {}: {}", path, oneLine(output->geterror()));
+  if (problem) fail("cannot write {}: {}", path, *problem);
   file.publish();
 }
 
@@ -172,6 +179,18 @@ void writeImage(const std::string& path, const Picture& picture, const ToneMap& 
   writeFile(path, spec, [&](OIIO::ImageOutput& output) {
     return writeFloats(output, spec, planesOf(picture, isExr));
   });
+}
+
+std::vector<uint8_t> encodeExr(const Picture& picture) {
+  const OIIO::ImageSpec spec =
+      specOf(picture.beauty.width, picture.beauty.height, picture.extras, picture.metadata, true);
+  OIIO::Filesystem::IOVecOutput file;
+  const auto problem = writeTo(file, "a.exr", spec, [&](OIIO::ImageOutput& output) {
+    return writeFloats(output, spec, planesOf(picture, true));
+  });
+  if (problem) fail("no EXR can be written: {}", *problem);
+  const auto& bytes = file.buffer();
+  return {bytes.begin(), bytes.end()};
 }
 
 void writePng(const std::string& path, const DisplayImage& picture) {

@@ -36,6 +36,9 @@ void writeImage(const std::string& path, const Picture& picture,
 // Writes a picture that was tone mapped already: the bytes that writeImage makes of its radiance.
 void writePng(const std::string& path, const DisplayImage& picture);
 
+// The bytes of the .exr file that writeImage writes.
+std::vector<uint8_t> encodeExr(const Picture& picture);
+
 // The largest picture that is read.
 struct ImageBounds {
   int width = 16384, height = 16384;

@@ -71,6 +71,14 @@ void readPicture(const RawOptions& raw, Options& o) {
               factsOf(o.settings.method).name);
 }
 
+Endpoint parseAddress(const std::string& text, const char* flag) {
+  try {
+    return parseEndpoint(text, flag);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
 void readCluster(const RawOptions& raw, int cores, Options& o) {
   o.localClients = std::max(1, cores);
   assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
@@ -83,23 +91,17 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = raw.choice("isa", kIsas)) o.isa = kIsas[*isa];
   o.listen = raw.text("listen").value_or(o.listen);
-  try {
-    const bool isHere = isLoopback(parseEndpoint(o.listen, "--listen").host);
-    if (isHere && o.hosts)
-      failUsage(
-          "--hosts {} needs --listen ADDR:PORT where they reach this machine, for example "
-          "0.0.0.0:4700",
-          *o.hosts);
-    if (!isHere && !o.keyFile)
-      failUsage(
-          "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
-          "ninefold-master --new-key FILE",
-          o.listen);
-  } catch (const UsageError&) {
-    throw;
-  } catch (const Error& error) {
-    throw UsageError(error.what());
-  }
+  const bool isHere = isLoopback(parseAddress(o.listen, "--listen").host);
+  if (isHere && o.hosts)
+    failUsage(
+        "--hosts {} needs --listen ADDR:PORT where they reach this machine, for example "
+        "0.0.0.0:4700",
+        *o.hosts);
+  if (!isHere && !o.keyFile)
+    failUsage(
+        "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
+        "ninefold-master --new-key FILE",
+        o.listen);
 }
 
 // After the picture: its interleaving and extra layers matter.
@@ -142,7 +144,20 @@ void readAnimation(const RawOptions& raw, Options& o) {
     failUsage("--animate goes with --frames N, the frames of each picture, and no other stop");
 }
 
-// In a window, or live without one.
+// For browsers. Whether there must be a token and TLS follows from the address (web/web_setup.h).
+void readServe(const RawOptions& raw, Options& o) {
+  o.serve = raw.text("serve");
+  o.serveCertificate = raw.text("serve-certificate");
+  o.serveKey = raw.text("serve-key");
+  if (o.serveCertificate.has_value() != o.serveKey.has_value())
+    failUsage("--serve-certificate and --serve-key go together: give both, or none");
+  if (!o.serve && o.serveKey) failUsage("--serve-certificate is for --serve ADDR:PORT");
+  if (!o.serve) return;
+  if (o.window) failUsage("--serve and --window exclude each other");
+  parseAddress(*o.serve, "--serve");
+}
+
+// In a window, in browsers, or live without either.
 void readLive(const RawOptions& raw, Options& o) {
   o.window = raw.isOn("window");
   o.script = raw.text("script");
@@ -154,12 +169,15 @@ void readLive(const RawOptions& raw, Options& o) {
   assign(o.frameTime, raw.real("frame-time", 1, 10000));
   o.stepTime = raw.real("step-time", 1, 10000);
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
+  readServe(raw, o);
   if (const auto view = raw.text("view")) {
     const auto known = viewNamed(*view);
     if (!known) failUsage("--view {}: must be {}", *view, fmt::join(kViewNames, ", "));
     o.view = *known;
-    if (o.view == PictureView::clients && !o.window)
-      failUsage("--view clients is for --window: who rendered what changes from frame to frame");
+    if (o.view == PictureView::clients && !isWatched(o))
+      failUsage(
+          "--view clients is for --window and --serve: who rendered what changes from frame to "
+          "frame");
     if (o.filterAtClients && !isLive(o) && !isLight(o.view))
       failUsage("--view {} needs --filter-at master: it is made of what clients traced", *view);
   }
@@ -169,18 +187,18 @@ void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
   o.outputEvery = raw.real("output-every", 0.1, kMaxSeconds);
   o.stats = raw.text("stats");
-  if (!o.output && !o.stats && !o.window)
+  if (!o.output && !o.stats && !isWatched(o))
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
   if (o.outputEvery && (!o.output || isLive(o)))
-    failUsage("--output-every is for --output without --window, --script and --animate");
-  if (o.animate && !o.window && (!o.output || !isNumbered(*o.output)))
+    failUsage("--output-every is for --output without --window, --serve, --script and --animate");
+  if (o.animate && !isWatched(o) && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;
   const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
   if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
     failUsage("--output {}: the name must end in .exr, .png or .hdr", *o.output);
   if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
-  if (o.denoise == true && isLive(o) && !o.window && !ends(".png"))
+  if (o.denoise == true && isLive(o) && !isWatched(o) && !ends(".png"))
     failUsage("--denoise on, with --script or --animate, needs an --output that ends in .png");
 }
 

@@ -51,7 +51,7 @@ struct Options {
   std::optional<std::string> hosts;        // file: where ssh starts clients
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
-  double patience = 120;     // without a window, with clients that are all stuck [s]
+  double patience = 120;     // unless somebody looks on, with clients that are all stuck [s]
 
   bool window = false;
   std::optional<std::string> script;       // file
@@ -71,12 +71,18 @@ struct Options {
   bool autoExposure = false;      // by the picture, whatever the scene says
   ToneCurve toneCurve = ToneCurve::srgb;
   std::optional<std::string> stats;
+
+  std::optional<std::string> serve;                       // ADDR:PORT for browsers
+  std::optional<std::string> serveCertificate, serveKey;  // PEM files
 };
 
 inline constexpr int64_t kDefaultFrames = 64;
 
 // Settings and scene may change from frame to frame.
-inline bool isLive(const Options& o) { return o.window || o.script || o.animate; }
+inline bool isLive(const Options& o) { return o.window || o.serve || o.script || o.animate; }
+
+// Somebody looks on, for as long as they like.
+inline bool isWatched(const Options& o) { return o.window || o.serve; }
 
 // Whether a picture's tiles come filtered, as far as the command line says.
 inline bool filtersAtClients(const Options& o, PictureView view) {
@@ -93,7 +99,7 @@ inline bool sharesNeighbours(const Options& o, Method method, PictureView view) 
 // Whether a picture gets a last touch (image/denoise.h): by default those that people look at. Its
 // guides are the layers, which neither filtered tiles nor methods without filter bring.
 inline bool denoises(const Options& o, Method method) {
-  const bool isSeen = o.window || (o.output && o.output->ends_with(".png"));
+  const bool isSeen = isWatched(o) || (o.output && o.output->ends_with(".png"));
   const bool hasGuides = !o.filterAtClients && !factsOf(method).isUnfiltered;
   return hasGuides && o.denoise.value_or(isSeen && o.preset != Preset::paper);
 }

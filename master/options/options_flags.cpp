@@ -33,10 +33,12 @@ constexpr Flag kPicture[] = {
      "what a glTF file's candela and lux are: radiometric (1 cd is 1 W/sr), photometric (683 cd "
      "are), or auto, by who wrote the file (default auto; docs/light-units.md)"},
     {"exposure", "EV|auto",
-     "brightness of .png files and of the window, -50 to 50, or by the first picture itself, held "
+     "brightness of .png files and of what is looked at, -50 to 50, or by the first picture "
+     "itself, held "
      "from then on (default: what the scene says, else auto)"},
     {"tone-map", "NAME",
-     "how light becomes the colours of .png files and of the window: srgb (as it is, lamps rolled "
+     "how light becomes the colours of .png files and of what is looked at: srgb (as it is, lamps "
+     "rolled "
      "off), filmic or agx (default srgb; common/image/tone_map.h)"},
     {"denoise", "off|on",
      "a last touch of filtering, by no more than a pixel's standard error (default: on in the "
@@ -61,7 +63,7 @@ constexpr Flag kRun[] = {
      "stop when the relative standard error is below E; looked at after 16, 32, 64... frames"},
     {"animate", "T0:T1:FPS",
      "play the scene's animation from T0 to T1 [s] into --output out.####.exr, --frames N for each "
-     "picture; with --window over and over"},
+     "picture; with --window or --serve over and over"},
     {"photon-scene", "FILE",
      "a simpler scene, glTF or OBJ, that the photon map's photons meet in place of SCENE; the "
      "lamps "
@@ -69,9 +71,17 @@ constexpr Flag kRun[] = {
     {"clip", "NAME",
      "which of the file's animations plays (default: the first; the log names them)"},
     {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},
+    {"serve", "ADDR:PORT",
+     "the same in browsers (docs/browser.md); port 0 takes a free one; prints the address to open. "
+     "Beyond this machine, e.g. 0.0.0.0:8443, with TLS and a token in the printed address"},
+    {"serve-certificate", "FILE",
+     "PEM, with --serve-key: the certificate to show (default: one made on the spot, its "
+     "fingerprint "
+     "printed)"},
+    {"serve-key", "FILE", "PEM: the private key of --serve-certificate"},
     {"script", "FILE",
      "replay the camera paths and edits of a JSON file (docs/script.md), in real time or, if it "
-     "says so and there is no --window, into --output out.####.png"},
+     "says so and nobody looks on, into --output out.####.png"},
     {"frame-time", "MS",
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"step-time", "MS",
@@ -101,7 +111,7 @@ constexpr Flag kCluster[] = {
      "client's line (default auto)"},
     {"patience", "S",
      "when all clients are stuck, each in a task that does not end, wait for S seconds, then end "
-     "with what there is, unless in a window (default 120)"},
+     "with what there is, unless somebody looks on (default 120)"},
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
 constexpr Flag kFiles[] = {

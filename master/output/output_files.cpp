@@ -8,7 +8,7 @@
 namespace ninefold {
 
 void checkFiles(const Options& options) {
-  const bool isSeries = !options.window && (options.animate || options.script);
+  const bool isSeries = !isWatched(options) && (options.animate || options.script);
   if (options.output)
     checkOutputPath(isSeries && isNumbered(*options.output) ? numbered(*options.output, 0)
                                                             : *options.output);

@@ -26,7 +26,7 @@ ClusterSetup clusterSetup(const Options& options, const Listener::Keys& keys) {
                               fmt::format("--key-descriptor={}", kInheritedDescriptor)}});
   ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients};
   const auto patience =
-      options.window ? std::nullopt : std::optional(fromSeconds(options.patience));
+      isWatched(options) ? std::nullopt : std::optional(fromSeconds(options.patience));
   ClusterSetup setup{std::move(server), std::move(local)};
   if (options.hosts) setup.hosts = readHosts(*options.hosts);
   setup.isa = options.isa;

@@ -46,7 +46,8 @@ TEST(OptionsHelp, NamesEveryFlagOfTheInterface) {
         "aovs",           "exposure",    "view",          "window",         "headless",
         "seed",           "isa",         "stats",         "randomization",  "filter",
         "vpl-roulette",   "denoise",     "script",        "frame-time",     "help",
-        "light-units",    "tone-map",    "sky",           "clip",           "photon-scene"})
+        "light-units",    "tone-map",    "sky",           "clip",           "photon-scene",
+        "serve",          "serve-key"})
     EXPECT_NE(help.find("--" + std::string(flag) + " "), std::string::npos) << flag;
   std::istringstream lines(help);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 100u) << line;

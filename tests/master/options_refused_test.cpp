@@ -49,6 +49,8 @@ TEST(OptionsRefused, WhatIsOutOfRangeIsRefusedWithOneLineThatNamesTheFlag) {
       {"--wait-clients", "0"},
       {"--listen", "4700"},
       {"--listen", "0.0.0.0:99999"},
+      {"--serve", "8080"},
+      {"--serve", "127.0.0.1:x"},
       {"--preset", "fast"},
       {"--method", "voodoo"},
       {"--filter", "blur"},
@@ -151,6 +153,9 @@ TEST(OptionsRefused, AnAnimationNeedsARangeAndNumberedPictures) {
 
 TEST(OptionsRefused, AWindowIsNotHeadless) {
   EXPECT_NE(complaint("a.glb --window --headless"), "");
+  EXPECT_NE(complaint("a.glb --window --serve 127.0.0.1:0"), "");
+  EXPECT_NE(complaint("a.glb --serve 127.0.0.1:0 --serve-key k"), "");
+  EXPECT_NE(complaint("a.glb --serve-key k --serve-certificate c"), "");
 }
 
 TEST(OptionsRefused, AScriptThatWritesNothingIsRefused) {

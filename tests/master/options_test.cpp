@@ -242,6 +242,17 @@ TEST(Options, AWindowNeedsNoOutput) {
   EXPECT_EQ(parse("a.glb --window --frame-time 50", {}, false).frameTime, 50);
 }
 
+TEST(Options, BrowsersNeedNoOutputAndAreALiveRun) {
+  const Options o = parse("a.glb --serve 127.0.0.1:0", {}, false);
+  EXPECT_EQ(o.serve, "127.0.0.1:0");
+  EXPECT_TRUE(isLive(o) && isWatched(o));
+  EXPECT_TRUE(denoises(o, Method::instantRadiosity));
+  EXPECT_TRUE(parse("a.glb --serve 127.0.0.1:0 --animate 0:2:25", {}, false).animate);
+  const Options own = parse("a.glb --serve 0.0.0.0:1 --serve-key k --serve-certificate c");
+  EXPECT_EQ(own.serveKey, "k");
+  EXPECT_EQ(own.serveCertificate, "c");
+}
+
 TEST(Options, AScriptMayWritePicturesOrTimes) {
   EXPECT_EQ(parse("a.glb --script s.json --stats t.json", {}, false).script, "s.json");
   EXPECT_EQ(parse("a.glb --script s.json --output p.####.png", {}, false).script, "s.json");

@@ -1,4 +1,4 @@
-#include "master/window/picking.h"
+#include "master/session/picking.h"
 
 #include <algorithm>
 

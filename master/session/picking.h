@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "master/running/live_run.h"
-#include "master/window/panel.h"
+#include "master/session/panel_values.h"
 
 namespace ninefold {
 

@@ -1,10 +1,10 @@
-#include "master/window/picture_board.h"
+#include "master/session/picture_board.h"
 
 #include <filesystem>
 
 #include "common/base/log.h"
 #include "common/image/image_file.h"
-#include "master/window/picking.h"
+#include "master/session/picking.h"
 
 namespace ninefold {
 namespace {
@@ -48,17 +48,17 @@ void PictureBoard::count(uint64_t tasks) {
 
 Tone PictureBoard::toneShown() const { return isFalseColor(shown_->view) ? Tone{} : tone_; }
 
-void PictureBoard::draw(const Scene& scene, const std::optional<Selection>& selection,
-                        Window& window) {
-  if (!shown_) return;
+const DisplayImage* PictureBoard::draw(const Scene& scene,
+                                       const std::optional<Selection>& selection) {
+  if (!shown_) return nullptr;
   Drawn now{shown_.get(), toneShown(), selection};
-  if (now == drawn_) return;
+  if (now == drawn_) return nullptr;
   drawn_ = std::move(now);
   const DisplayImage& codes = display();
-  if (!selection) return window.setPicture(codes);
+  if (!selection) return &codes;
   outlined_ = codes;
   drawOutline(*shown_, scene, *selection, outlined_.rgb);
-  window.setPicture(outlined_);
+  return &outlined_;
 }
 
 // The workers made the codes with the picture. They are made anew only if exposure or curve have

@@ -1,7 +1,7 @@
-#include "master/window/editor.h"
+#include "master/session/editor.h"
 
 #include "common/base/log.h"
-#include "master/window/picking.h"
+#include "master/session/picking.h"
 
 namespace ninefold {
 namespace {

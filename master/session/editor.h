@@ -14,7 +14,7 @@
 #include "master/interaction/edit_history.h"
 #include "master/interaction/window_input.h"
 #include "master/running/live_run.h"
-#include "master/window/panel.h"
+#include "master/session/panel_values.h"
 
 namespace ninefold {
 

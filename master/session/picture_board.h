@@ -1,4 +1,4 @@
-// picture_board.h: the latest picture of a session: in the window, in files, in the panel's
+// picture_board.h: the latest picture of a session: as it is shown, in files, in the panel's
 // numbers.
 //
 // Pictures come tone mapped; one is mapped anew only when the exposure or the curve changes while
@@ -15,8 +15,7 @@
 
 #include "master/interaction/notice.h"
 #include "master/running/live_run.h"
-#include "master/window/panel.h"
-#include "master/window/window.h"
+#include "master/session/panel_values.h"
 
 namespace ninefold {
 
@@ -26,8 +25,10 @@ class PictureBoard {
 
   // The run's latest picture; `tasks`: that the cluster has done so far. False if it is known.
   bool take(const std::shared_ptr<const Shown>& latest, uint64_t tasks);
-  void draw(const Scene& scene, const std::optional<Selection>& selection, Window& window);
+  // What is to be seen from now on, until the next call; null if it is what it was.
+  const DisplayImage* draw(const Scene& scene, const std::optional<Selection>& selection);
 
+  const DisplayImage& display();                       // needs a picture
   const Shown* shown() const { return shown_.get(); }  // null before the first
   const Tone& tone() const { return tone_; }
   void setTone(const Tone& tone) { tone_ = tone; }
@@ -41,7 +42,6 @@ class PictureBoard {
  private:
   void count(uint64_t tasks);
   Tone toneShown() const;
-  const DisplayImage& display();
 
   Notice& notice_;
   std::shared_ptr<const Shown> shown_;

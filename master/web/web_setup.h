@@ -1,0 +1,23 @@
+// web_setup.h: --serve: at which address, with which certificate and token, and what people are
+// told of it. On loopback: neither token nor TLS, unless a certificate is given. Beyond it: both,
+// always.
+// Errors: Error that names the flag.   Threads: pure but for the key and the token.
+// Proved: tests/web/web_setup_test.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "master/options/options.h"
+#include "master/web/web_server.h"
+
+namespace ninefold {
+
+WebSetup webSetup(const Options& options);
+
+// Lines for people: where to look, and the certificate's fingerprint if nobody vouches for it.
+// `addresses`: as of addressesBehind, if it listens on all interfaces.
+std::vector<std::string> webInvitation(const Options& options, const WebSetup& setup, uint16_t port,
+                                       const std::vector<std::string>& addresses);
+
+}  // namespace ninefold
