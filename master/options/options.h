@@ -47,6 +47,7 @@ struct Options {
   std::string listen = "127.0.0.1:0";  // ADDR:PORT
   std::optional<std::string> keyFile;
   int waitClients = 1;
+  double verify = 0;         // fraction of results that a second client does again
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
   double patience = 120;     // without a window, with clients that are all stuck [s]
 
@@ -60,7 +61,9 @@ struct Options {
 
   StopRule stop;  // 64 frames if no flag says otherwise
 
-  std::optional<std::string> output;  // .exr, .png or .hdr
+  std::optional<std::string> output;      // .exr, .png or .hdr
+  std::optional<double> saveEvery;        // while it converges [s]
+  std::optional<std::string> checkpoint;  // file, of a run that is not live
   bool aovs = false;
   std::optional<bool> denoise;    // nothing: as denoises() says
   std::optional<float> exposure;  // [EV]; nothing: the scene's, or 0

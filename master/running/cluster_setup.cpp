@@ -20,10 +20,11 @@ ClusterSetup clusterSetup(const Options& options, const Listener::Keys& keys) {
                      "--cache=none"};
   local.key = keys.local;
   local.count = options.localClients;
-  ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients};
+  ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients,
+                     options.verify, options.settings.seed};
   const auto patience =
       options.window ? std::nullopt : std::optional(fromSeconds(options.patience));
-  return {std::move(server), std::move(local), keys.cluster != nullptr, patience};
+  return {std::move(server), std::move(local), keys.cluster != nullptr, !isLive(options), patience};
 }
 
 }  // namespace ninefold

@@ -1,4 +1,5 @@
 // Which command lines are refused, and in what words.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/master/command_line.h"
@@ -83,6 +84,12 @@ TEST(OptionsRefused, ListeningBeyondThisMachineNeedsAKey) {
 }
 
 TEST(OptionsRefused, PatienceIsNotNegative) {
+  EXPECT_NE(complaint("room.glb --verify 1.5").find("--verify"), std::string::npos);
+  EXPECT_NE(complaint("room.glb --save-every 0").find("--save-every"), std::string::npos);
+  for (const char* flag : {"--verify 0.5", "--save-every 1", "--checkpoint c"})
+    for (const char* live : {"--window", "--script s.json", "--animate 0:1:1 --output o.#.exr"})
+      EXPECT_NE(complaint(fmt::format("room.glb {} {}", flag, live), {}, false), "")
+          << flag << live;
   EXPECT_NE(complaint("room.glb --patience -1").find("--patience"), std::string::npos);
 }
 
