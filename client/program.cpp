@@ -236,6 +236,7 @@ void Program::runUnit(const RenderJob& job, const act::StartSteps& action, uint3
   watchdog_.begin(thread, steps.allowed, describe);
   try {
     msg::Stepped done = job.step(steps.step, unit, *action.state, now);
+    if (rig_.afterUnit) rig_.afterUnit(done);
     watchdog_.end(thread);
     if (recorder_) recorder_->add(done);
     later([this, line = action.line, done = std::move(done)]() mutable {
@@ -256,6 +257,7 @@ void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& i
     if (rig_.beforeTask) rig_.beforeTask(order.frame, item);
     RenderJob::Done done =
         job.run(order.frame, item, order.neighbourWeight, level_, thread, now, *order.state);
+    if (rig_.afterTask) rig_.afterTask(done.result);
     watchdog_.end(thread);
     if (recorder_) recorder_->add(done.result);
     const auto next = [this] { return workers_.nextFrame(); };

@@ -26,9 +26,12 @@
 
 namespace ninefold::client {
 
-// For tests: what happens before each task, on its thread, and how patient the watchdog is.
+// For tests: what happens before and after each task, on its thread, and how patient the watchdog
+// is.
 struct Rig {
   std::function<void(const FrameKey&, const msg::TaskItem&)> beforeTask = nullptr;
+  std::function<void(msg::Result&)> afterTask = nullptr;
+  std::function<void(msg::Stepped&)> afterUnit = nullptr;
   Duration grace = Watchdog::kGrace;
 };
 

@@ -40,7 +40,8 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace ninefold;
-  takeSignal(SIGUSR1, false);  // who asks too early or too late waits (cluster.h)
+  // Who asks too early or too late waits (cluster.h).
+  takeSignal(SIGUSR1, false), takeSignal(SIGUSR2, false);
   return runProgram("ninefold-master", [&] {
     const int cores = static_cast<int>(std::thread::hardware_concurrency());
     return run(parseOptions(argc, argv, processVariable, cores));

@@ -1,4 +1,4 @@
-// compression.h: zstd frames of large blobs. Internal to scene_blobs and state_wire.
+// compression.h: zstd frames of large blobs: of scenes, of states, of checkpoints.
 //
 // Decompression is streamed: memory grows as bytes appear, never beyond the declared size.
 // Errors: throw Error with one line.   Threads: reentrant.

@@ -42,6 +42,14 @@ Bytes decompressed(ByteView compressed, size_t size) {
   return raw;
 }
 
+Bytes rawDeltas(ByteView encoded) {
+  ByteReader in(encoded, "state deltas");
+  if (const auto version = in.number<uint8_t>("version"); version != kVersion)
+    fail("state deltas: version {} is unknown", version);
+  const auto size = in.number<uint32_t>("size");
+  return decompressed(in.take(in.left(), "body"), size);
+}
+
 std::vector<const PageDelta*> byPage(const PageDeltas& deltas) {
   std::vector<const PageDelta*> views;
   for (const PageDelta& delta : deltas) views.push_back(&delta);
@@ -84,11 +92,7 @@ Bytes encodeDeltas(const PageDeltas& deltas) {
 }
 
 PageDeltas decodeDeltas(ByteView encoded) {
-  ByteReader in(encoded, "state deltas");
-  if (const auto version = in.number<uint8_t>("version"); version != kVersion)
-    fail("state deltas: version {} is unknown", version);
-  const auto size = in.number<uint32_t>("size");
-  const Bytes raw = decompressed(in.take(in.left(), "body"), size);
+  const Bytes raw = rawDeltas(encoded);
   ByteReader body(raw, "state deltas");
   Order order;
   PageDeltas deltas;
@@ -98,6 +102,8 @@ PageDeltas decodeDeltas(ByteView encoded) {
   }
   return deltas;
 }
+
+Sha256 digestOfDeltas(ByteView encoded) { return sha256(rawDeltas(encoded)); }
 
 Blob packPage(PageId id, const Page& page) {
   Bytes raw;

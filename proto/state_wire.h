@@ -26,6 +26,8 @@ inline constexpr size_t kMaxPageBlobBytes = kMostDeltaBytes;
 // kPageSums of them, and they are shortest if their places ascend.
 Bytes encodeDeltas(const PageDeltas& deltas);
 PageDeltas decodeDeltas(ByteView encoded);
+// Of the deltas as they were before compression.
+Sha256 digestOfDeltas(ByteView encoded);
 
 Blob packPage(PageId id, const Page& page);
 

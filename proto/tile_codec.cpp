@@ -199,6 +199,22 @@ void UnpackedTile::findLight() {
   }
 }
 
+Sha256 UnpackedTile::digest() const {
+  const auto pixels = static_cast<size_t>(width_ * height_);
+  Bytes codes;
+  codes.reserve(fields_.size() * (8 + 4 * pixels));
+  ByteWriter writer(codes);
+  for (const FieldView& field : fields_) {
+    writer.number(field.least), writer.number(field.most);
+    for (const PlaneView& plane : field.plane)
+      if (plane.bytes != nullptr)
+        writer.raw(plane.bytes, pixels);
+      else
+        codes.insert(codes.end(), pixels, static_cast<std::byte>(plane.value));
+  }
+  return sha256(codes);
+}
+
 void UnpackedTile::copy(const Part& part, uint8_t layers, uint8_t glowing, int stride,
                         TileResult& out) const {
   if (part.width <= 0 || part.height <= 0) return;

@@ -27,6 +27,7 @@
 #include "common/image/tone_map.h"
 #include "common/scene/settings.h"
 #include "proto/bytes.h"
+#include "proto/sha256.h"
 #include "proto/tile_fields.h"
 
 namespace ninefold {
@@ -93,6 +94,9 @@ class UnpackedTile {
   // Layers that have reflectance, E or U anywhere; those that have U.
   uint8_t bright() const { return bright_; }
   uint8_t glowing() const { return glowing_; }
+
+  // Of all codes: equal for tiles that decode to the same, whatever the level of compression.
+  Sha256 digest() const;
 
   // Decodes a part of some layers, and of all extra planes, into the planes of `out`, which has the
   // same layers and extras; U only of those that glow. Rows of `out` hold `stride` pixels.

@@ -37,6 +37,7 @@ struct SimulatedClient {
   double cut = kNever;    // connection stays, nothing gets through any more
   double freezes = kNever, thaws = kNever;
   double sticks = kNever, comesBack = kNever;  // meanwhile no task ends, while heartbeats go on
+  double errs = kNever;                        // from then on each result is wrong
 };
 
 struct SimulatedJob {
@@ -49,12 +50,15 @@ struct SimulatedJob {
   double viewChangeEvery = kNever;  // [s]; frames that it cancels do not count as completed
   uint64_t checkEvery = 10;         // events between two checks of the scheduler's books
   double rays = 1;                  // FrameKind::rays
+  double verify = 0;                // fraction of results that a second client does again
 };
 
 class SimulatedCluster {
  public:
   SimulatedCluster(SimulatedJob job, std::vector<SimulatedClient> clients)
-      : job_(job), clients_(clients.begin(), clients.end()) {}
+      : job_(job), clients_(clients.begin(), clients.end()) {
+    scheduler_.verify(1, job.verify);
+  }
 
   // Plays until all frames are complete, or simulated `deadline` seconds have passed.
   void run(double deadline = 1000) {
@@ -87,6 +91,7 @@ class SimulatedCluster {
   bool everyTaskOnce() const { return everyTaskOnce_; }
   int mostInFlight() const { return mostInFlight_; }
   const std::vector<StuckNote>& notes() const { return notes_; }
+  const std::vector<WrongNote>& wrong() const { return wrong_; }
 
  private:
   struct Client {
@@ -183,6 +188,11 @@ class SimulatedCluster {
     }
     const Actions actions = scheduler_.poll(at(now_));
     notes_.insert(notes_.end(), actions.notes.begin(), actions.notes.end());
+    for (const WrongNote& note : actions.wrong) {
+      wrong_.push_back(note);
+      clients_[note.client - 1].alive = false;
+      lose(note.client - 1);
+    }
     for (const Cancellation& cancel : actions.cancel) {
       const size_t c = cancel.client - 1;
       schedule(now_ + clients_[c].model.latency, [=, this] {
@@ -193,7 +203,8 @@ class SimulatedCluster {
     }
     for (const Assignment& a : actions.assign) {
       const size_t c = a.client - 1;
-      NINEFOLD_CHECK(clients_[c].known);  // no task for a client that is not there
+      const bool isWrong = std::ranges::count(actions.wrong, a.client, &WrongNote::client) > 0;
+      NINEFOLD_CHECK(clients_[c].known || isWrong);  // no task for a client that is not there
       schedule(now_ + clients_[c].model.latency, [=, this] { receive(c, a.task); });
     }
   }
@@ -239,7 +250,9 @@ class SimulatedCluster {
   void result(size_t c, const TaskId& task, double work, TaskCost took) {
     if (!clients_[c].known) return;
     scheduler_.clientHeard(id(c), at(now_));
-    const Verdict verdict = scheduler_.resultArrived(id(c), task, took, at(now_));
+    Digest digest{};
+    digest[0] = now_ >= clients_[c].model.errs;
+    const Verdict verdict = scheduler_.resultArrived(id(c), task, took, at(now_), digest);
     if (!isAccepted(verdict)) return;
     usefulWork_ += work;
     auto& placed = placed_[task.frame];
@@ -276,6 +289,7 @@ class SimulatedCluster {
   int completed_ = 0, mostInFlight_ = 0;
   bool everyTaskOnce_ = true;
   std::vector<StuckNote> notes_;
+  std::vector<WrongNote> wrong_;
   std::map<uint32_t, std::set<std::pair<int, int>>> placed_;
   std::vector<uint32_t> completionOrder_;
   std::map<uint32_t, double> opened_;  // when

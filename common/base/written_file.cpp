@@ -162,6 +162,16 @@ void WrittenFile::writeAt(uint64_t offset, std::string_view bytes) {
   }
 }
 
+void WrittenFile::reserve(uint64_t bytes) {
+  if (bytes == 0) return;
+  while (::fallocate(fd_.get(), 0, 0, static_cast<off_t>(bytes)) != 0) {
+    if (errno == EINTR) continue;
+    if (errno == EOPNOTSUPP || errno == ENOSYS) return;
+    fail("cannot write {}: {}; it needs about {:.1f} MB", name_.string(), ::strerror(errno),
+         static_cast<double>(bytes) / 1e6);
+  }
+}
+
 void WrittenFile::publish() {
   if (failure_ != 0) failWith(failure_);
   // EINVAL: a file system that cannot.
@@ -179,8 +189,9 @@ void WrittenFile::publish() {
   beside_.clear();
 }
 
-void checkWritable(const fs::path& name) {
-  const WrittenFile trial(name);
+void checkWritable(const fs::path& name, uint64_t bytes) {
+  WrittenFile trial(name);
+  trial.reserve(bytes);
   sweep(fs::absolute(name).parent_path());
 }
 

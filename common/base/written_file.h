@@ -39,6 +39,8 @@ class WrittenFile {
   void write(std::string_view bytes) { writeAt(size_, bytes); }  // at the end
   void writeAt(uint64_t offset, std::string_view bytes);
   uint64_t size() const { return size_; }
+  // Throws if there is no room for so many bytes, as far as the file system can tell.
+  void reserve(uint64_t bytes);
   // Last. Nothing is to be seen under the name before. Throws if any write has failed.
   void publish();
 
@@ -55,8 +57,9 @@ class WrittenFile {
   int failure_ = 0;  // errno of the first write that failed
 };
 
-// Throws if the file could not be written. Call it before the work that leads to the file.
-void checkWritable(const std::filesystem::path& name);
+// Throws if the file could not be written, or had no room for so many bytes. Call it before the
+// work that leads to the file.
+void checkWritable(const std::filesystem::path& name, uint64_t bytes = 0);
 
 void writeFile(const std::filesystem::path& name, std::string_view bytes, FileRights rights = {});
 

@@ -12,6 +12,8 @@
 // Threads: addPatch for different tiles at once, else one at a time.
 #pragma once
 
+#include <span>
+
 #include "common/image/image.h"
 #include "common/image/patch.h"
 
@@ -27,6 +29,16 @@ class AovFilm {
   void frameDone() { ++frames_; }  // all its tiles were added
   // The planes that the mask names and the irradiance, in the order above.
   std::vector<Channel> channels() const;
+  int64_t frames() const { return frames_; }
+
+  // All that the next frames and channels() need, as visit(span).
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit) {
+    visit(std::span(&self.frames_, 1));
+    for (auto* sums : {&self.albedo_, &self.normal_, &self.irradiance_, &self.caustic_})
+      for (auto& sum : *sums) visit(std::span(sum));
+    visit(std::span(self.depth_)), visit(std::span(self.hits_)), visit(std::span(self.object_));
+  }
 
  private:
   using Rgb = std::array<std::vector<double>, 3>;  // sums over frames

@@ -35,6 +35,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "common/base/error.h"
 #include "common/image/film_blocks.h"
 #include "common/image/film_layer.h"
 #include "common/image/neighbour_share.h"
@@ -79,6 +80,26 @@ class Film {
   float standardError(size_t pixel, int64_t frames) const;
   double relativeError() const;
   double imageRelativeError() const;
+
+  // That visitKept may come to, beyond what it comes to now.
+  size_t mostBiasBytes() const { return blocks_.count() * sizeof(double); }
+  // All that the next frames and the errors need, as visit(span) of numbers, to keep it or to put
+  // back what was kept: then the film must be new, and have the same size and keeps. A visit that
+  // puts back may throw Error; so does this, if what it put does not fit together.
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit) {
+    visit(std::span(&self.frames_, 1));
+    FilmLayer<double>::visitKept(self.unfiltered_, visit);
+    FilmBlocks::visitKept(self.blocks_, visit);
+    RadiusBias::visitKept(self.bias_, self.blocks_.count(), visit);
+    if (!self.shift_) return;
+    FilmLayer<float>::visitKept(*self.shift_, visit);
+    visit(std::span(self.share_.share)), visit(std::span(self.share_.squaredBias));
+    visit(std::span(&self.sharedAt_, 1));
+    if (self.sharedAt_ < 0 || self.sharedAt_ > self.frames_)
+      fail("the film's share of neighbours is of {} frames, it has {}", self.sharedAt_,
+           self.frames_);
+  }
 
  private:
   void prefetch(size_t first, int count) const;

@@ -27,6 +27,12 @@ class FilmBlocks {
   Estimate whole(int64_t frames) const { return replications_.estimate(count(), frames); }
   size_t blockOf(size_t pixel) const;
 
+  // All that frameDone has left, as visit(span).
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit) {
+    Replications<double>::visitKept(self.replications_, visit);
+  }
+
  private:
   int width_, columns_, rows_;
   Replications<double> replications_;

@@ -45,6 +45,13 @@ class FilmLayer {
 
   const Replications<float>& luminance() const { return luminance_; }
 
+  // All that add has left, as visit(span).
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit) {
+    for (auto* mean : {&self.r_, &self.g_, &self.b_}) visit(std::span(*mean));
+    Replications<float>::visitKept(self.luminance_, visit);
+  }
+
  private:
   size_t pixels_;
   std::vector<T> r_, g_, b_;       // means

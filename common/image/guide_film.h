@@ -12,6 +12,8 @@
 // Threads: addPatch for different tiles at once, else one at a time.   Memory: 20 bytes a pixel.
 #pragma once
 
+#include <span>
+
 #include "common/image/denoise.h"
 #include "common/image/patch.h"
 
@@ -25,13 +27,21 @@ class GuideFilm {
   void addPatch(const Patch& patch);  // a tile of the next frame, each once
   void frameDone() { ++frames_; }     // all its tiles were added
   int64_t frames() const { return frames_; }
-  DenoiseGuides guides() const;
 
- private:
   struct Pixel {
     float albedo = 0, nearness = 0;
     Vec3 normal{0};
   };
+  DenoiseGuides guides() const;
+
+  // All that the next frames and guides() need, as visit(span).
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit) {
+    visit(std::span(&self.frames_, 1));
+    visit(std::span(self.pixels_));
+  }
+
+ private:
   static Pixel seen(const Patch& patch, int phase, size_t i);
 
   int width_;

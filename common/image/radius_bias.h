@@ -16,6 +16,9 @@
 // Threads: pure.   Errors: none; 0 before all replications have a frame.
 #pragma once
 
+#include <type_traits>
+
+#include "common/base/error.h"
 #include "common/image/replications.h"
 
 namespace ninefold {
@@ -27,6 +30,17 @@ struct RadiusBias {
   // Of the first pixels.size() quantities; `pixels`: how many pixels each stands for.
   static RadiusBias of(const Replications<double>& blocks, std::span<const double> pixels,
                        int64_t frames);
+
+  // Both members as visit(span). Error: as many squares as blocks, or none, and it is neither.
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, size_t blocks, Visit& visit) {
+    visit(std::span(&self.squared, 1));
+    uint64_t count = self.squares.size();
+    visit(std::span(&count, 1));
+    if (count != 0 && count != blocks) fail("the film has {} of {} blocks", count, blocks);
+    if constexpr (!std::is_const_v<Self>) self.squares.resize(static_cast<size_t>(count));
+    visit(std::span(self.squares));
+  }
 };
 
 }  // namespace ninefold

@@ -77,6 +77,12 @@ class Replications {
     for (size_t i = 0; i < n; ++i) m[i] += (x[i] - m[i]) * share;
   }
 
+  // All that add has left, as visit(span).
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit) {
+    visit(std::span(self.mean_));
+  }
+
   // Mean of quantity i in replication r.
   double at(size_t r, size_t i) const { return static_cast<double>(mean_[r * quantities_ + i]); }
 

@@ -232,7 +232,7 @@ def master_command(master, flags, settings, scene, exported, folder, passes):
                         ("--key-file", bpy.path.abspath(s.key_file)), ("--denoise", "on" if s.denoise else "")):
         if value:
             command += [flag, f"{value:.7g}" if isinstance(value, float) else str(value)]
-    for flag, value in (("--output-every", str(EVERY)), ("--light-units", "radiometric")):
+    for flag, value in (("--save-every", str(EVERY)), ("--light-units", "radiometric")):
         if flag in flags:
             command += [flag, value]
     if passes:

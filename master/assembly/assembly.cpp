@@ -32,13 +32,16 @@ Assembly::Assembly(int workers, Answer answer, Finish finish)
   for (int i = 0; i < workers; ++i) workers_.emplace_back([this, i] { run(i); });
 }
 
-Assembly::~Assembly() {
+Assembly::~Assembly() { close(); }
+
+void Assembly::close() {
   {
     const std::lock_guard lock(mutex_);
     closing_ = true;
   }
   work_.notify_all();
   for (std::thread& thread : workers_) thread.join();
+  workers_.clear();
 }
 
 bool Assembly::hasRoom() const {
@@ -123,8 +126,10 @@ std::vector<Assembly::Unpacking> Assembly::takeSome() {
 }
 
 void Assembly::unpack(Unpacking& one, TileDecoder& decoder) const {
+  const std::optional<TileShape>& shape = one.shape ? one.shape : one.tile.toCompare;
   try {
-    if (one.shape) one.unpacked = decoder.unpack(std::move(one.tile.result.encoded), *one.shape);
+    if (shape) one.unpacked = decoder.unpack(std::move(one.tile.result.encoded), *shape);
+    if (one.tile.toCompare) one.tile.digest = one.unpacked.digest();
   } catch (const Error& error) {
     one.malformed = error.what();
   }

@@ -81,6 +81,9 @@ class Assembly {
   // frame that was given out stays until its release, and none is finished before.
   void supersede(uint32_t firstWanted);
 
+  // The end: nothing is finished any more. Waits for tiles that are being finished.
+  void close();
+
   struct Complete {
     FrameKey key;
     Time lastResult;  // when the last result came in

@@ -18,6 +18,7 @@
 #include "common/image/patch_filter.h"
 #include "master/assembly/assembly.h"
 #include "master/assembly/view.h"
+#include "proto/bytes.h"
 
 namespace ninefold {
 
@@ -44,10 +45,18 @@ class PictureMaker {
   int64_t frames() const { return film_.frames(); }
   double relativeError() const { return film_.relativeError(); }
   std::string imageHash() const;
+  // The film, and all beside it that the next frames need, as bytes.
+  void keep(Bytes& out) const;
+  size_t keptBytes() const;  // at most
+  // Puts back what another maker of the same setup kept after `frames` frames. Error, in one line:
+  // it is not that; then the maker must not be used any more.
+  void restore(ByteView kept, int64_t frames);
   bool isDenoised() const { return guides_.has_value(); }  // what is written
   void write(const std::string& path, const Metadata& metadata) const;
 
  private:
+  template <typename Self, typename Visit>
+  static void visitKept(Self& self, Visit& visit);
   void addFiltered(FilterDesk& desk, const GatheredFrame& frame, int tile);
   std::vector<Channel> extraChannels() const;
 

@@ -84,6 +84,7 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.localClients, raw.whole("local-clients", 0, kMaxClients));
   assign(o.clientThreads, raw.whole("client-threads", 1, 1024));
   assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
+  assign(o.verify, raw.real("verify", 0, 1));
   assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
   o.addressFile = raw.text("address-file");
@@ -185,14 +186,20 @@ void readLive(const RawOptions& raw, Options& o) {
 
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
-  o.outputEvery = raw.real("output-every", 0.1, kMaxSeconds);
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !isWatched(o))
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
-  if (o.outputEvery && (!o.output || isLive(o)))
-    failUsage("--output-every is for --output without --window, --serve, --script and --animate");
   if (o.animate && !isWatched(o) && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
+  o.saveEvery = raw.real("save-every", 1e-3, kMaxSeconds);
+  o.checkpoint = raw.text("checkpoint");
+  if (isLive(o) && (o.saveEvery || o.checkpoint))
+    failUsage("--{} is for one picture at rest: leave --window, --serve, --script and --animate out",
+              o.checkpoint ? "checkpoint" : "save-every");
+  if (isLive(o) && o.verify > 0)
+    failUsage("--verify is for one picture at rest: leave --window, --script and --animate out");
+  if (o.saveEvery && !o.output && !o.checkpoint)
+    failUsage("--save-every needs --output FILE or --checkpoint FILE");
   if (!o.output) return;
   const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
   if (!ends(".exr") && !ends(".png") && !ends(".hdr"))

@@ -50,6 +50,7 @@ struct Options {
   std::optional<std::string> addressFile;  // gets the addresses at which it listens
   std::optional<std::string> hosts;        // file: where ssh starts clients
   int waitClients = 1;
+  double verify = 0;         // fraction of results that a second client does again
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
   double patience = 120;     // unless somebody looks on, with clients that are all stuck [s]
 
@@ -63,8 +64,9 @@ struct Options {
 
   StopRule stop;  // 64 frames if no flag says otherwise
 
-  std::optional<std::string> output;  // .exr, .png or .hdr
-  std::optional<double> outputEvery;  // also before the end [s]
+  std::optional<std::string> output;      // .exr, .png or .hdr
+  std::optional<double> saveEvery;        // while it converges [s]
+  std::optional<std::string> checkpoint;  // file, of a run that is not live
   bool aovs = false;
   std::optional<bool> denoise;    // nothing: as denoises() says
   std::optional<float> exposure;  // [EV]; nothing: the scene's, or by the picture

@@ -109,6 +109,10 @@ constexpr Flag kCluster[] = {
     {"wire-level", "auto|N",
      "lossless compression of results, zstd's levels 1 to 19, 0 = none; auto: what suits each "
      "client's line (default auto)"},
+    {"verify", "P",
+     "a fraction of all results, 0 to 1, is done again by a second client; where two differ a "
+     "third "
+     "settles it, who is wrong is expelled, and what it sent is done anew (default 0)"},
     {"patience", "S",
      "when all clients are stuck, each in a task that does not end, wait for S seconds, then end "
      "with what there is, unless somebody looks on (default 120)"},
@@ -116,9 +120,12 @@ constexpr Flag kCluster[] = {
 };
 constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
-    {"output-every", "S",
-     "write it after the first frame, too, and then every S seconds, 0.1 or more, as far as it has "
-     "converged"},
+    {"save-every", "S",
+     "write the picture, and the checkpoint, each S seconds while it converges; a run without a "
+     "window that makes one picture does so by SIGUSR1, too"},
+    {"checkpoint", "FILE",
+     "keep film and state of such a run, each minute or as --save-every says, and at its end; the "
+     "same command goes on where the file is, with the same bytes"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
     {"stats", "FILE", "what happened, as JSON; - is standard output"},
@@ -281,7 +288,9 @@ std::string helpText() {
          "Exit status: 0 done, 1 a failure (one line on stderr says what to do), 2 wrong usage,\n"
          "128 + N ended by signal N, with the picture so far written: 130 Ctrl-C, 143 SIGTERM,\n"
          "129 SIGHUP, 141 SIGPIPE.\n"
-         "SIGUSR1 asks what is under way: lines \"state: ...\" on stderr; nothing else changes.\n";
+         "SIGUSR1 asks for the picture so far, as --save-every does; SIGUSR2 asks what is under "
+         "way:\n"
+         "lines \"state: ...\" on stderr. Nothing else changes.\n";
   return text.str();
 }
 

@@ -100,10 +100,12 @@ Json object(const RayCounts& rays) {
 }
 
 void addPerformance(const RunStats& s, Json& json) {
-  const double pixels = static_cast<double>(s.frames) * s.settings.width * s.settings.height;
+  const auto frames = static_cast<double>(s.frames - s.framesBefore);
+  const double pixels = frames * s.settings.width * s.settings.height;
   json["frames"] = s.frames;
+  if (s.framesBefore > 0) json["frames_before"] = s.framesBefore;
   json["seconds"] = s.seconds;
-  json["fps"] = rate(static_cast<double>(s.frames), s.seconds);
+  json["fps"] = rate(frames, s.seconds);
   json["frame_ms"] = percentiles(s.frameMs);
   json["rays"] = object(s.rays);
   json["rays_per_second"] = rate(static_cast<double>(s.rays.total()), s.seconds);
@@ -135,6 +137,12 @@ void addSteps(const StepStats& s, Json& json) {
                    {"bytes_sent", s.bytesSent}};
 }
 
+void addVerification(const VerifyStats& s, Json& json) {
+  json["verify"] = {{"checked", s.counts.checked}, {"wrong", s.counts.wrong},
+                    {"alone", s.counts.alone},     {"disputed", s.counts.disputed},
+                    {"expelled", s.expelled},      {"frames_again", s.framesAgain}};
+}
+
 void addJob(const RunStats& s, Json& json) {
   json["relative_error"] = numberOrNull(s.relativeError);
   json["needs"] = object(s.needs);
@@ -152,6 +160,7 @@ std::string toJson(const RunStats& stats) {
   addPerformance(stats, json);
   addWork(stats, json);
   addSteps(stats.steps, json);
+  if (stats.verify) addVerification(*stats.verify, json);
   addJob(stats, json);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "common/image/surface_test.h"
 #include "common/scene/needs.h"
 #include "common/scene/settings.h"
+#include "master/scheduling/scheduler_types.h"
 
 namespace ninefold {
 
@@ -30,8 +32,16 @@ struct StepStats {
   uint64_t bytesReceived = 0, bytesSent = 0;  // page deltas
 };
 
+// Results that a second client did again.
+struct VerifyStats {
+  VerificationCounts counts;  // checked, wrong, alone, disputed
+  uint64_t expelled = 0;      // clients
+  int64_t framesAgain = 0;    // done anew because of them
+};
+
 struct RunStats {
   int64_t frames = 0;           // complete, at full size
+  int64_t framesBefore = 0;     // of them out of the checkpoint; rates and sums are of the others
   double seconds = 0;           // first dispatch to last completion; gives fps and all rates
   std::vector<double> frameMs;  // from one completion to the next, in order; gives frame_ms
   RayCounts rays;               // of accepted results
@@ -49,7 +59,8 @@ struct RunStats {
   uint64_t stalls = 0;           // times that all clients were stuck at once
   uint64_t valuesNotFinite = 0;  // or negative, where there is no light below 0: they became 0
   StepStats steps;
-  double relativeError = 0;  // not finite (less than two frames): null
+  std::optional<VerifyStats> verify;  // with --verify
+  double relativeError = 0;           // not finite (less than two frames): null
   Needs needs;
   std::string preset;                              // settings.preset
   Settings settings;                               // method, settings, seed

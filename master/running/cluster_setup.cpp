@@ -24,13 +24,15 @@ ClusterSetup clusterSetup(const Options& options, const Listener::Keys& keys) {
                              fmt::format("local client {}", i),
                              {fmt::format("--name=local{}", i),
                               fmt::format("--key-descriptor={}", kInheritedDescriptor)}});
-  ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients};
+  ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients,
+                      options.verify, options.settings.seed};
   const auto patience =
       isWatched(options) ? std::nullopt : std::optional(fromSeconds(options.patience));
   ClusterSetup setup{std::move(server), std::move(local)};
   if (options.hosts) setup.hosts = readHosts(*options.hosts);
   setup.isa = options.isa;
   setup.remoteMayJoin = keys.cluster != nullptr;
+  setup.savesOnRequest = !isLive(options);
   setup.patience = patience;
   return setup;
 }

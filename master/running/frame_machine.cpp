@@ -36,12 +36,16 @@ ServerDuty FrameMachine::serverDuty() {
     if (duty_.tileCame) duty_.tileCame(tile);
     return assembly_.take(tile);
   };
-  if (duty_.giveUp)
-    duty.giveUp = [this] {
-      const uint32_t firstWanted = duty_.giveUp();
+  const auto withAssembly = [this](const std::function<uint32_t()>& firstWantedNow) {
+    return [this, firstWantedNow] {
+      const uint32_t firstWanted = firstWantedNow();
       assembly_.supersede(firstWanted);
       return firstWanted;
     };
+  };
+  if (duty_.giveUp) duty.giveUp = withAssembly(duty_.giveUp);
+  if (duty_.goBack) duty.goBack = withAssembly(duty_.goBack);
+  duty.wentBack = duty_.wentBack;
   return duty;
 }
 
@@ -58,6 +62,8 @@ void FrameMachine::supersede(uint32_t firstWanted) {
   assembly_.supersede(firstWanted);
   cluster_.supersede(firstWanted);
 }
+
+void FrameMachine::finishNoMore() { assembly_.close(); }
 
 void FrameMachine::release(const Assembly::Complete& frame) {
   assembly_.release(frame);

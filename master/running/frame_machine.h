@@ -3,7 +3,7 @@
 //
 //   duty.nextWork -> cluster -> tiles -> assembly -> duty.finishTile -> next
 //
-// Threads: nextWork, tileCame, giveUp and stepDone are called on the network thread, finishTile on
+// Threads: all of a duty but finishTile is called on the network thread, finishTile on
 // a worker's; everything else from any thread.
 // Owner: the run; ends all its threads when destroyed.
 // Errors: the constructor throws Error (cannot listen, bad key); cluster().failure() tells what
@@ -27,7 +27,11 @@ struct FrameDuty {
   // As ServerDuty::giveUp. May be null.
   std::function<uint32_t()> giveUp = nullptr;
   // As ServerDuty::stepDone. May be null.
-  std::function<void(const StepKey&)> stepDone = nullptr;
+  std::function<void(const StepKey&, const StatePages&)> stepDone = nullptr;
+  // As ServerDuty::goBack and wentBack; when wentBack is called, no tile of those frames is being
+  // finished. May be null.
+  std::function<uint32_t()> goBack = nullptr;
+  std::function<void()> wentBack = nullptr;
 };
 
 class FrameMachine {
@@ -47,6 +51,8 @@ class FrameMachine {
   // The next whole frame, if it is there by `deadline`. Give it back with release.
   std::optional<Assembly::Complete> next(Time deadline) { return assembly_.next(deadline); }
   void release(const Assembly::Complete& frame);
+  // No frame is finished any more: when it returns, finishTile is not called again.
+  void finishNoMore();
 
   Cluster& cluster() { return cluster_; }
   const Cluster& cluster() const { return cluster_; }

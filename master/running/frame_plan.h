@@ -35,6 +35,10 @@ class FramePlan {
   // The next frame's key; indices are given out in order, from 0.
   FrameKey next();
   int64_t opened() const { return next_; }
+  // As if so many frames had been opened.
+  void skip(int64_t frames) {
+    while (frames-- > 0) next();
+  }
 
   // w of a frame, by its index from 0.
   float neighbourWeight(uint32_t frame) const {

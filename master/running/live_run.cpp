@@ -42,7 +42,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
                   finishTile(worker, frame, tile);
                 },
                 [this](const ReceivedTile& tile) { noteOwner(tile); }, [this] { return giveUp(); },
-                [this](const StepKey& step) { stepDone(step); }}) {
+                [this](const StepKey& step, const StatePages&) { stepDone(step); }}) {
   setDelivery();
 }
 

@@ -26,6 +26,15 @@ bool StatePlan::change(const Settings& settings, bool sceneChanged) {
   return std::exchange(open_, std::nullopt).has_value();
 }
 
+void StatePlan::resume(uint32_t frames, uint32_t version) {
+  open_.reset();
+  restart();
+  index_ = frames;
+  latest_ = version, stale_ = 0;
+  versions_ = std::max(versions_, version);
+  if (facts_ != nullptr && facts_->servesAll() && version != 0) ready_.push_back(version);
+}
+
 std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
                                                    std::optional<int64_t> framesLeft,
                                                    Duration time) {

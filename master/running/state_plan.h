@@ -27,6 +27,11 @@
 
 namespace ninefold {
 
+// Whether at rest what comes after a frame needs the state that lit it.
+inline bool isNeededAfterwards(const StateFacts* facts) {
+  return facts != nullptr && (facts->servesAll() || !facts->beginsAnew);
+}
+
 class StatePlan {
  public:
   explicit StatePlan(const Settings& settings);
@@ -35,6 +40,9 @@ class StatePlan {
   bool change(const Settings& settings, bool sceneChanged);
   // Frames at rest begin anew: what was made for those before lights none of them.
   void restart() { ready_.clear(), ++series_, index_ = 0; }
+  // Frames at rest go on behind the first `frames` of a series. `version`: that lit the last of
+  // them, if it is needed afterwards, else 0.
+  void resume(uint32_t frames, uint32_t version);
   // The open step cannot be done any more, and frames at rest begin anew.
   void giveUp() { open_.reset(), restart(); }
 

@@ -9,6 +9,7 @@
 
 #include <variant>
 
+#include "common/image/layers.h"
 #include "common/scene/edit.h"
 #include "common/scene/settings.h"
 #include "proto/messages.h"
@@ -27,7 +28,7 @@ struct JobOrder {
 struct FrameOrder : JobOrder {
   FrameKey key;
   bool urgent = false;  // somebody waits for it (FrameKind)
-  uint8_t extraMask = 0;
+  uint8_t layerMask = kDiffuseBit, extraMask = 0;
   float neighbourWeight = 1;  // of the filter, in [0, 1]; less than 1 only where clients filter
 
   TileGrid grid() const { return {settings.width, settings.height, settings.interleave}; }

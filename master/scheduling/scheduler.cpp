@@ -15,8 +15,10 @@ constexpr int kAhead = 3;  // frames beyond those in which each client has a set
 
 }  // namespace
 
-void Scheduler::clientJoined(ClientId id, int threads, Time now, Duration sceneTime) {
+void Scheduler::clientJoined(ClientId id, int threads, Time now, Duration sceneTime,
+                             const std::string& pixelClass) {
   NINEFOLD_CHECK(!past_.contains(id));
+  verification_.joined(id, pixelClass);
   pool_.add(id, threads, now);
   SchedulerClient& client = *pool_.find(id);
   client.setSceneTime(sceneTime);
@@ -36,6 +38,7 @@ void Scheduler::clientLost(ClientId id, Time now) {
   report.inFlight = report.window = 0;
   past_.emplace(id, report);
   pool_.remove(id);
+  verification_.lost(id);
 }
 
 void Scheduler::clientHeard(ClientId id, Time now) {
@@ -78,7 +81,9 @@ int Scheduler::waiting() const {
   return sum;
 }
 
-bool Scheduler::wantsFrame() const { return waiting() < pool_.freeCredit() || wouldShare(); }
+bool Scheduler::wantsFrame() const {
+  return !verification_.isFull() && (waiting() < pool_.freeCredit() || wouldShare());
+}
 
 int Scheduler::openFrames() const {
   return static_cast<int>(
@@ -145,6 +150,7 @@ void Scheduler::supersede(uint32_t firstWanted, bool steps, Time now) {
     counts_.cancelledFrames += steps ? 0 : 1;
     closeFrame(number, false);
   }
+  verification_.drop(firstWanted, steps);
   pool_.change([&](SchedulerClient& client) {
     const bool held = client.withdraw(firstWanted, steps, now);
     if (held) cancellations_.push_back({client.id(), firstWanted, steps});
@@ -181,6 +187,7 @@ Verdict Scheduler::verdictOnClosed(uint32_t frame) const {
 Verdict Scheduler::verdictOn(ClientId id, const TaskId& task) const {
   const SchedulerClient* client = pool_.find(id);
   if (client == nullptr) return past_.contains(id) ? Verdict::stale : Verdict::unknown;
+  if (verification_.expects(id, task)) return Verdict::compared;
   const SchedulerFrame* frame = findFrame(task.frame);
   if (frame == nullptr) return verdictOnClosed(task.frame);
   const int index = frame->indexOf(task);
@@ -190,7 +197,8 @@ Verdict Scheduler::verdictOn(ClientId id, const TaskId& task) const {
   return frame->left() == 1 ? Verdict::completedFrame : Verdict::accepted;
 }
 
-Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, TaskCost cost, Time now) {
+Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, TaskCost cost, Time now,
+                                 const std::optional<Digest>& digest) {
   const Verdict verdict = verdictOn(id, task);
   counts_.droppedUnknown += verdict == Verdict::unknown;
   counts_.droppedDuplicate += verdict == Verdict::duplicate;
@@ -202,9 +210,11 @@ Verdict Scheduler::resultArrived(ClientId id, const TaskId& task, TaskCost cost,
   client.answered(task, cost, isAccepted(verdict), now);
   trustAgain(client, now);
   pool_.update(client);
+  if (verdict == Verdict::compared) verification_.answered(id, task, digest.value());
   if (!isAccepted(verdict)) return verdict;
 
   ++counts_.accepted;
+  noteResult(id, task, digest);
   SchedulerFrame& frame = *findFrame(task.frame);
   counts_.completedUnits += frame.isStep();
   frame.finish(frame.indexOf(task));
@@ -231,10 +241,12 @@ Actions Scheduler::poll(Time now) {
   Actions actions;
   suspectSilentClients(now);
   noteStuckClients(now);
+  handOutChecks(actions, now);
   handOutWaiting(actions, now);
   duplicateStragglers(actions, now);
   actions.cancel.swap(cancellations_);
   actions.notes.swap(notes_);
+  actions.wrong = verification_.takeWrong();
   return actions;
 }
 
@@ -261,6 +273,7 @@ void Scheduler::doubt(SchedulerClient& client, Time now) {
       if (SchedulerFrame* frame = findFrame(held.task.frame))
         counts_.reissued += frame->setHolderActive(frame->indexOf(held.task), client.id(), false);
     for (auto& [number, frame] : frames_) frame.forgetClient(client.id());
+    verification_.release(client.id());
   }
   pool_.update(client);
 }
@@ -321,7 +334,6 @@ bool Scheduler::duplicateOne(SchedulerFrame& frame, Actions& actions, Time now) 
 
 void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions,
                        Time now) {
-  const double rays = frame.raysOfTask();
   const Duration estimate = client.timeForOneMore();
   frame.addHolder(task, {.client = client.id(),
                          .sent = now,
@@ -334,10 +346,14 @@ void Scheduler::assign(SchedulerClient& client, SchedulerFrame& frame, int task,
     client.counts().lightSets += use.newSet;
     client.rememberSet(frame.key().randomization, set);
   }
-  client.take({.task = frame.idOf(task), .set = set, .rays = rays, .isStep = frame.isStep()}, now);
+  send(client, frame.heldTask(task), actions, now);
+}
+
+void Scheduler::send(SchedulerClient& client, const HeldTask& task, Actions& actions, Time now) {
+  client.take(task, now);
   pool_.update(client);
   ++counts_.assigned;
-  actions.assign.push_back({client.id(), frame.idOf(task), client.allowance(rays)});
+  actions.assign.push_back({client.id(), task.task, client.allowance(task.rays)});
 }
 
 }  // namespace ninefold

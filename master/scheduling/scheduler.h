@@ -21,6 +21,9 @@
 //               welcome, and it gets one task on trial when it is heard of again.
 //   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A
 //               change of the view leaves them.
+//   checks      Chosen results are done again by a second client of the same pixel class, before
+//               any other work (verification.h). A frame does not wait for them. Actions::wrong
+//               tells.
 //   stuck       It is at work on a task past its deadline. As a suspect, but heartbeats do not
 //               help: it gets nothing until it gives a result. Actions::notes tell.
 //
@@ -40,6 +43,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,14 +53,18 @@
 #include "master/scheduling/scheduler_frame.h"
 #include "master/scheduling/scheduler_pool.h"
 #include "master/scheduling/scheduler_types.h"
+#include "master/scheduling/verification.h"
 
 namespace ninefold {
 
 class Scheduler {
  public:
+  // Before the first client: a fraction of all results is done again by a second client.
+  void verify(uint64_t seed, double fraction) { verification_.begin(seed, fraction); }
   // A client is ready to render. Ids are never used twice. `sceneTime`: how long it built the
   // scene.
-  void clientJoined(ClientId client, int threads, Time now, Duration sceneTime = Duration(0));
+  void clientJoined(ClientId client, int threads, Time now, Duration sceneTime = Duration(0),
+                    const std::string& pixelClass = {});
   // Its connection or process ended, or its heartbeat stopped. Unknown ids are ignored.
   void clientLost(ClientId client, Time now);
   // Any message came from it: a suspect may be tried again.
@@ -77,7 +85,12 @@ class Scheduler {
   // The caller itself did not run for so long, until now: no client is to blame for that.
   void paused(Duration pause);
 
-  Verdict resultArrived(ClientId client, const TaskId& task, TaskCost cost, Time now);
+  // `digest`: needed if needsDigest(task), once the result is to be placed or compared.
+  Verdict resultArrived(ClientId client, const TaskId& task, TaskCost cost, Time now,
+                        const std::optional<Digest>& digest = {});
+  bool needsDigest(const TaskId& task) const {
+    return verification_.isOn() && verification_.isChosen(task);
+  }
   // What resultArrived would say now: lets the caller skip decoding what will be dropped.
   Verdict verdictOn(ClientId client, const TaskId& task) const;
 
@@ -93,6 +106,17 @@ class Scheduler {
   // Tasks of an open frame or step that are not done; 0 for any other.
   int tasksLeft(uint32_t frame) const;
 
+  // Whether it is open, or a result of it is to be compared.
+  bool isNeeded(uint32_t frame) const { return isOpen(frame) || verification_.isOpen(frame); }
+  // All frames and steps before are done, and all their results compared, but for disputes that
+  // wait for one more client.
+  uint32_t firstUnsettled() const;
+  // A moment to come back to, and whether all that was done up to then is trusted.
+  void mark() { verification_.mark(); }
+  void unmark() { verification_.unmark(); }
+  bool isMarkTrusted() const { return verification_.isTrusted(); }
+
+  const VerificationCounts& verificationCounts() const { return verification_.counts(); }
   const SchedulerCounts& counts() const { return counts_; }
   std::vector<ClientReport> report(Time now) const;  // all clients of the run, by id
   // Why a task is where it is, in words.
@@ -123,15 +147,19 @@ class Scheduler {
   void noteStuckClients(Time now);
   void doubt(SchedulerClient& client, Time now);
   void trustAgain(SchedulerClient& client, Time now);
+  void handOutChecks(Actions& actions, Time now);
   void handOutWaiting(Actions& actions, Time now);
   void duplicateStragglers(Actions& actions, Time now);
   bool duplicateOne(SchedulerFrame& frame, Actions& actions, Time now);
   void assign(SchedulerClient& client, SchedulerFrame& frame, int task, Actions& actions, Time now);
+  void send(SchedulerClient& client, const HeldTask& task, Actions& actions, Time now);
+  void noteResult(ClientId client, const TaskId& task, const std::optional<Digest>& digest);
   void closeFrame(uint32_t frame, bool completed);
   bool isUnfinished(const TaskId& task) const;
   std::string explainOpen(const SchedulerFrame& frame, int task, Time now) const;
 
   SchedulerPool pool_;
+  Verification verification_;
   std::map<ClientId, ClientReport> past_;         // clients that were lost
   std::map<uint32_t, SchedulerFrame> frames_;     // open ones, oldest first
   std::deque<std::pair<uint32_t, bool>> closed_;  // the latest closed ones: id, completed?

@@ -54,6 +54,9 @@ class SchedulerFrame {
   // Index of a task of this frame, -1 if there is no such task.
   int indexOf(const TaskId& task) const;
   TaskId idOf(int task) const;
+  HeldTask heldTask(int task) const {
+    return {.task = idOf(task), .set = setOf(task), .rays = rays_, .isStep = isStep_};
+  }
   int setOf(int task) const { return lightSetOfPhase(task % sets_, key_.rotation, sets_); }
   TaskState state(int task) const { return tasks_[static_cast<size_t>(task)].state; }
   const std::vector<TaskHolder>& holders(int task) const {

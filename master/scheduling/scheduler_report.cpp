@@ -86,6 +86,12 @@ void Scheduler::checkInvariants() const {
     for (const HeldTask& task : client.held()) held += isUnfinished(task.task);
   });
   NINEFOLD_CHECK(claims == held);
+  for (const auto& [id, task] : verification_.holders()) {
+    const SchedulerClient* client = pool_.find(id);
+    NINEFOLD_CHECK(client != nullptr);
+    NINEFOLD_CHECK(client->holds(task));
+    NINEFOLD_CHECK(client->trust() != Trust::suspect);
+  }
 }
 
 bool Scheduler::isUnfinished(const TaskId& task) const {

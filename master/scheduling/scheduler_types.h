@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/base/clock.h"
+#include "proto/sha256.h"
 
 namespace ninefold {
 
@@ -21,8 +22,11 @@ struct TaskId {
   uint32_t frame = 0;  // FrameKey::frame or StepKey::number
   int tile = 0;        // 0..TileGrid::tiles()-1; of a step: the unit, as StepKey counts
   int phase = 0;       // 0..Interleave::sets()-1; of a step: 0
-  bool operator==(const TaskId&) const = default;
+  auto operator<=>(const TaskId&) const = default;
 };
+
+// Of a result's content, however it was compressed.
+using Digest = Sha256;
 
 // How a frame is to be rendered.
 struct FrameKind {
@@ -76,10 +80,17 @@ struct StuckNote {
   HeldTask task = {};
 };
 
+// Two other clients gave another result for the task than this one.
+struct WrongNote {
+  ClientId client = 0;
+  HeldTask task;
+};
+
 struct Actions {
   std::vector<Cancellation> cancel;  // to be sent before `assign`
   std::vector<Assignment> assign;
   std::vector<StuckNote> notes;
+  std::vector<WrongNote> wrong;
 };
 
 // What a result cost its client.
@@ -96,6 +107,7 @@ enum class Verdict : uint8_t {
   duplicate,       // another client was faster
   stale,           // its frame was superseded, or its client has left
   unknown,         // never asked of this client, or no such task
+  compared,        // only to be compared with another client's
 };
 inline bool isAccepted(Verdict v) { return v == Verdict::accepted || v == Verdict::completedFrame; }
 
@@ -113,6 +125,14 @@ struct SchedulerCounts {
   uint64_t droppedDuplicate = 0;
   uint64_t droppedStale = 0;
   uint64_t droppedUnknown = 0;
+};
+
+// Of results that a second client does again (verification.h).
+struct VerificationCounts {
+  uint64_t checked = 0;   // two clients agreed
+  uint64_t wrong = 0;     // results that differed from what two clients gave
+  uint64_t alone = 0;     // chosen, but nobody was there to check them
+  uint64_t disputed = 0;  // that differ, and wait for a third client
 };
 
 // One client's share of the run; kept after it is lost.

@@ -27,6 +27,7 @@ void append(std::string& text, int count, const char* what) {
 
 Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
     : remoteMayJoin_(setup.remoteMayJoin),
+      savesOnRequest_(setup.savesOnRequest),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
       local_(withMaster(std::move(setup.local), server_.endpoint()),
              [this](const std::string& name) { return workOf(name); }),
@@ -54,7 +55,14 @@ void Cluster::watchSignals() {
     // Local clients follow: the kernel kills them with us.
     if (isAsked && ++asked_ > 1) std::_Exit(128 + signal);
   });
-  loop_.onSignal({SIGUSR1}, [this](int) { tellState(); });
+  loop_.onSignal({SIGUSR1}, [this](int) { askForSave(); });
+  loop_.onSignal({SIGUSR2}, [this](int) { tellState(); });
+}
+
+void Cluster::askForSave() {
+  saveAsked_ = true;
+  if (!savesOnRequest_)
+    warn("SIGUSR1 asks for the picture so far: only a run of one picture at rest saves it so");
 }
 
 void Cluster::tellState() const {
@@ -64,7 +72,7 @@ void Cluster::tellState() const {
 }
 
 void Cluster::run() {
-  takeSignal(SIGUSR1, true);
+  takeSignal(SIGUSR1, true), takeSignal(SIGUSR2, true);
   try {
     local_.start(Clock::now());
     hosts_.start(Clock::now());
@@ -183,6 +191,14 @@ void Cluster::supersede(uint32_t firstWanted) {
 
 void Cluster::cancelSteps(uint32_t firstWanted) {
   loop_.post([this, firstWanted] { server_.cancelSteps(firstWanted, Clock::now()); });
+}
+
+void Cluster::mark(uint32_t frame) {
+  loop_.post([this, frame] { server_.mark(frame); });
+}
+
+void Cluster::keepStates(uint32_t from) {
+  loop_.post([this, from] { server_.keepStates(from); });
 }
 
 void Cluster::wake() {

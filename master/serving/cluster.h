@@ -1,9 +1,9 @@
 // cluster.h: the network thread with all that lives in it: event loop, server, the clients
 // that it starts, signals, and the ticking of their deadlines.
 //
-// SIGUSR1 asks what is under way: the log gets lines that begin with "state:". Only the network
-// thread takes it. main blocks it for all others, else it would end the program before that thread
-// runs, or after.
+// SIGUSR1 asks for the picture so far: takeSaveRequest() tells the run. SIGUSR2 asks what is under
+// way: the log gets lines that begin with "state:". Only the network thread takes them. main blocks
+// them for all others, else they would end the program before that thread runs, or after.
 //
 // Threads: the constructor listens, start() begins the thread; everything else from any thread, but
 // the server's tally and clients only after join().
@@ -32,6 +32,7 @@ struct ClusterSetup {
   std::vector<Host> hosts = {};
   std::string isa = "auto";               // of clients on hosts
   bool remoteMayJoin = false;             // a cluster key exists
+  bool savesOnRequest = false;            // the run asks takeSaveRequest()
   std::optional<Duration> patience = {};  // with clients that are all stuck; none: without end
 };
 
@@ -41,12 +42,17 @@ class Cluster {
   ~Cluster();
 
   const Endpoint& endpoint() const { return server_.endpoint(); }
+  // Before start().
+  void resume(const RunBefore& before) { server_.resume(before); }
   void start();
 
   // No frame before `firstWanted` is wanted any more.
   void supersede(uint32_t firstWanted);
   // No step before `firstWanted` is.
   void cancelSteps(uint32_t firstWanted);
+  // As Server says.
+  void mark(uint32_t frame);
+  void keepStates(uint32_t from);
   // There may be a frame to open that was not there before.
   void wake();
 
@@ -56,6 +62,8 @@ class Cluster {
   // The first of endingSignals(), 0 if none came. A second SIGINT or SIGTERM ends the program at
   // once.
   int signal() const { return signal_; }
+  // Whether somebody asked for the picture so far; once for each time, or for a few.
+  bool takeSaveRequest() { return saveAsked_.exchange(false); }
   // Why the run cannot go on, if it cannot.
   std::optional<std::string> failure() const;
   // What the clients are doing, for people: "2 ready, 1 syncing 63%".
@@ -77,6 +85,7 @@ class Cluster {
   void run();
   void tick();
   void watchSignals();
+  void askForSave();
   void tellState() const;
   bool isOver(Time now) const;
   void fail(const std::string& line);
@@ -86,13 +95,14 @@ class Cluster {
   std::string describeClients() const;  // needs the lock
 
   EventLoop loop_;
-  const bool remoteMayJoin_;
+  const bool remoteMayJoin_, savesOnRequest_;
   Server server_;
   StartedClients local_, hosts_;
   StallWatch stall_;
   std::unique_ptr<EventLoop::Timer> timer_;
   std::optional<Time> endBy_;  // set by stop
   std::atomic<int> signal_ = 0;
+  std::atomic<bool> saveAsked_ = false;
   int asked_ = 0;  // to end, by people; the loop's thread
 
   mutable std::mutex mutex_;

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "common/base/log.h"
+#include "common/sampling/whole_tile.h"
 #include "common/scene/methods.h"
+#include "proto/state_wire.h"
 #include "proto/tile_names.h"
 
 namespace ninefold {
@@ -18,6 +20,13 @@ TaskId taskOf(const msg::Stepped& result) {
   return {result.number, static_cast<int>(result.unit), 0};
 }
 
+TileShape shapeOf(const FrameOrder& order, const TaskId& task) {
+  const TileGrid grid = order.grid();
+  const TaskRect rect =
+      order.delivery.wholeTiles() ? pixelsOf(grid, task.tile) : grid.rect(task.tile, task.phase);
+  return {rect.width, rect.height, order.layerMask, order.extraMask};
+}
+
 TaskCost costOf(const msg::Result& result) {
   return {std::chrono::nanoseconds(result.busyNs), result.setsMade > 0};
 }
@@ -26,6 +35,7 @@ TaskCost costOf(const msg::Result& result) {
 
 Server::Server(EventLoop& loop, ServerSetup setup, JobOffer& offer, ServerDuty duty)
     : loop_(loop), setup_(std::move(setup)), offer_(offer), duty_(std::move(duty)) {
+  scheduler_.verify(setup_.seed, setup_.verify);
   Listener::Events events;
   events.onConnection = [this](std::shared_ptr<Connection> c) { accept(std::move(c)); };
   events.onRefused = [](const std::string& line) { warn("{}", line); };
@@ -33,6 +43,11 @@ Server::Server(EventLoop& loop, ServerSetup setup, JobOffer& offer, ServerDuty d
 }
 
 Server::~Server() = default;
+
+void Server::resume(const RunBefore& before) {
+  admission_.resume(before.pixelClass, before.isa, before.reproducible);
+  if (before.state != 0) state_.resume(before.state, before.pages);
+}
 
 void Server::accept(std::shared_ptr<Connection> connection) {
   const ClientId id = nextId_++;
@@ -105,7 +120,8 @@ void Server::letJoin(Time now) {
     const auto& [id, join] = client;
     if (!canDoAll(join.job)) return false;
     const int threads = static_cast<int>(peers_.at(id).session->hello().threads);
-    scheduler_.clientJoined(id, threads, now, join.sceneTime);
+    scheduler_.clientJoined(id, threads, now, join.sceneTime,
+                            peers_.at(id).session->hello().probeClass);
     return true;
   });
 }
@@ -114,11 +130,14 @@ void Server::letJoin(Time now) {
 void Server::giveUpOpenFrames(Time now) {
   const bool nobodyCan = scheduler_.clients() == 0 || scheduler_.allAreStuck();
   if (joining_.empty() || !nobodyCan || !duty_.giveUp) return;
-  const uint32_t firstWanted = duty_.giveUp();
+  voidBefore(duty_.giveUp(), now);
+  letJoin(now);
+}
+
+void Server::voidBefore(uint32_t firstWanted, Time now) {
   scheduler_.viewChanged(firstWanted, now);
   std::erase_if(open_, [&](const auto& frame) { return frame.first < firstWanted; });
   dropSteps(firstWanted, now);
-  letJoin(now);
 }
 
 void Server::on(Handle& peer, todo::Heard&&, Time now) {
@@ -132,11 +151,13 @@ void Server::on(Handle& peer, todo::RoundTrip&& a, Time) {
 void Server::on(Handle& peer, todo::TakeResult&& a, Time now) {
   lastMove_ = now;
   const TaskId task = taskOf(a.result);
-  if (!isAccepted(scheduler_.verdictOn(peer.first, task))) {
+  const Verdict verdict = scheduler_.verdictOn(peer.first, task);
+  if (!isAccepted(verdict) && verdict != Verdict::compared) {
     scheduler_.resultArrived(peer.first, task, costOf(a.result), now);  // counts why it is dropped
     return;
   }
   ReceivedTile tile{peer.first, std::move(a.result), now};
+  if (scheduler_.needsDigest(task)) tile.toCompare = shapeOf(open_.at(task.frame), task);
   if (!duty_.take(tile)) peer.second.session->expel("more results than were asked for");
 }
 
@@ -145,23 +166,27 @@ void Server::on(Handle& peer, todo::TakeUnit&& a, Time now) {
   const uint32_t number = a.result.number;
   const TaskId task = taskOf(a.result);
   const TaskCost cost(std::chrono::nanoseconds(a.result.busyNs));
-  if (isAccepted(scheduler_.verdictOn(peer.first, task))) {
-    tally_.rays += a.result.rays;
-    tally_.stepBytesReceived += a.result.deltas.size();
-    try {
+  std::optional<Digest> digest;
+  try {
+    const Verdict expected = scheduler_.verdictOn(peer.first, task);
+    const bool isCompared = isAccepted(expected) || expected == Verdict::compared;
+    if (isCompared && scheduler_.needsDigest(task)) digest = digestOfDeltas(a.result.deltas);
+    if (isAccepted(expected)) {
+      tally_.rays += a.result.rays;
+      tally_.stepBytesReceived += a.result.deltas.size();
       state_.take(std::move(a.result));
-    } catch (const Error& error) {
-      ++tally_.malformed;
-      return peer.second.session->expel(error.what());
     }
+  } catch (const Error& error) {
+    ++tally_.malformed;
+    return peer.second.session->expel(error.what());
   }
-  const Verdict verdict = scheduler_.resultArrived(peer.first, task, cost, now);
+  const Verdict verdict = scheduler_.resultArrived(peer.first, task, cost, now, digest);
   if (verdict == Verdict::completedFrame) finishStep(number, now);
 }
 
 void Server::finishStep(uint32_t number, Time now) {
   const OpenStep step = openSteps_.at(number);
-  openSteps_.erase(number);
+  if (!scheduler_.isNeeded(number)) openSteps_.erase(number);
   tally_.inSteps += now - step.since;
   try {
     sendVersion(state_.complete(number), now);
@@ -170,7 +195,7 @@ void Server::finishStep(uint32_t number, Time now) {
     failure_ = error.what();
     return;
   }
-  if (duty_.stepDone) duty_.stepDone(step.order.key);
+  if (duty_.stepDone) duty_.stepDone(step.order.key, state_.pagesOf(step.order.key.to));
 }
 
 // A line in the log, when the latest version tells people something new.
@@ -214,13 +239,11 @@ void Server::decoded(const ReceivedTile& tile, const std::optional<std::string>&
     carryOut(*peer, now);
     return dispatchSoon();
   }
-  const Verdict verdict =
-      scheduler_.resultArrived(tile.client, taskOf(tile.result), costOf(tile.result), now);
+  const Verdict verdict = scheduler_.resultArrived(tile.client, taskOf(tile.result),
+                                                   costOf(tile.result), now, tile.digest);
   if (isAccepted(verdict)) count(tile);
-  if (verdict == Verdict::completedFrame) {
-    tally_.lastCompletion = now;
-    open_.erase(tile.result.frame);
-  }
+  if (verdict == Verdict::completedFrame) tally_.lastCompletion = now;
+  if (!scheduler_.isNeeded(tile.result.frame)) open_.erase(tile.result.frame);
   dispatchSoon();
 }
 

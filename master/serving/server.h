@@ -32,6 +32,9 @@ struct ServerSetup {
   Endpoint listen;
   Listener::Keys keys;
   int waitClients = 1;  // no frame before that many are ready
+  // This fraction of all results is done again by a second client; the seed chooses them.
+  double verify = 0;
+  uint64_t seed = 0;
 };
 
 // What the server is there for; called in the loop's thread, must not wait.
@@ -43,8 +46,22 @@ struct ServerDuty {
   // Only newcomers are left, who have missed the open frames' job. Gives the first frame that is
   // wanted instead. Null: all frames are of one job.
   std::function<uint32_t()> giveUp = nullptr;
-  // A step is done: frames may be lit by version key.to of the state. May be null.
-  std::function<void(const StepKey&)> stepDone = nullptr;
+  // A client was found wrong, and is expelled. Gives the first frame that is wanted: all before it
+  // are void. Null: nobody is verified.
+  std::function<uint32_t()> goBack = nullptr;
+  // Then: nothing before it is under way any more. May be null.
+  std::function<void()> wentBack = nullptr;
+  // A step is done: frames may be lit by version key.to of the state, which has these pages. May be
+  // null.
+  std::function<void(const StepKey&, const StatePages&)> stepDone = nullptr;
+};
+
+// Where a run goes on that another process has begun.
+struct RunBefore {
+  std::string pixelClass, isa;  // of its clients
+  bool reproducible = true;     // all of them were of that class
+  uint32_t state = 0;           // version of the method's state; 0: none
+  StatePages pages;             // of it
 };
 
 // What the server counts; a value.
@@ -59,6 +76,11 @@ struct ServerTally {
   Duration inSteps{0};        // from a step's first dispatch to its end, summed
   uint64_t stepBytesReceived = 0, stepBytesSent = 0;  // page deltas
   bool reproducible = true;
+  std::string pixelClass, isa;  // of the first client; empty: there was none
+  VerificationCounts verification;
+  uint64_t expelled = 0;                 // clients that were found wrong
+  uint32_t firstUnsettled = 0;           // as Scheduler says
+  std::optional<uint32_t> trusted = {};  // the frame that was marked last, once it is trusted
 };
 
 // One client, present or lost, for people and stats.
@@ -76,6 +98,8 @@ class Server {
   ~Server();
 
   const Endpoint& endpoint() const { return listener_->endpoint(); }
+  // Before the first tick.
+  void resume(const RunBefore& before);
 
   // Deadlines, heartbeats and work that is due. Every few tens of milliseconds.
   void tick(Time now);
@@ -85,6 +109,10 @@ class Server {
   void supersede(uint32_t firstWanted, Time now);
   // No step before `firstWanted` is.
   void cancelSteps(uint32_t firstWanted, Time now);
+  // Tells in the tally when all that was done up to this frame's end is trusted.
+  void mark(uint32_t frame) { markWanted_ = frame; }
+  // No version of the state from this one on is forgotten.
+  void keepStates(uint32_t from) { keptFrom_ = from; }
   // Says goodbye to all clients and accepts no more.
   void close(const std::string& reason);
 
@@ -135,6 +163,10 @@ class Server {
   void dispatch(Time now);
   void letJoin(Time now);
   void giveUpOpenFrames(Time now);
+  void voidBefore(uint32_t firstWanted, Time now);
+  void expel(const WrongNote& note, Time now);
+  void goBack(Time now);
+  void settle();
   void tell(const StuckNote& note) const;
   std::string explainClient(ClientId id, const ClientSession& session, Time now) const;
   void count(const ReceivedTile& tile);
@@ -165,7 +197,9 @@ class Server {
   };
   std::map<uint32_t, OpenStep> openSteps_;
   StateKeeper state_;
-  std::string described_;                   // what versions told last
+  uint32_t keptFrom_ = UINT32_MAX;               // versions
+  std::optional<uint32_t> markWanted_, marked_;  // frames
+  std::string described_;                        // what versions told last
   std::map<ClientId, todo::Join> joining_;  // ready; join when no open frame is of an older job
   ClientId nextId_ = 1;
   std::string failure_;

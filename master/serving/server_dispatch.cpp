@@ -48,6 +48,40 @@ void Server::dispatch(Time now) {
   sendUnits(actions.assign);
   sendTasks(actions.assign);
   for (const StuckNote& note : actions.notes) tell(note);
+  for (const WrongNote& note : actions.wrong) expel(note, now);
+  if (!actions.wrong.empty()) goBack(now);
+  settle();
+}
+
+void Server::expel(const WrongNote& note, Time now) {
+  Handle& peer = *peers_.find(note.client);
+  const std::string reason = fmt::format(
+      "its result for {} is wrong: two others gave something else; look after its memory and "
+      "processor",
+      nameOf(note.task));
+  if (peer.second.session->over())
+    return warn("client {}, {}, is gone already, but {}", note.client, peer.second.session->title(),
+                reason);
+  ++tally_.expelled;
+  peer.second.session->expel(reason);
+  carryOut(peer, now);
+}
+
+void Server::goBack(Time now) {
+  scheduler_.unmark();
+  markWanted_.reset(), marked_.reset();
+  if (duty_.goBack) voidBefore(duty_.goBack(), now);
+  if (duty_.wentBack) duty_.wentBack();
+}
+
+// What was kept so that others could do it again; and a mark, once all before it is there.
+void Server::settle() {
+  if (setup_.verify == 0) return;
+  std::erase_if(open_, [this](const auto& f) { return !scheduler_.isNeeded(f.first); });
+  std::erase_if(openSteps_, [this](const auto& s) { return !scheduler_.isNeeded(s.first); });
+  if (!markWanted_ || scheduler_.firstUnsettled() <= *markWanted_) return;
+  scheduler_.mark();
+  marked_ = std::exchange(markWanted_, std::nullopt);
 }
 
 void Server::tell(const StuckNote& note) const {
@@ -98,7 +132,7 @@ void Server::forgetStates() {
   for (const auto& [number, frame] : open_) oldest = std::min(oldest, frame.key.state);
   for (const auto& [number, step] : openSteps_)
     if (step.order.key.from > 0) oldest = std::min(oldest, step.order.key.from);
-  state_.forget(oldest);
+  state_.forget(std::min(oldest, keptFrom_));
 }
 
 void Server::announce(const JobOrder& order) {

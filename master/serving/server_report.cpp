@@ -69,6 +69,10 @@ ServerTally Server::tally() const {
   ServerTally tally = tally_;
   tally.tasks = scheduler_.counts();
   tally.reproducible = admission_.reproducible();
+  tally.verification = scheduler_.verificationCounts();
+  tally.firstUnsettled = scheduler_.firstUnsettled();
+  if (marked_ && scheduler_.isMarkTrusted()) tally.trusted = marked_;
+  tally.pixelClass = admission_.pixelClass(), tally.isa = admission_.isa();
   for (const auto& [id, peer] : peers_)
     tally.bytesReceived += peer.connection ? peer.connection->bytesReceived() : peer.bytesReceived;
   return tally;

@@ -5,6 +5,12 @@
 
 namespace ninefold {
 
+void StateKeeper::resume(uint32_t version, StatePages pages) {
+  NINEFOLD_CHECK(versions_.empty());
+  versions_[version] = {std::move(pages), {}};
+  oldest_ = version;
+}
+
 void StateKeeper::open(const StepKey& step, int units) {
   NINEFOLD_CHECK(step.to > version());
   NINEFOLD_CHECK(step.from == 0 || versions_.contains(step.from));

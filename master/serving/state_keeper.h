@@ -33,6 +33,8 @@ class StateKeeper {
     std::map<Sha256, Blob> blobs;
   };
 
+  // Before the first step: a version that another run has made.
+  void resume(uint32_t version, StatePages pages);
   void open(const StepKey& step, int units);
   // Open steps before `firstWanted` are void.
   void drop(uint32_t firstWanted);
@@ -44,6 +46,7 @@ class StateKeeper {
   void forget(uint32_t oldest);
 
   const StatePages& latest() const { return pagesOf(version()); }
+  const StatePages& pagesOf(uint32_t version) const;  // of one that is kept
   uint32_t version() const { return versions_.empty() ? 0 : versions_.rbegin()->first; }
   // The oldest version; null if that is the empty one.
   std::shared_ptr<const Snapshot> snapshot();
@@ -60,7 +63,6 @@ class StateKeeper {
     StatePages pages;
     std::vector<msg::StateDelta> messages;  // that make it of another
   };
-  const StatePages& pagesOf(uint32_t version) const;
 
   std::map<uint32_t, Step> open_;         // by number
   std::map<uint32_t, Version> versions_;  // the latest, and those that are named

@@ -1,4 +1,4 @@
-"""SIGUSR1 asks a running master what is under way; it tells that in its log, and nothing else changes."""
+"""SIGUSR2 asks a running master what is under way; it tells that in its log, and nothing else changes."""
 import json
 import time
 import unittest
@@ -11,7 +11,7 @@ class Asked(ClusterTest):
         """Asks until the log has an answer like that: what is under way differs from moment to moment."""
         def answered():
             self.assertIsNone(program.process.poll(), f"no {pattern!r} in:\n{program.text}")
-            self.send(program.process.pid, signal.SIGUSR1)
+            self.send(program.process.pid, signal.SIGUSR2)
             time.sleep(0.02)
             return pattern in program.text
         eventually(answered, pattern)
@@ -29,7 +29,7 @@ class Asked(ClusterTest):
         master = self.master("--local-clients", 2, "--frames", 40, frames=None)
         eventually(lambda: master.lines, "a line: its main has begun")
         while master.process.poll() is None:  # from then on to its last moment
-            self.send(master.process.pid, signal.SIGUSR1)
+            self.send(master.process.pid, signal.SIGUSR2)
             time.sleep(0.005)
         stats = self.finish(master)
         self.assertEqual(stats["image_hash"], calm["image_hash"])

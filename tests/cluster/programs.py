@@ -35,7 +35,7 @@ class Program:
 
     def __init__(self, command, cwd, **more):
         environment = {k: v for k, v in os.environ.items() if not k.startswith("NINEFOLD_")}
-        environment["HOME"] = str(cwd)
+        environment["HOME"] = environment["TMPDIR"] = str(cwd)
         environment.pop("XDG_CACHE_HOME", None)
         self.lines = []
         streams = {"stdin": subprocess.DEVNULL, "stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE}

@@ -45,8 +45,8 @@ class SameBytes(ClusterTest):
 
     def test_pictures_on_the_way_do_not_show(self):
         expected = self.render("--local-clients", 1, frames=24)["image_hash"]
-        master = self.master("--local-clients", 1, "--output-every", 0.1, frames=24)
-        master.waits_for(r"(?m)^1 frame\(s\) in out\d+\.exr$")
+        master = self.master("--local-clients", 1, "--save-every", 0.1, frames=24)
+        master.waits_for(r"(?m)^\d+ frame\(s\) in out\d+\.exr$")
         self.assertTrue(master.picture.exists())
         self.assertEqual(self.finish(master)["image_hash"], expected)
 

@@ -20,6 +20,17 @@ TEST(FramePlan, EveryFrameHasItsOwnRandomizationAndRotation) {
   EXPECT_EQ(plan.opened(), 20);
 }
 
+TEST(FramePlan, WhoSkipsFramesGoesOnLikeWhoOpenedThem) {
+  FramePlan opened(0.1f, 9, true), skipped(0.1f, 9, true);
+  for (int i = 0; i < 100; ++i) opened.next();
+  skipped.skip(100);
+  for (int i = 0; i < 10; ++i) {
+    const FrameKey a = opened.next(), b = skipped.next();
+    EXPECT_EQ(a.frame, b.frame);
+    EXPECT_EQ(a.photonRadius, b.photonRadius) << "to the last bit";
+  }
+}
+
 // r^2(n) = r^2(1) prod_{i=1}^{n-1} (i + 2/3)/(i + 1), which falls as n^(-1/3).
 TEST(FramePlan, PhotonDiscsShrinkWithTheCubeRootOfTheFrames) {
   FramePlan plan(0.2f, 9, true);

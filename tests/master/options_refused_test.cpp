@@ -1,4 +1,5 @@
 // Which command lines are refused, and in what words.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "tests/master/command_line.h"
@@ -91,18 +92,6 @@ TEST(OptionsRefused, AFileForThePictureOrTheStatsIsNeeded) {
   EXPECT_NE(complaint("a.glb --aovs --output a.png", {}, false).find("--aovs"), std::string::npos);
 }
 
-TEST(OptionsRefused, APictureOnTheWayNeedsAStillWithAFile) {
-  constexpr const char* kEvery = "--output-every is for --output";
-  EXPECT_EQ(complaint("a.glb --output a.png --output-every 2"), "");
-  EXPECT_NE(complaint("a.glb --output a.png --output-every 0"), "");
-  EXPECT_NE(complaint("a.glb --stats s.json --output-every 2", {}, false).find(kEvery),
-            std::string::npos);
-  EXPECT_NE(complaint("a.glb --output a.png --window --output-every 2").find(kEvery),
-            std::string::npos);
-  EXPECT_NE(complaint("a.glb --output a.#.png --animate 0:1:1 --output-every 2").find(kEvery),
-            std::string::npos);
-}
-
 TEST(OptionsRefused, ListeningBeyondThisMachineNeedsAKey) {
   EXPECT_NE(complaint("a.glb --listen 0.0.0.0:4700").find("--key-file"), std::string::npos);
   EXPECT_EQ(complaint("a.glb --listen [::1]:4700"), "");
@@ -110,6 +99,12 @@ TEST(OptionsRefused, ListeningBeyondThisMachineNeedsAKey) {
 }
 
 TEST(OptionsRefused, PatienceIsNotNegative) {
+  EXPECT_NE(complaint("room.glb --verify 1.5").find("--verify"), std::string::npos);
+  EXPECT_NE(complaint("room.glb --save-every 0").find("--save-every"), std::string::npos);
+  for (const char* flag : {"--verify 0.5", "--save-every 1", "--checkpoint c"})
+    for (const char* live : {"--window", "--script s.json", "--animate 0:1:1 --output o.#.exr"})
+      EXPECT_NE(complaint(fmt::format("room.glb {} {}", flag, live), {}, false), "")
+          << flag << live;
   EXPECT_NE(complaint("room.glb --patience -1").find("--patience"), std::string::npos);
 }
 

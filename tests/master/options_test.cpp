@@ -59,6 +59,11 @@ TEST(Options, AReplayLineGivesTheSettingsThatItWasMadeOf) {
 }
 
 TEST(Options, PatienceIsTwoMinutesUnlessItIsStated) {
+  EXPECT_EQ(parse("room.glb").verify, 0);
+  EXPECT_EQ(parse("room.glb --verify 0.05").verify, 0.05);
+  EXPECT_FALSE(parse("room.glb").saveEvery.has_value());
+  EXPECT_EQ(parse("room.glb --save-every 2.5").saveEvery, 2.5);
+  EXPECT_EQ(parse("room.glb --checkpoint c").checkpoint, "c");
   EXPECT_EQ(parse("room.glb").patience, 120);
   EXPECT_EQ(parse("room.glb --patience 2.5").patience, 2.5);
 }

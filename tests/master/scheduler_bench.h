@@ -18,6 +18,7 @@ class SchedulerBench {
   Time now{};
   std::map<ClientId, std::vector<TaskId>> sent;  // and not answered
   std::vector<StuckNote> notes;                  // all so far
+  std::vector<WrongNote> wrong;                  // likewise
 
   // A picture of `tiles` tiles with n x m phases each: tiles * n * m tasks.
   static TileGrid grid(int tiles, Interleave interleave = {3, 3}) {
@@ -83,6 +84,7 @@ class SchedulerBench {
       std::erase_if(sent[c.client], [&](const TaskId& t) { return t.frame < c.firstWanted; });
     for (const Assignment& a : actions.assign) sent[a.client].push_back(a.task);
     notes.insert(notes.end(), actions.notes.begin(), actions.notes.end());
+    wrong.insert(wrong.end(), actions.wrong.begin(), actions.wrong.end());
     scheduler.checkInvariants();
   }
 };

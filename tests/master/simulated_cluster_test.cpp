@@ -122,6 +122,33 @@ TEST(SimulatedCluster, ADeadClientCostsItsShareOnly) {
   EXPECT_LE(cluster.elapsed(), 1.03 * (0.5 + (whole - 0.5) * 8 / 7));
 }
 
+TEST(SimulatedCluster, WhoErrsIsFoundAndNobodyElse) {
+  Clients clients = alike(8);
+  clients[5].errs = 0.2;
+  const SimulatedCluster cluster = play({.frames = 20, .verify = 0.05}, clients);
+  ASSERT_FALSE(cluster.wrong().empty());
+  for (const WrongNote& note : cluster.wrong()) EXPECT_EQ(note.client, 6u);
+  EXPECT_TRUE(cluster.reports()[5].lost);
+}
+
+// A fraction P of all tasks is done twice: the rest of the time, 1 / (1 + P), is for frames.
+TEST(SimulatedCluster, ChecksCostTheirShareOnly) {
+  constexpr double kFraction = 0.2;
+  const SimulatedCluster cluster = play({.frames = 20, .verify = kFraction}, alike(8));
+  EXPECT_GE(cluster.efficiency(), 0.95 / (1 + kFraction));
+  EXPECT_GT(cluster.scheduler().verificationCounts().checked, 0u);
+  EXPECT_TRUE(cluster.wrong().empty());
+}
+
+TEST(SimulatedCluster, ChecksOfDeadFrozenAndStuckClientsGoToOthers) {
+  Clients clients = alike(8);
+  clients[1].cut = 0.3, clients[2].dies = 0.4, clients[3].freezes = 0.4;
+  clients[4].errs = 0.5, clients[6].joins = 0.6;
+  const SimulatedCluster cluster = play({.frames = 40, .verify = 0.3}, clients);
+  for (const WrongNote& note : cluster.wrong()) EXPECT_EQ(note.client, 5u);
+  EXPECT_EQ(cluster.scheduler().verificationCounts().disputed, 0u);
+}
+
 TEST(SimulatedCluster, ACutLineAndAFrozenClientDoNotStopTheFrames) {
   Clients clients = alike(6);
   clients[1].cut = 0.3;

@@ -204,5 +204,52 @@ TEST_F(StatePlanTest, AStepThatCannotBeDoneIsMadeAgain) {
   EXPECT_EQ(p.versionOfFrame(false), again->key.to);
 }
 
+// The steps and versions of frames `from`.. of one plan are those of another that went through all.
+TEST_F(StatePlanTest, AResumedPlanTakesTheStepsOfOneThatWasNeverEnded) {
+  for (const Method method : {Method::stateCheck, Method::photonMap, Method::selective}) {
+    settings.method = method;
+    StatePlan whole = plan(), resumed = plan();
+    uint32_t version = 0;
+    for (int i = 0; i < 5; ++i) {
+      whole.done(step(whole)->key);
+      version = *whole.versionOfFrame(false);
+    }
+    const bool isNeeded = isNeededAfterwards(factsOf(method).state);
+    EXPECT_EQ(isNeeded, method == Method::stateCheck);
+    resumed.resume(5, isNeeded ? version : 0);
+    for (int i = 0; i < 3; ++i) {
+      const auto a = step(whole), b = step(resumed);
+      ASSERT_TRUE(a && b);
+      EXPECT_EQ(a->key.firstUnit, b->key.firstUnit);
+      EXPECT_EQ(a->key.randomization, b->key.randomization);
+      EXPECT_EQ(a->key.from == 0, b->key.from == 0);
+      if (isNeeded) EXPECT_EQ(a->key.from, b->key.from);
+      EXPECT_EQ(a->units, b->units);
+      whole.done(a->key), resumed.done(b->key);
+      EXPECT_TRUE(whole.versionOfFrame(false) && resumed.versionOfFrame(false));
+    }
+  }
+}
+
+TEST_F(StatePlanTest, AResumedChoiceIsNotMadeAgain) {
+  settings.method = Method::automatic;
+  StatePlan p = plan();
+  p.resume(5, 1);
+  EXPECT_FALSE(step(p));
+  EXPECT_EQ(p.versionOfFrame(false), 1u);
+}
+
+// Back to version 2 after 6: the next version is 7, made of 2.
+TEST_F(StatePlanTest, WhoGoesBackMakesNewVersionsOfTheOldOne) {
+  StatePlan p = plan();
+  for (int i = 0; i < 6; ++i) p.done(step(p)->key), p.versionOfFrame(false);
+  p.resume(2, 2);
+  const auto next = step(p);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->key.from, 2u);
+  EXPECT_EQ(next->key.to, 7u);
+  EXPECT_EQ(next->key.randomization, 2u);
+}
+
 }  // namespace
 }  // namespace ninefold
