@@ -10,7 +10,7 @@
 namespace ninefold {
 namespace {
 
-void check(const ViewerMessage& message) {
+void expectBounds(const ViewerMessage& message) {
   if (const auto* size = std::get_if<said::Size>(&message))
     NINEFOLD_CHECK(size->size.x >= 1 && size->size.y >= 1 && size->size.x <= 1e5f);
   if (const auto* exposure = std::get_if<said::Exposure>(&message))
@@ -41,7 +41,7 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   using namespace ninefold;
   try {
-    check(parseViewerMessage({reinterpret_cast<const char*>(data), size}));
+    expectBounds(parseViewerMessage({reinterpret_cast<const char*>(data), size}));
   } catch (const Error&) {
   }
   return 0;
