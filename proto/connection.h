@@ -42,6 +42,8 @@ Endpoint parseEndpoint(std::string_view text, std::string_view flag);
 // The other way round.
 std::string addressText(const Endpoint& endpoint);
 bool isLoopback(const std::string& host);
+// Whether it stands for all interfaces of this machine.
+bool isAnyAddress(const std::string& host);
 
 struct ConnectionOptions {
   Duration handshake =

@@ -39,6 +39,8 @@ std::string addressText(const Endpoint& endpoint) {
               : fmt::format("{}:{}", endpoint.host, endpoint.port);
 }
 
+bool isAnyAddress(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
+
 bool isLoopback(const std::string& host) {
   return host == "localhost" || host == "::1" || host.starts_with("127.");
 }

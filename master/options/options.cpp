@@ -194,8 +194,9 @@ void readFiles(const RawOptions& raw, Options& o) {
   o.saveEvery = raw.real("save-every", 1e-3, kMaxSeconds);
   o.checkpoint = raw.text("checkpoint");
   if (isLive(o) && (o.saveEvery || o.checkpoint))
-    failUsage("--{} is for one picture at rest: leave --window, --serve, --script and --animate out",
-              o.checkpoint ? "checkpoint" : "save-every");
+    failUsage(
+        "--{} is for one picture at rest: leave --window, --serve, --script and --animate out",
+        o.checkpoint ? "checkpoint" : "save-every");
   if (isLive(o) && o.verify > 0)
     failUsage("--verify is for one picture at rest: leave --window, --script and --animate out");
   if (o.saveEvery && !o.output && !o.checkpoint)

@@ -25,7 +25,7 @@ ClusterSetup clusterSetup(const Options& options, const Listener::Keys& keys) {
                              {fmt::format("--name=local{}", i),
                               fmt::format("--key-descriptor={}", kInheritedDescriptor)}});
   ServerSetup server{parseEndpoint(options.listen, "--listen"), keys, options.waitClients,
-                      options.verify, options.settings.seed};
+                     options.verify, options.settings.seed};
   const auto patience =
       isWatched(options) ? std::nullopt : std::optional(fromSeconds(options.patience));
   ClusterSetup setup{std::move(server), std::move(local)};

@@ -30,8 +30,6 @@ bool isOutside(const ifaddrs& interface) {
 
 }  // namespace
 
-bool isAnyAddress(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
-
 std::vector<std::string> addressesBehind(const std::string& anyAddress) {
   ifaddrs* first = nullptr;
   if (::getifaddrs(&first) != 0) return {};

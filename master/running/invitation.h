@@ -14,8 +14,6 @@ namespace ninefold {
 // Whether the clients that the run waits for can come at all.
 void checkGuests(const Options& options);
 
-bool isAnyAddress(const std::string& host);
-
 // Addresses at which others reach a master that listens on all interfaces (0.0.0.0, or :: for IPv6
 // as well): those of interfaces that are up, without loopback and link-local IPv6.
 std::vector<std::string> addressesBehind(const std::string& anyAddress);

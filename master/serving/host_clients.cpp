@@ -40,8 +40,6 @@ std::string remoteCommand(const Host& host, const Endpoint& listen, const std::s
 
 }  // namespace
 
-bool isAnyAddress(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
-
 std::vector<Host> parseHosts(std::string_view text, const std::filesystem::path& file) {
   std::vector<Host> hosts;
   std::istringstream lines{std::string(text)};

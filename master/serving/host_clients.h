@@ -23,9 +23,6 @@ namespace ninefold {
 
 inline constexpr size_t kMostHosts = 4096;
 
-// Whether it stands for all interfaces of this machine.
-bool isAnyAddress(const std::string& host);
-
 struct Host {
   std::string name, program = "ninefold-client";
 };

@@ -113,7 +113,9 @@ TEST_F(VerificationTest, AThirdSettlesWhoIsWrong) {
 TEST_F(VerificationTest, OpinionsThatAllDifferNeedAnotherOne) {
   join({1, 2, 3, 4});
   give(1, 0, 5);
-  EXPECT_TRUE(check(2, 6)), EXPECT_TRUE(check(3, 7)), EXPECT_TRUE(check(4, 5));
+  EXPECT_TRUE(check(2, 6));
+  EXPECT_TRUE(check(3, 7));
+  EXPECT_TRUE(check(4, 5));
   EXPECT_EQ(wrong(), (std::vector<ClientId>{2, 3}));
 }
 
@@ -161,7 +163,8 @@ TEST_F(VerificationTest, WhoHasLeftMayStillBeFoundWrong) {
   books.mark();
   books.lost(1);
   EXPECT_FALSE(books.isTrusted()) << "an opinion of it is open";
-  EXPECT_TRUE(check(2, 6)), EXPECT_TRUE(check(3, 6));
+  EXPECT_TRUE(check(2, 6));
+  EXPECT_TRUE(check(3, 6));
   EXPECT_EQ(wrong(), std::vector<ClientId>{1});
 }
 
@@ -214,7 +217,7 @@ class VerifyingScheduler : public testing::Test {
         const TaskId task = sent.front();
         sent.erase(sent.begin());
         ++done[{task.frame, task.tile * 100 + task.phase}];
-        bench.scheduler.resultArrived(report.client, task, milliseconds(4), bench.now,
+        bench.scheduler.resultArrived(report.client, task, TaskCost{milliseconds(4)}, bench.now,
                                       digest(report.client, task));
         bench.pass(Duration(0));
         any = true;
@@ -276,7 +279,7 @@ TEST_F(VerifyingScheduler, ASilentCheckerLosesItsChecksToOthers) {
       if (!bench.sent[client].empty()) {
         const TaskId task = bench.sent[client].front();
         bench.sent[client].erase(bench.sent[client].begin());
-        bench.scheduler.resultArrived(client, task, milliseconds(4), bench.now,
+        bench.scheduler.resultArrived(client, task, TaskCost{milliseconds(4)}, bench.now,
                                       digest(client, task));
         bench.pass(milliseconds(4));
       } else {
@@ -289,7 +292,8 @@ TEST_F(VerifyingScheduler, ASilentCheckerLosesItsChecksToOthers) {
     while (!bench.sent[client].empty()) {
       const TaskId task = bench.sent[client].front();
       bench.sent[client].erase(bench.sent[client].begin());
-      bench.scheduler.resultArrived(client, task, milliseconds(4), bench.now, digest(client, task));
+      bench.scheduler.resultArrived(client, task, TaskCost{milliseconds(4)}, bench.now,
+                                    digest(client, task));
       bench.pass(milliseconds(4));
     }
   EXPECT_EQ(bench.scheduler.firstUnsettled(), 1u);
@@ -304,7 +308,7 @@ TEST_F(VerifyingScheduler, TooManyOpenChecksHoldFramesBack) {
     while (!bench.sent[1].empty()) {
       const TaskId task = bench.sent[1].front();
       bench.sent[1].erase(bench.sent[1].begin());
-      bench.scheduler.resultArrived(1, task, milliseconds(1), bench.now, digest(1, task));
+      bench.scheduler.resultArrived(1, task, TaskCost{milliseconds(1)}, bench.now, digest(1, task));
       bench.pass(Duration(0));
     }
   }
