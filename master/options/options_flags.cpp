@@ -34,7 +34,7 @@ constexpr Flag kPicture[] = {
      "are), or auto, by who wrote the file (default auto; docs/light-units.md)"},
     {"exposure", "EV|auto",
      "brightness of .png files and of the window, -50 to 50, or by the first picture itself, held "
-     "from then on (default: what the scene says, else auto)"},
+     "from then on (default: what the scene says, else, and under a picture or sky, auto)"},
     {"tone-map", "NAME",
      "how light becomes the colours of .png files and of the window: srgb (as it is, lamps rolled "
      "off), filmic or agx (default srgb; common/image/tone_map.h)"},
