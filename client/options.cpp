@@ -25,6 +25,9 @@ struct Flag {
 
 constexpr Flag kFlags[] = {
     {"master", "ADDR:PORT", "the master to render for, as it says when it starts"},
+    {"master-file", "FILE",
+     "in place of --master: a file with its addresses, which its --address-file writes; may come "
+     "later"},
     {"key-file", "FILE", "cluster key: the file that the master's --new-key made, copied here"},
     {"threads", "N", "threads that render, 1 to 1024 (default: one per core)"},
     {"cache", "DIR",
@@ -114,13 +117,16 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   options.help = values.contains("help");
   options.version = values.contains("version");
   if (options.help || options.version) return options;
-  options.keyDescriptor = getNumber(values, "key-descriptor", -1, 3, 1 << 20);
+  options.keyDescriptor = getNumber(values, "key-descriptor", -1, 0, 1 << 20);
   // The master says all that its own clients need to know; what it was told itself is not for them.
   if (!options.local()) addVariables(values, variable);
 
   options.master = get(values, "master").value_or("");
-  if (options.master.empty())
+  if (const auto file = get(values, "master-file")) options.masterFile = *file;
+  if (options.master.empty() && !options.masterFile)
     failUsage("--master ADDR:PORT is missing; the master says it when it starts");
+  if (!options.master.empty() && options.masterFile)
+    failUsage("--master and --master-file exclude each other");
   options.threads = getNumber(values, "threads", std::clamp(cores, 1, 1024), 1, 1024);
   options.isa = parseIsa(get(values, "isa").value_or("auto"));
   options.name = get(values, "name").value_or(machineName());

@@ -15,8 +15,9 @@ namespace ninefold::client {
 
 struct Options {
   bool help = false, version = false;  // print that and end; nothing else counts
-  std::string master;                  // address:port
-  int threads = 1;                     // 1..1024
+  std::string master;                  // address:port; empty: masterFile has it
+  std::optional<std::filesystem::path> masterFile;
+  int threads = 1;  // 1..1024
   std::optional<std::filesystem::path> keyFile;
   std::optional<std::filesystem::path> cache;  // nothing: no cache on disk
   Isa isa = Isa::automatic;

@@ -22,7 +22,7 @@ SessionOptions sessionOptions(const Options& options, msg::Hello hello) {
   session.seed = std::hash<std::string>()(hello.name) ^
                  static_cast<uint64_t>(now().time_since_epoch().count());
   session.hello = std::move(hello);
-  session.master = options.master;
+  session.master = options.masterFile ? options.masterFile->string() : options.master;
   session.reconnect = !options.local();
   return session;
 }
@@ -31,6 +31,11 @@ uint32_t jobOf(const std::variant<act::StartTasks, act::StartSteps>& start) {
   const auto* tasks = std::get_if<act::StartTasks>(&start);
   return tasks != nullptr ? tasks->tasks.jobVersion
                           : std::get<act::StartSteps>(start).steps.jobVersion;
+}
+
+MasterAddress addressOf(const Options& options) {
+  return options.masterFile ? MasterAddress(*options.masterFile)
+                            : MasterAddress(parseEndpoint(options.master, "--master"));
 }
 
 bool isFinal(ConnectProblem problem) {
@@ -48,7 +53,7 @@ bool isFinal(ConnectProblem problem) {
 Program::Program(EventLoop& loop, const Options& options, msg::Hello hello,
                  std::shared_ptr<const Key> key, std::optional<BlobCache> cache, Rig rig)
     : loop_(loop),
-      master_(parseEndpoint(options.master, "--master")),
+      master_(addressOf(options)),
       local_(options.local()),
       key_(std::move(key)),
       recorder_(options.record ? std::make_unique<Recorder>(*options.record, hello) : nullptr),
@@ -128,8 +133,14 @@ void Program::carryOut() {
 }
 
 void Program::on(act::Connect&&) {
+  Endpoint master;
+  try {
+    master = master_.next();
+  } catch (const Error& error) {
+    return session_.connectFailed(error.what(), false, now());
+  }
   connect(
-      loop_, master_, local_ ? KeyUse::local : KeyUse::cluster, key_,
+      loop_, master, local_ ? KeyUse::local : KeyUse::cluster, key_,
       [this](std::shared_ptr<Connection> connection) { startConnection(std::move(connection)); },
       [this](const ConnectFailure& failure) {
         session_.connectFailed(failure.line, isFinal(failure.problem), now());

@@ -13,6 +13,7 @@
 #include <memory>
 #include <optional>
 
+#include "client/master_address.h"
 #include "client/options.h"
 #include "client/result_group.h"
 #include "client/scene_builder.h"
@@ -86,7 +87,7 @@ class Program {
   SceneBuilder::Answers answers();
 
   EventLoop& loop_;
-  const Endpoint master_;
+  MasterAddress master_;
   const bool local_;
   const std::shared_ptr<const Key> key_;
   const std::unique_ptr<Recorder> recorder_;  // null: nothing is kept

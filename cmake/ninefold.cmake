@@ -23,7 +23,10 @@ target_compile_options(ninefold_options INTERFACE
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,14>>:-Wno-maybe-uninitialized>)
 # A program loads the shared libraries that it really uses: OpenImageIO alone brings 250 more, half a
 # second of every start.
-target_link_options(ninefold_options INTERFACE -Wl,--as-needed)
+# And first of all fmt's: OpenImageIO's headers leave copies of fmt's functions in our archives, and a program
+# that finds them before the library takes them, with all that stands beside them.
+target_link_options(ninefold_options INTERFACE
+  -Wl,--push-state,--no-as-needed,-lfmt,--pop-state -Wl,--as-needed)
 target_include_directories(ninefold_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_link_libraries(ninefold_options INTERFACE Threads::Threads)
 if(NINEFOLD_TEST_METHODS)

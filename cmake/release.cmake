@@ -2,10 +2,11 @@
 #
 #   cmake -DSOURCE=<tree> -DVERSION=<0.1.0> -DTEMPLATE=<file.in> -DOUTPUT=<file> [-DGIT=<git>] -P release.cmake
 #
-#   0.1.0                                 no git, no commit yet, or no checkout (a tarball)
 #   0.1.0+1f0c25aa9b3e                    the commit
 #   0.1.0+1f0c25aa9b3e-dirty.5d41402a     and a digest of what differs from it in the folders that programs
 #                                         are built from
+#   0.1.0+files.5d41402abc4b              no git, no commit yet, or no checkout (a tarball): a digest of all
+#                                         files in these folders
 #
 # The commit's hash and no tag: clones may have unlike tags. Whoever builds a tree trusts it, so that its
 # owner need not be who builds. Git looks into this tree and into none around it, whatever a hook that runs
@@ -51,6 +52,26 @@ function(describe_differences variable)
   set(${variable} "${text}" PARENT_SCOPE)
 endfunction()
 
+# All files, as text.
+function(describe_files variable)
+  set(files "")
+  foreach(part IN LISTS parts)
+    if(IS_DIRECTORY ${SOURCE}/${part})
+      file(GLOB_RECURSE some LIST_DIRECTORIES false RELATIVE ${SOURCE} ${SOURCE}/${part}/*)
+      list(APPEND files ${some})
+    elseif(EXISTS ${SOURCE}/${part})
+      list(APPEND files ${part})
+    endif()
+  endforeach()
+  list(SORT files)
+  set(text "")
+  foreach(file IN LISTS files)
+    file(SHA256 ${SOURCE}/${file} digest)
+    string(APPEND text "${file} ${digest}\n")
+  endforeach()
+  set(${variable} "${text}" PARENT_SCOPE)
+endfunction()
+
 set(RELEASE ${VERSION})
 git(commit rev-parse --verify HEAD)
 if(commit)
@@ -62,5 +83,10 @@ if(commit)
     string(SUBSTRING ${digest} 0 8 digest)
     string(APPEND RELEASE "-dirty.${digest}")
   endif()
+else()
+  describe_files(files)
+  string(SHA256 digest "${files}")
+  string(SUBSTRING ${digest} 0 12 digest)
+  string(APPEND RELEASE "+files.${digest}")
 endif()
 configure_file(${TEMPLATE} ${OUTPUT} @ONLY)

@@ -122,10 +122,13 @@ struct Hello {
   uint32_t threads = 1;    // 1..1024
   std::string isa;         // what runs: "avx2", "avx512"
   std::string probeClass;  // probeClass() of gi/renderer.h
+  bool visits = false;     // asks and goes, renders nothing and is no client (ninefold-doctor)
 };
 struct Welcome {
   uint32_t clientId = 0;  // unique in this run of the master
   std::string release = releaseName();
+  std::string probeClass = {};  // of the run, by its first client; empty: none was there yet
+  uint64_t wallClockMs = 0;     // the master's, since 1970; the server fills it in
 };
 struct Refuse {
   std::string reason;

@@ -68,11 +68,13 @@ msg::Hello decode(const pb::Hello& in, Bytes&&) {
   m.threads = upTo<uint32_t>("threads", in.threads(), 1024, 1);
   m.isa = text("isa", in.isa());
   m.probeClass = text("probe class", in.probe_class());
+  m.visits = in.visits();
   return m;
 }
 
 msg::Welcome decode(const pb::Welcome& in, Bytes&&) {
-  return {in.client_id(), text("release", in.release())};
+  return {in.client_id(), text("release", in.release()), text("probe class", in.probe_class()),
+          in.wall_clock_ms()};
 }
 
 msg::Refuse decode(const pb::Refuse& in, Bytes&&) { return {text("reason", in.reason())}; }

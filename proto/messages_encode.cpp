@@ -39,6 +39,7 @@ pb::Hello header(const msg::Hello& m) {
   out.set_threads(m.threads);
   out.set_isa(printable(m.isa, kMaxText));
   out.set_probe_class(printable(m.probeClass, kMaxText));
+  out.set_visits(m.visits);
   return out;
 }
 
@@ -46,6 +47,8 @@ pb::Welcome header(const msg::Welcome& m) {
   pb::Welcome out;
   out.set_client_id(m.clientId);
   out.set_release(printable(m.release, kMaxText));
+  out.set_probe_class(printable(m.probeClass, kMaxText));
+  out.set_wall_clock_ms(m.wallClockMs);
   return out;
 }
 

@@ -11,7 +11,7 @@ import pathlib
 from generator import glb
 
 NAMES = ("cornell", "table_room", "egg_room", "invisible_date", "office", "conference", "u_office", "keyhole",
-         "three_turns", "wall_washers")
+         "three_turns", "wall_washers", "many_rooms")
 
 
 def main():

@@ -27,7 +27,7 @@ struct Command {
 inline std::string helpOf(const Command& command,
                           const boost::program_options::options_description& flags) {
   std::ostringstream text;
-  text << "usage: " << command.name << " " << command.usage << "\n\n"
+  text << "Usage: " << command.name << " " << command.usage << "\n\n"
        << command.about << "\n"
        << flags << "\nExit status: 0 done, 1 a failure (one line on stderr), 2 wrong usage.\n";
   return text.str();

@@ -143,7 +143,7 @@ int run(int argc, char** argv) {
   if (isLive(options)) failUsage("only --edit says what happens");
   if (!factsOf(options.settings.method).has(kFieldPhotons))
     failUsage("needs --method intersection-field");
-  const Scene scene = readScene(options.scene, options.clip);
+  const Scene scene = readScene(options.scene, options.reading);
   const Settings settings = makeSettings(options, scene);
   const Tracer tracer(scene, Isa::automatic);
   const Transport transport(tracer, settings);

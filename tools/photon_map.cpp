@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-photon-map";
 constexpr const char* kHelp =
-    "usage: ninefold-photon-map SCENE [options]\n"
+    "Usage: ninefold-photon-map SCENE [options]\n"
     "       ninefold-photon-map --box N [options]\n\n"
     "What a frame of the photon map costs stage by stage, and with --light how its pictures\n"
     "fluctuate, how wrong they are and how late, as JSON. One thread.\n\n"

@@ -40,7 +40,7 @@ Scene sceneOf(const Options& options) {
 
 constexpr const char* kProgram = "ninefold-replay-task";
 constexpr const char* kHelp =
-    "usage: ninefold-replay-task SCENE --frame F --tile T --phase P [options]\n\n"
+    "Usage: ninefold-replay-task SCENE --frame F --tile T --phase P [options]\n\n"
     "One task of a run once more, alone in one thread of one process: for a debugger.\n\n"
     "  --frame N       its frame; N:RANDOMIZATION:ROTATION:RADIUS if it is not that of a headless\n"
     "                  run\n"

@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-selective-photons";
 constexpr const char* kHelp =
-    "usage: ninefold-selective-photons SCENE --edit FILE [options]\n\n"
+    "Usage: ninefold-selective-photons SCENE --edit FILE [options]\n\n"
     "How soon the photons that an edit concerns are traced anew, as JSON. One thread.\n\n"
     "  --edit FILE     a script (docs/script.md); the edit is all that it has done at its end\n"
     "  --units N       groups of a step, each step in the order that the one before tells\n"

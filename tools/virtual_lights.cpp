@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-virtual-lights";
 constexpr const char* kHelp =
-    "usage: ninefold-virtual-lights SCENE [options]\n\n"
+    "Usage: ninefold-virtual-lights SCENE [options]\n\n"
     "Which virtual point lights a run uses, as JSON, without rendering.\n\n"
     "  --frames N      of so many frames (default 1)\n"
     "  --help, -h      print this and end\n"

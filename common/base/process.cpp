@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "common/base/error.h"
@@ -16,10 +17,10 @@ namespace {
 
 class SpawnFiles {
  public:
-  explicit SpawnFiles(int inherited) {
+  SpawnFiles(int inherited, int as) {
     posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, inherited, kInheritedDescriptor);
-    posix_spawn_file_actions_addclosefrom_np(&actions_, kInheritedDescriptor + 1);
+    posix_spawn_file_actions_adddup2(&actions_, inherited, as);
+    posix_spawn_file_actions_addclosefrom_np(&actions_, std::max(as, STDERR_FILENO) + 1);
   }
   ~SpawnFiles() { posix_spawn_file_actions_destroy(&actions_); }
   SpawnFiles(const SpawnFiles&) = delete;
@@ -28,6 +29,21 @@ class SpawnFiles {
 
  private:
   posix_spawn_file_actions_t actions_;
+};
+
+class SpawnAttributes {
+ public:
+  explicit SpawnAttributes(bool ownGroup) {
+    posix_spawnattr_init(&attributes_);
+    if (ownGroup) posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETPGROUP);
+  }
+  ~SpawnAttributes() { posix_spawnattr_destroy(&attributes_); }
+  SpawnAttributes(const SpawnAttributes&) = delete;
+  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+  const posix_spawnattr_t* get() const { return &attributes_; }
+
+ private:
+  posix_spawnattr_t attributes_;
 };
 
 std::string describeStatus(int status) {
@@ -46,16 +62,18 @@ Pipe makePipe() {
 
 ChildProcess ChildProcess::start(const std::filesystem::path& program,
                                  const std::vector<std::string>& arguments,
-                                 const Descriptor& inherited) {
+                                 const Descriptor& inherited, ChildSetup setup) {
   std::string name = program.string();
   std::vector<std::string> texts = arguments;
   std::vector<char*> argv{name.data()};
   for (std::string& text : texts) argv.push_back(text.data());
   argv.push_back(nullptr);
 
-  const SpawnFiles files(inherited.get());
+  const SpawnFiles files(inherited.get(), setup.inheritedAs);
+  const SpawnAttributes attributes(setup.ownGroup);
   pid_t pid = 0;
-  const int error = ::posix_spawn(&pid, name.c_str(), files.get(), nullptr, argv.data(), environ);
+  const int error =
+      ::posix_spawnp(&pid, name.c_str(), files.get(), attributes.get(), argv.data(), environ);
   if (error != 0) fail("cannot start {}: {}", name, ::strerror(error));
   return ChildProcess(pid);
 }

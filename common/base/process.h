@@ -26,12 +26,21 @@ struct Pipe {
 // A pipe. No child inherits an end unless it is handed over on purpose.
 Pipe makePipe();
 
+inline constexpr int kInheritedDescriptor = 3;
+
+// How a child is started.
+struct ChildSetup {
+  int inheritedAs = kInheritedDescriptor;  // or 0: in place of our standard input
+  bool ownGroup = false;  // what happens on our terminal (Ctrl-C) does not reach it
+};
+
 class ChildProcess {
  public:
-  // Starts `program`. Of our descriptors the child has standard input, output and error, and
-  // `inherited` as kInheritedDescriptor; nothing else.
+  // Starts `program`, a path, or a name that is looked for in PATH. Of our descriptors the child
+  // has standard input, output and error, and `inherited`; nothing else.
   static ChildProcess start(const std::filesystem::path& program,
-                            const std::vector<std::string>& arguments, const Descriptor& inherited);
+                            const std::vector<std::string>& arguments, const Descriptor& inherited,
+                            ChildSetup setup = {});
   ChildProcess(ChildProcess&& other) noexcept : pid_(std::exchange(other.pid_, 0)) {}
   ChildProcess& operator=(ChildProcess&& other) noexcept {
     std::swap(pid_, other.pid_);
@@ -59,8 +68,6 @@ std::vector<int> endingSignals();
 
 // Whether this thread, and those that it starts, take the signal. It waits while no thread does.
 void takeSignal(int signal, bool take);
-
-inline constexpr int kInheritedDescriptor = 3;
 
 // The program `name` in the folder of our own executable.
 std::filesystem::path programBesideUs(const std::string& name);

@@ -9,6 +9,7 @@
 
 #include "common/base/error.h"
 #include "common/base/log.h"
+#include "common/scene/gltf_compression.h"
 #include "common/scene/gltf_guard.h"
 #include "common/scene/gltf_unread.h"
 #include "common/scene/gltf_uri.h"
@@ -84,9 +85,14 @@ void setCallbacks(tinygltf::TinyGLTF& parser, Source& source) {
   parser.SetImageLoader(keepImage, nullptr);
 }
 
+// A texture whose image cannot be read says so itself, by its name (gltf_material.h).
+bool isToldByTextures(const std::string& name) {
+  return name == "KHR_texture_basisu" || name == "EXT_texture_webp";
+}
+
 void checkRequired(const std::vector<std::string>& extensions) {
   for (const std::string& name : extensions)
-    if (!isReadExtension(name))
+    if (!isReadExtension(name) && !isToldByTextures(name))
       fail("needs the glTF extension {}, which is not supported: export without it", name);
 }
 
@@ -183,9 +189,10 @@ GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folde
     fail("{} bytes, but a glTF file has less than 4 GiB: put the data into .bin files",
          file.size());
   const std::string_view json = checkedJson(file);
-  TokenizedGltf tokenized = tokenizeUris(json);
+  const std::string completed = completedJson(json);
+  TokenizedGltf tokenized = tokenizeUris(completed.empty() ? json : completed);
   std::vector<unsigned char> changed;
-  if (isBinaryGltf(file) && !tokenized.uris.empty())
+  if (isBinaryGltf(file) && tokenized.json != json)
     file = changed = withJson(file, json, tokenized.json);
   auto model = std::make_shared<tinygltf::Model>();
   Source source{&folder, &tokenized.uris};
@@ -207,6 +214,7 @@ GltfFile parseGltf(std::span<const unsigned char> file, const SceneFolder& folde
   checkRequired(model->extensionsRequired);
   if (const std::string unread = unreadOf(tokenized.json); !unread.empty())
     warn("left out, as nothing reads it: {}", unread);
+  decompress(*model);
   auto bad = restoreUris(tokenized, source, *model);
   return {std::move(model), std::move(bad), std::move(tokenized.uris)};
 }

@@ -2,6 +2,8 @@
 // through the SceneFolder; images stay the compressed bytes that they are. An image that cannot be
 // had is no error here: perhaps nothing uses it.
 //
+// Compressed geometry is decoded (gltf_compression.h).
+//
 // Threads: reentrant.   Errors: throws Error.
 #pragma once
 

@@ -23,17 +23,26 @@ Wrap wrapOf(int mode) {
   }
 }
 
+std::string nameOf(const tinygltf::Image& image) {
+  return image.name.empty() ? image.uri : image.name;
+}
+
 AlphaMode alphaModeOf(const std::string& name) {
   if (name == "MASK") return AlphaMode::mask;
   return name == "BLEND" ? AlphaMode::blend : AlphaMode::opaque;
 }
 
-// ", only that of ..." for a texture that has another image.
-std::string extensionsOf(const tinygltf::Texture& texture) {
-  std::string names;
-  for (const auto& [name, value] : texture.extensions)
-    names += (names.empty() ? ", only that of " : ", ") + name;
-  return names;
+// ", only 'x.ktx2' of KHR_texture_basisu" for a texture that has other images.
+std::string othersOf(const tinygltf::Model& model, const tinygltf::Texture& texture) {
+  std::string others;
+  for (const auto& [name, value] : texture.extensions) {
+    const int source = value.IsObject() ? integerOr(value, "source", -1) : -1;
+    const bool isThere = source >= 0 && static_cast<size_t>(source) < model.images.size();
+    const std::string image = isThere ? nameOf(model.images[static_cast<size_t>(source)]) : "";
+    others += (others.empty() ? ", only " : ", ") + (image.empty() ? "that" : "'" + image + "'") +
+              " of " + name;
+  }
+  return others;
 }
 
 float numberIn(const tinygltf::Value& object, const char* key, float otherwise) {
@@ -158,10 +167,9 @@ int GltfMaterials::image(int texture, bool srgb) {
   const int source = model_->textures[static_cast<size_t>(texture)].source;
   if (source < 0 || static_cast<size_t>(source) >= model_->images.size())
     fail("texture {} names no PNG or JPEG image{}: export it as one of them", texture,
-         extensionsOf(model_->textures[static_cast<size_t>(texture)]));
+         othersOf(*model_, model_->textures[static_cast<size_t>(texture)]));
   const tinygltf::Image& from = model_->images[static_cast<size_t>(source)];
-  const std::string name =
-      "image " + std::to_string(source) + " '" + (from.name.empty() ? from.uri : from.name) + "'";
+  const std::string name = "image " + std::to_string(source) + " '" + nameOf(from) + "'";
   const auto bytes = [&]() -> std::span<const unsigned char> {
     if (const auto bad = badImages_->find(source); bad != badImages_->end())
       fail("{}", bad->second);

@@ -58,17 +58,6 @@ std::vector<Vec4> colorsOf(const GltfVertices& vertices, const tinygltf::Primiti
   return colors;
 }
 
-// Throws Error for a primitive that is compressed and has nothing else to read.
-void checkNotDraco(const tinygltf::Model& model, const tinygltf::Primitive& from, int position,
-                   const std::string& what) {
-  constexpr const char* kDraco = "KHR_draco_mesh_compression";
-  const bool isThere = position >= 0 && static_cast<size_t>(position) < model.accessors.size();
-  if (isThere && from.extensions.contains(kDraco) &&
-      model.accessors[static_cast<size_t>(position)].bufferView < 0)
-    fail("{}: needs the glTF extension {}, which is not supported: export without it", what,
-         kDraco);
-}
-
 }  // namespace
 
 // Leaves out what does not matter, so that nodes share what is the same.
@@ -110,7 +99,6 @@ void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const Use& use,
                                const std::string& what, GltfShape& shape, Mesh& mesh) {
   const auto position = from.attributes.find("POSITION");
   if (position == from.attributes.end()) fail("{}: has no POSITION", what);
-  checkNotDraco(*model_, from, position->second, what);
   GltfVertices vertices{model_, 0, {}, what};
   vertices.count = GltfAccessor(*model_, position->second, 3, what + " POSITION").count();
   mesh.triangles = trianglesOf(from, vertices.count, what);

@@ -252,7 +252,10 @@ void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {
     fail("camera {} does not exist", node.camera);
   const tinygltf::Camera& from = model_->cameras[static_cast<size_t>(node.camera)];
   if (from.type != "perspective") {
-    warn("camera '{}' is not perspective: left out", node.name);
+    warn(
+        "camera '{}' is not perspective: left out; one that is far away and has a narrow angle "
+        "looks nearly the same",
+        node.name);
     return;
   }
   Camera camera;

@@ -33,6 +33,24 @@ constexpr const char* kRead[] = {
     "nodes.extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION",
     "nodes.extensions.EXT_mesh_gpu_instancing.attributes.ROTATION",
     "nodes.extensions.EXT_mesh_gpu_instancing.attributes.SCALE",
+    "buffers.extensions.EXT_meshopt_compression.fallback",
+    "buffers.extensions.KHR_meshopt_compression.fallback",
+    "bufferViews.extensions.EXT_meshopt_compression.buffer",
+    "bufferViews.extensions.EXT_meshopt_compression.byteOffset",
+    "bufferViews.extensions.EXT_meshopt_compression.byteLength",
+    "bufferViews.extensions.EXT_meshopt_compression.byteStride",
+    "bufferViews.extensions.EXT_meshopt_compression.count",
+    "bufferViews.extensions.EXT_meshopt_compression.mode",
+    "bufferViews.extensions.EXT_meshopt_compression.filter",
+    "bufferViews.extensions.KHR_meshopt_compression.buffer",
+    "bufferViews.extensions.KHR_meshopt_compression.byteOffset",
+    "bufferViews.extensions.KHR_meshopt_compression.byteLength",
+    "bufferViews.extensions.KHR_meshopt_compression.byteStride",
+    "bufferViews.extensions.KHR_meshopt_compression.count",
+    "bufferViews.extensions.KHR_meshopt_compression.mode",
+    "bufferViews.extensions.KHR_meshopt_compression.filter",
+    "meshes.primitives.extensions.KHR_draco_mesh_compression.bufferView",
+    "meshes.primitives.extensions.KHR_draco_mesh_compression.attributes",
     "meshes.primitives.attributes.POSITION",
     "meshes.primitives.attributes.NORMAL",
     "meshes.primitives.attributes.TANGENT",
@@ -82,6 +100,24 @@ constexpr const char* kTextureUse[] = {
 };
 // A promise about the types of attributes; no object of the file has it as a member.
 constexpr std::string_view kOnlyNamed = "KHR_mesh_quantization";
+
+// What the picture shows instead.
+constexpr std::pair<std::string_view, const char*> kInstead[] = {
+    {"KHR_materials_anisotropy", "highlights are round"},
+    {"KHR_materials_clearcoat", "without the coat and its reflection"},
+    {"KHR_materials_diffuse_transmission", "no light comes through diffusely"},
+    {"KHR_materials_dispersion", "all colours refract alike"},
+    {"KHR_materials_iridescence", "without colours of thin films"},
+    {"KHR_materials_pbrSpecularGlossiness", "as the metallic-roughness values beside it say"},
+    {"KHR_materials_sheen", "cloth lacks its bright rim"},
+    {"KHR_materials_unlit", "lit like other surfaces"},
+    {"KHR_materials_variants", "as by default"},
+    {"KHR_materials_volume.thicknessTexture", "as thick as the mesh is"},
+    {"KHR_node_visibility", "hidden objects show"},
+    {"KHR_texture_basisu", "the PNG or JPEG beside it"},
+    {"EXT_texture_webp", "the PNG or JPEG beside it"},
+    {"occlusionTexture", "light is computed"},
+};
 constexpr size_t kMostNames = 30, kLongestName = 60;  // of a message
 
 // Members of an object that are read. One without any is a value, or an object that may hold
@@ -204,6 +240,13 @@ bool UnreadFinder::tell(const std::string& name) {
   return path.starts_with(kMaterials) && note(kMaterial, kMaterials.size());
 }
 
+// " (what the picture shows instead)"; empty where nobody has said.
+std::string insteadOf(std::string_view name) {
+  for (const auto& [known, instead] : kInstead)
+    if (known == name) return std::string(" (") + instead + ")";
+  return {};
+}
+
 std::string UnreadFinder::text() const {
   constexpr std::array<const char*, kKinds> kNames = {"vertex attributes ", "material properties ",
                                                       "extensions "};
@@ -216,7 +259,7 @@ std::string UnreadFinder::text() const {
         all += "...";
         break;
       }
-      all += name;
+      all += name + insteadOf(name);
     }
   }
   std::ranges::replace_if(

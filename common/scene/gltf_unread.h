@@ -13,7 +13,8 @@ namespace ninefold {
 bool isReadExtension(std::string_view name);
 
 // One line, without repetition, in alphabetical order: "vertex attributes COLOR_1; material
-// properties occlusionTexture; extensions KHR_materials_sheen". Empty if all is read.
+// properties occlusionTexture (light is computed); extensions VENDOR_magic": what is shown instead
+// is said where it is known. Empty if all is read.
 // `json`: well-formed and of bounded depth (gltf_guard.h).
 std::string unreadOf(std::string_view json);
 

@@ -29,11 +29,6 @@ void addPhotonScene(Scene& scene, const Scene& simple) {
   validate(scene);
 }
 
-Scene withPhotonScene(Scene scene, const std::optional<std::string>& file) {
-  if (file) addPhotonScene(scene, readScene(*file));
-  return scene;
-}
-
 Scene photonSceneOf(const Scene& scene) {
   Scene met = scene;
   const auto isLamp = [&](const Instance& instance) {

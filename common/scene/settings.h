@@ -44,7 +44,7 @@ struct Settings {
   int indirectVpls = 18;   // per set, mean
   int photons = 1000;      // caustic photons per set
   int resampling = 10;     // r: candidates for each VPL that is kept (resampling.h)
-  int cameraPoints = 256;  // M, per set (camera_points.h)
+  int cameraPoints = 128;  // M, per set (camera_points.h)
   PartitionRule partition = PartitionRule::balance;  // of paths that both families find
   int mapPhotons = 2000;                             // paths of the rolling pool
   int mapPerFrame = 100;                             // of them shot anew by one unit; divides them

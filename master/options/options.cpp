@@ -78,11 +78,19 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.waitClients, raw.whole("wait-clients", 1, kMaxClients));
   assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
+  o.addressFile = raw.text("address-file");
+  o.hosts = raw.text("hosts");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = raw.choice("isa", kIsas)) o.isa = kIsas[*isa];
   o.listen = raw.text("listen").value_or(o.listen);
   try {
-    if (!isLoopback(parseEndpoint(o.listen, "--listen").host) && !o.keyFile)
+    const bool isHere = isLoopback(parseEndpoint(o.listen, "--listen").host);
+    if (isHere && o.hosts)
+      failUsage(
+          "--hosts {} needs --listen ADDR:PORT where they reach this machine, for example "
+          "0.0.0.0:4700",
+          *o.hosts);
+    if (!isHere && !o.keyFile)
       failUsage(
           "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "
           "ninefold-master --new-key FILE",
@@ -159,9 +167,12 @@ void readLive(const RawOptions& raw, Options& o) {
 
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
+  o.outputEvery = raw.real("output-every", 0.1, kMaxSeconds);
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !o.window)
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
+  if (o.outputEvery && (!o.output || isLive(o)))
+    failUsage("--output-every is for --output without --window, --script and --animate");
   if (o.animate && !o.window && (!o.output || !isNumbered(*o.output)))
     failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
   if (!o.output) return;

@@ -47,6 +47,8 @@ struct Options {
   int clientThreads = 1;
   std::string listen = "127.0.0.1:0";  // ADDR:PORT
   std::optional<std::string> keyFile;
+  std::optional<std::string> addressFile;  // gets the addresses at which it listens
+  std::optional<std::string> hosts;        // file: where ssh starts clients
   int waitClients = 1;
   std::string isa = "auto";  // for local clients: auto, avx2, avx512
   double patience = 120;     // without a window, with clients that are all stuck [s]
@@ -62,6 +64,7 @@ struct Options {
   StopRule stop;  // 64 frames if no flag says otherwise
 
   std::optional<std::string> output;  // .exr, .png or .hdr
+  std::optional<double> outputEvery;  // also before the end [s]
   bool aovs = false;
   std::optional<bool> denoise;    // nothing: as denoises() says
   std::optional<float> exposure;  // [EV]; nothing: the scene's, or by the picture

@@ -86,6 +86,10 @@ constexpr Flag kCluster[] = {
     {"listen", "ADDR:PORT",
      "where clients connect; port 0 takes a free one and prints it; 0.0.0.0:4700 for a LAN "
      "(default 127.0.0.1:0)"},
+    {"address-file", "FILE",
+     "write there where the master listens, ADDR:PORT lines, for --master-file of clients"},
+    {"hosts", "FILE",
+     "start a client on each of these machines by ssh, HOST [PROGRAM] a line, again when it ends"},
     {"key-file", "FILE", "cluster key; needed to listen beyond this machine"},
     {"new-key", "FILE", "make a cluster key and end"},
     {"wait-clients", "N", "do not start before N clients are ready (default 1)"},
@@ -102,6 +106,9 @@ constexpr Flag kCluster[] = {
 };
 constexpr Flag kFiles[] = {
     {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
+    {"output-every", "S",
+     "write it after the first frame, too, and then every S seconds, 0.1 or more, as far as it has "
+     "converged"},
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
     {"stats", "FILE", "what happened, as JSON; - is standard output"},

@@ -37,6 +37,7 @@ class HeadlessRun {
   void tellProgress();
   ProgressState progressState() const;
   void writePicture() const;
+  void writePictureSoFar();
   void writeStatistics() const;
   Duration elapsed() const;
   Cluster& cluster() { return machine_.cluster(); }
@@ -52,6 +53,7 @@ class HeadlessRun {
   std::atomic<bool> enough_;  // no more frames are opened
   PictureMaker picture_;
   RunRecord record_;
+  Time nextPicture_{};  // not before
   Progress progress_;
   FrameMachine machine_;  // last: its threads end before what they work on
 };
@@ -137,6 +139,7 @@ void HeadlessRun::gatherFrames() {
     if (const auto frame = machine_.next(Clock::now() + kLook)) {
       picture_.frameDone();
       record_.frameDone(*frame, processCpuTime());
+      writePictureSoFar();
       machine_.release(*frame);
     }
   }
@@ -162,6 +165,13 @@ void HeadlessRun::tellProgress() {
 ProgressState HeadlessRun::progressState() const {
   const double fraction = rule_.fraction(picture_.frames(), elapsed(), picture_.relativeError());
   return {fraction, picture_.frames(), rule_.frames, cluster().summary()};
+}
+
+// Between two frames, as a picture must be written. The clients trace on meanwhile.
+void HeadlessRun::writePictureSoFar() {
+  if (!options_.outputEvery || Clock::now() < nextPicture_ || isDone()) return;
+  writePicture();
+  nextPicture_ = Clock::now() + fromSeconds(*options_.outputEvery);
 }
 
 void HeadlessRun::writePicture() const {

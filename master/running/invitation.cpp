@@ -8,11 +8,11 @@
 #include <memory>
 
 #include "common/base/log.h"
+#include "common/base/written_file.h"
+#include "master/serving/host_clients.h"
 
 namespace ninefold {
 namespace {
-
-bool isAnyAddress(const std::string& host) { return host == "0.0.0.0" || host == "::"; }
 
 std::string text(const in_addr& address) {
   char out[INET_ADDRSTRLEN] = {};
@@ -74,6 +74,14 @@ std::vector<std::string> invitation(const Options& options, const Endpoint& at,
   return lines;
 }
 
+std::vector<Endpoint> reachableAt(const Endpoint& at, const std::vector<std::string>& addresses) {
+  if (!isAnyAddress(at.host)) return {at};
+  if (addresses.empty()) return {{at.host == "::" ? "::1" : "127.0.0.1", at.port}};
+  std::vector<Endpoint> all;
+  for (const std::string& address : addresses) all.push_back({address, at.port});
+  return all;
+}
+
 void checkGuests(const Options& options) {
   if (options.keyFile) return;
   if (options.localClients == 0)
@@ -88,6 +96,10 @@ void invite(const Options& options, const Endpoint& at) {
   const auto addresses =
       isAnyAddress(at.host) ? addressesBehind(at.host) : std::vector<std::string>();
   for (const std::string& line : invitation(options, at, addresses)) logLine(line);
+  if (!options.addressFile) return;
+  std::string lines;
+  for (const Endpoint& one : reachableAt(at, addresses)) lines += addressText(one) + "\n";
+  writeFile(*options.addressFile, lines);
 }
 
 }  // namespace ninefold

@@ -1,5 +1,6 @@
 // invitation.h: the lines that say where the master listens, and what to type on other machines.
-// Errors: checkGuests throws UsageError if too few clients could ever join.
+// Errors: checkGuests throws UsageError if too few clients could ever join; invite throws Error if
+// the address file cannot be written.
 #pragma once
 
 #include <string>
@@ -21,6 +22,10 @@ std::vector<std::string> addressesBehind(const std::string& anyAddress);
 std::vector<std::string> invitation(const Options& options, const Endpoint& at,
                                     const std::vector<std::string>& addresses);
 
+// Where a master that listens at `at` is reached; never empty.
+std::vector<Endpoint> reachableAt(const Endpoint& at, const std::vector<std::string>& addresses);
+
+// Logs the invitation, and writes --address-file.
 void invite(const Options& options, const Endpoint& at);
 
 }  // namespace ninefold

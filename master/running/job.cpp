@@ -27,7 +27,7 @@ std::string hashOf(const std::vector<Blob>& blobs) {
 
 std::string candidatesOf(const Settings& s) {
   if (!factsOf(s.method).has(kReverseVpls)) return "";
-  return fmt::format(" ({} candidates for each, chosen by {} camera points)", s.resampling,
+  return fmt::format(" (up to {} candidates for each, chosen by {} camera points)", s.resampling,
                      s.cameraPoints);
 }
 

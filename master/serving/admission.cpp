@@ -11,6 +11,7 @@ Admission::Verdict Admission::judge(const msg::Hello& hello, const std::string& 
                     "both from one commit, or copy the programs of one",
                     releaseName(), kProtocol, hello.release, hello.protocol),
         {}};
+  if (hello.visits) return {};
   if (!first_) first_ = hello;
   if (hello.probeClass == first_->probeClass) return {};
   reproducible_ = false;

@@ -48,8 +48,9 @@ void ClientSession::on(msg::Hello&& m, Time) {
   }
   if (verdict.warning) push(todo::Warn{*verdict.warning});
   status_.state = ClientState::syncing;
-  send(msg::Welcome{id_, releaseName()});
+  send(msg::Welcome{id_, releaseName(), admission_.pixelClass()});
   send(offer_.sceneOffer());
+  if (visits()) return;
   for (msg::Edit& edit : offer_.allEdits()) send(std::move(edit));
   offered_ = state_.snapshot();
   if (offered_) send(offered_->offer);
@@ -75,7 +76,7 @@ void ClientSession::on(msg::Progress&& m, Time now) {
 }
 
 void ClientSession::on(msg::Ready&& m, Time now) {
-  if (!isInside() || m.sceneVersion != JobOffer::kScene || m.jobVersion > offer_.job())
+  if (!isInside() || visits() || m.sceneVersion != JobOffer::kScene || m.jobVersion > offer_.job())
     fail("ready for something that was not offered");
   if (ready()) return;  // later jobs need no answer
   status_ = {ClientState::ready, 1.0};
@@ -125,13 +126,13 @@ void ClientSession::tick(Time now) {
 }
 
 void ClientSession::jobChanged(const msg::Edit* edit) {
-  if (!isInside()) return;
+  if (!isInside() || visits()) return;
   if (edit != nullptr) send(*edit);
   send(offer_.configure());
 }
 
 void ClientSession::stateChanged(const std::vector<msg::StateDelta>& messages) {
-  if (!isInside()) return;
+  if (!isInside() || visits()) return;
   for (const msg::StateDelta& message : messages) send(message);
 }
 

@@ -87,6 +87,8 @@ class ClientSession {
   const std::string& peer() const { return peer_; }
   std::string title() const;  // for people: name and address
   const ClientStatus& status() const { return status_; }
+  // It asks, and may fetch the scene to see how fast it comes; it gets no job.
+  bool visits() const { return hello_.visits; }
   bool over() const { return status_.state == ClientState::lost; }
   bool ready() const { return status_.state == ClientState::ready; }
   // It has introduced itself.

@@ -13,7 +13,7 @@ namespace {
 constexpr Duration kTick = milliseconds(20);
 constexpr Duration kTimeToEnd = milliseconds(900);
 
-LocalClients::Plan withMaster(LocalClients::Plan plan, const Endpoint& master) {
+StartedClients::Plan withMaster(StartedClients::Plan plan, const Endpoint& master) {
   plan.arguments.push_back("--master=" + addressText(master));
   return plan;
 }
@@ -29,6 +29,8 @@ Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
     : remoteMayJoin_(setup.remoteMayJoin),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
       local_(withMaster(std::move(setup.local), server_.endpoint()),
+             [this](const std::string& name) { return workOf(name); }),
+      hosts_(hostPlan(setup.hosts, local_.key(), server_.endpoint(), setup.isa),
              [this](const std::string& name) { return workOf(name); }),
       stall_(setup.patience) {
   watchSignals();  // before anybody is told that the master listens
@@ -65,6 +67,7 @@ void Cluster::run() {
   takeSignal(SIGUSR1, true);
   try {
     local_.start(Clock::now());
+    hosts_.start(Clock::now());
     tick();
     loop_.run();
   } catch (const Error& error) {
@@ -75,6 +78,7 @@ void Cluster::run() {
 void Cluster::tick() {
   const Time now = Clock::now();
   local_.poll(now);
+  hosts_.poll(now);
   server_.tick(now);
   if (isOver(now)) return loop_.stop();
   if (!server_.failure().empty()) fail(server_.failure());
@@ -90,7 +94,7 @@ void Cluster::tick() {
   timer_ = loop_.after(kTick, [this] { tick(); });
 }
 
-LocalClients::Work Cluster::workOf(const std::string& name) const {
+StartedClients::Work Cluster::workOf(const std::string& name) const {
   const std::optional<ClientReport> work = server_.workOf(name, Clock::now());
   if (!work) return {.oldestTask = "no task"};
   return {work->tasks, work->oldest ? nameOf(*work->oldest) : "no task"};
@@ -116,7 +120,8 @@ void Cluster::failWithoutClients() {
 }
 
 bool Cluster::isOver(Time now) const {
-  return endBy_ && ((local_.running() == 0 && !server_.isConnected()) || now >= *endBy_);
+  const bool isAlone = local_.running() + hosts_.running() == 0 && !server_.isConnected();
+  return endBy_ && (isAlone || now >= *endBy_);
 }
 
 void Cluster::fail(const std::string& line) {
@@ -208,6 +213,7 @@ void Cluster::stop(const std::string& reason) {
     endBy_ = now + kTimeToEnd;
     server_.close(reason);
     local_.stop(now);
+    hosts_.stop(now);
   });
 }
 

@@ -1,5 +1,5 @@
-// cluster.h: the network thread with all that lives in it: event loop, server, local clients,
-// signals, and the ticking of their deadlines.
+// cluster.h: the network thread with all that lives in it: event loop, server, the clients
+// that it starts, signals, and the ticking of their deadlines.
 //
 // SIGUSR1 asks what is under way: the log gets lines that begin with "state:". Only the network
 // thread takes it. main blocks it for all others, else it would end the program before that thread
@@ -20,15 +20,18 @@
 #include <vector>
 
 #include "master/scheduling/stall_watch.h"
-#include "master/serving/local_clients.h"
+#include "master/serving/host_clients.h"
 #include "master/serving/server.h"
+#include "master/serving/started_clients.h"
 
 namespace ninefold {
 
 struct ClusterSetup {
   ServerSetup server;
-  LocalClients::Plan local;    // without the master's address, which only listening tells
-  bool remoteMayJoin = false;  // a cluster key exists
+  StartedClients::Plan local;  // without the master's address, which only listening tells
+  std::vector<Host> hosts = {};
+  std::string isa = "auto";               // of clients on hosts
+  bool remoteMayJoin = false;             // a cluster key exists
   std::optional<Duration> patience = {};  // with clients that are all stuck; none: without end
 };
 
@@ -79,13 +82,13 @@ class Cluster {
   void fail(const std::string& line);
   void watchForStall(Time now);
   void failWithoutClients();
-  LocalClients::Work workOf(const std::string& name) const;
+  StartedClients::Work workOf(const std::string& name) const;
   std::string describeClients() const;  // needs the lock
 
   EventLoop loop_;
   const bool remoteMayJoin_;
   Server server_;
-  LocalClients local_;
+  StartedClients local_, hosts_;
   StallWatch stall_;
   std::unique_ptr<EventLoop::Timer> timer_;
   std::optional<Time> endBy_;  // set by stop

@@ -57,6 +57,7 @@ void Server::closed(ClientId id, const std::string& reason) {
     dispatchSoon();
   }
   peer.second.connection.reset();
+  if (peer.second.session->visits()) peers_.erase(id);
 }
 
 template <typename Event>
@@ -77,6 +78,7 @@ void Server::carryOut(Handle& peer, Time now) {
 }
 
 void Server::on(Handle& peer, todo::Send&& a, Time) {
+  if (auto* welcome = std::get_if<msg::Welcome>(&a.message)) welcome->wallClockMs = wallClockMs();
   if (peer.second.connection) peer.second.connection->send(std::move(a.message));
 }
 
@@ -196,6 +198,8 @@ void Server::on(Handle& peer, todo::Finish&& a, Time now) {
 }
 
 void Server::lost(Handle& peer, const std::string& reason, Time now) {
+  if (peer.second.session->visits())
+    return log("{} has looked whether it can join: {}", peer.second.session->title(), reason);
   log("client {} is gone: {}: {}", peer.first, peer.second.session->title(), reason);
   joining_.erase(peer.first);
   scheduler_.clientLost(peer.first, now);

@@ -13,7 +13,7 @@ std::optional<ClientReport> Server::workOf(const std::string& name, Time now) co
 bool Server::nothingMoves() const {
   const auto isComing = [](const Handle& peer) {
     const ClientSession& session = *peer.second.session;
-    return !session.over() && !session.ready();
+    return !session.over() && !session.ready() && !session.visits();
   };
   return scheduler_.allAreStuck() && joining_.empty() && std::ranges::none_of(peers_, isComing);
 }
@@ -45,6 +45,7 @@ std::vector<std::string> Server::explain(Time now) const {
 }
 
 std::string Server::explainClient(ClientId id, const ClientSession& session, Time now) const {
+  if (session.visits()) return "only looks whether it can join";
   switch (session.status().state) {
     case ClientState::connecting:
       return "has not introduced itself";
@@ -79,6 +80,7 @@ std::vector<ClientInfo> Server::clients(Time now) const {
   std::vector<ClientInfo> infos;
   for (const auto& [id, peer] : peers_) {
     const ClientSession& session = *peer.session;
+    if (session.visits()) continue;
     ClientInfo info{id, session.hello().name, session.hello().isa, session.peer(), session.status(),
                     {}};
     if (const auto found = work.find(id); found != work.end()) info.work = found->second;

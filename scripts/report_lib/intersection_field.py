@@ -115,7 +115,8 @@ def _add_resolutions(context, section):
                                   [figure(entry[key]) for key in ("relmse", "bias", "noise")] + [signed_percents(against["bias"])])
                 series.setdefault(f"{name}, direct light by {direct}", []).append((directions, entry["bias"]))
     section.tables.append(table)
-    plots.bias(os.path.join(context.folder, "resolutions.png"), series, dict.fromkeys(series))
+    plots.bias(os.path.join(context.folder, "resolutions.png"), series, dict.fromkeys(series),
+               "directions, N_dir")
     section.pictures.append(Picture("resolutions.png", "relMSE that stays when frames are averaged, over N_dir (their Figure 9)", plot=True))
 
 

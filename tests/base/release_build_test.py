@@ -1,4 +1,4 @@
-"""What cmake/release.cmake calls a tree: by commit, by what differs from it, or by its version alone."""
+"""What cmake/release.cmake calls a tree: by commit, by what differs from it, or by its files."""
 import os
 import pathlib
 import re
@@ -50,15 +50,28 @@ class Release(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout + done.stderr), (0, ""))
         return self.output.read_text().rstrip()
 
-    def test_a_tree_without_git_has_its_version_alone(self):
-        self.assertEqual(self.release(), "1.2.3")
+    def test_a_tree_without_git_is_named_by_its_files(self):
+        files = self.release()
+        self.assertRegex(files, r"^1\.2\.3\+files\.[0-9a-f]{12}$")
         self.commit(self.folder)  # a tarball unpacked inside another project
-        self.assertEqual(self.release(), "1.2.3")
+        self.assertEqual(self.release(), files)
         self.git("init", "-q")
-        self.assertEqual(self.release(), "1.2.3", "no commit yet")
+        self.assertEqual(self.release(), files, "no commit yet")
         self.commit()
         for git in ("", "GIT-NOTFOUND", "/no/such/git"):
-            self.assertEqual(self.release(git), "1.2.3")
+            self.assertEqual(self.release(git), files)
+
+    def test_unlike_trees_without_git_have_unlike_names(self):
+        names = [self.release("")]
+        for path, text in (("common/a.cpp", "int b;\n"), ("common/b.cpp", "int a;\n"), ("CMakeLists.txt", "# new\n")):
+            self.write(path, text)
+            names.append(self.release(""))
+        self.assertEqual(len(set(names)), len(names), names)
+        self.write("docs/a.md", "other\n")
+        self.assertEqual(self.release(""), names[-1], "no program is built from it")
+        shutil.copytree(self.tree, self.folder / "copy")
+        self.tree = self.folder / "copy"
+        self.assertEqual(self.release(""), names[-1], "wherever it lies")
 
     def test_a_commit_is_named_whatever_tags_and_hooks_there_are(self):
         expected = "1.2.3+" + self.commit()[:12]

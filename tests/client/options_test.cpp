@@ -75,6 +75,15 @@ TEST(ClientOptions, ComplaintsNameTheFlag) {
   EXPECT_NE(complaint({"pc1:4700"}), "accepted");
 }
 
+TEST(ClientOptions, TheAddressMayComeInAFile) {
+  const Options o = parse({"--master-file", "job/address", "--key-file", "k"});
+  EXPECT_EQ(o.masterFile, "job/address");
+  EXPECT_TRUE(o.master.empty());
+  EXPECT_NE(complaint({"--master-file", "f", "--master", "pc1:1", "--key-file", "k"})
+                .find("exclude each other"),
+            std::string::npos);
+}
+
 TEST(ClientOptions, HelpNamesEveryPublicFlagAndNoInternalOne) {
   EXPECT_TRUE(parse({"--help"}).help);
   EXPECT_TRUE(parse({"-h"}).help);

@@ -1,76 +1,28 @@
-"""scripts/bench_scalability --hosts: clients that ssh starts, here on this machine through an sshd of the test's own.
+"""Clients that ssh starts, here on this machine through an sshd of the test's own: ninefold-master --hosts, and
+scripts/bench_scalability --hosts.
 
 The picture is the one that local clients make, and no key file stays behind.
 """
-import getpass
 import os
 import pathlib
-import shutil
-import socket
-import subprocess
+import signal
 import sys
-import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scripts"))
 
-from bench_lib.cluster import Cluster, ended, program  # noqa: E402  the path comes first
+from bench_lib.cluster import Cluster, program  # noqa: E402  the path comes first
 from bench_lib.hosts import Hosts  # noqa: E402
+from programs import BIN, ClusterTest, eventually, is_running  # noqa: E402
+from sshd import WithSshServer, free_port  # noqa: E402
 
-SSHD = shutil.which("sshd", path=os.environ["PATH"] + ":/usr/sbin:/sbin")
 JOB = ["--size", "96x64", "--frames", 2]
 
 
-def free_port():
-    with socket.socket() as one:
-        one.bind(("127.0.0.1", 0))
-        return one.getsockname()[1]
-
-
-@unittest.skipUnless(SSHD, "no sshd on this machine (package openssh-server)")
-class OverSsh(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory(prefix="ninefold-ssh-")
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        for name in ("host", "user"):
-            subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", self.folder / name], check=True)
-        self.port = free_port()
-        self.start_sshd()
-        self.put_ssh_first()
-
-    def start_sshd(self):
-        (self.folder / "sshd_config").write_text(
-            f"Port {self.port}\nListenAddress 127.0.0.1\nHostKey {self.folder}/host\n"
-            f"AuthorizedKeysFile {self.folder}/user.pub\nPidFile none\nStrictModes no\nUsePAM no\n"
-            f"PasswordAuthentication no\nSetEnv TMPDIR={self.folder}/remote\n")
-        (self.folder / "remote").mkdir()
-        sshd = subprocess.Popen([SSHD, "-D", "-e", "-f", self.folder / "sshd_config"], stderr=subprocess.PIPE, text=True)
-        stop = ended(sshd)
-        stop.__enter__()
-        self.addCleanup(stop.__exit__, None, None, None)
-        self.addCleanup(sshd.stderr.close)
-        line = sshd.stderr.readline()
-        self.assertIn("listening", line, "sshd does not start")
-
-    def put_ssh_first(self):
-        """An ssh that knows the test's host and key."""
-        known = (self.folder / "host.pub").read_text().split()[:2]
-        (self.folder / "known").write_text(f"[127.0.0.1]:{self.port} {' '.join(known)}\n")
-        (self.folder / "ssh_config").write_text(
-            f"Host elsewhere\n HostName 127.0.0.1\n Port {self.port}\n User {getpass.getuser()}\n"
-            f" IdentityFile {self.folder}/user\n IdentitiesOnly yes\n UserKnownHostsFile {self.folder}/known\n")
-        (self.folder / "bin").mkdir()
-        ssh = self.folder / "bin" / "ssh"
-        ssh.write_text(f'#!/bin/sh\nexec {shutil.which("ssh")} -F {self.folder}/ssh_config "$@"\n')
-        ssh.chmod(0o755)
-        before = os.environ["PATH"]
-        os.environ["PATH"] = f"{ssh.parent}:{before}"
-        self.addCleanup(os.environ.__setitem__, "PATH", before)
-
+class Benchmark(WithSshServer):
     def test_clients_on_other_hosts(self):
-        hosts = self.folder / "hosts"
+        hosts = self.keys / "hosts"
         hosts.write_text("# two clients\n" + 2 * f"elsewhere {program('ninefold-client')}\n")
         with Cluster() as cluster:
             far = Hosts(hosts, f"127.0.0.1:{free_port()}", cluster.key)
@@ -79,7 +31,74 @@ class OverSsh(unittest.TestCase):
             near = cluster.real("cornell", JOB, 1)
         self.assertEqual(len(stats["clients"]), 2)
         self.assertEqual(stats["image_hash"], near["image_hash"])
-        self.assertEqual([f.name for f in (self.folder / "remote").iterdir()], [], "the key stayed there")
+        self.assertEqual([f.name for f in self.remote.iterdir()], [], "the key stayed there")
+
+
+def remote_clients():
+    """Process ids of clients that ssh has started."""
+    found = []
+    for line in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            words = line.read_bytes().split(b"\0")
+        except OSError:
+            continue  # ended meanwhile
+        if words[0].endswith(b"/ninefold-client") and words[0].startswith(os.fsencode(BIN)) and b"--name=elsewhere" in words:
+            found.append(int(line.parent.name))
+    return sorted(found)
+
+
+class Master(WithSshServer, ClusterTest):
+    def setUp(self):
+        super().setUp()
+        self.new_key()
+        (self.folder / "hosts").write_text(f"# the lab\nelsewhere {BIN}/ninefold-client  # one\n")
+
+    def start_master(self, *options, **more):
+        return self.master("--local-clients", 0, "--listen", "0.0.0.0:0", "--key-file", "cluster.key", "--hosts", "hosts",
+                           *options, **more)
+
+    def test_clients_on_hosts_render_and_end_with_the_master(self):
+        near = self.render("--local-clients", 1)
+        (self.folder / "hosts").write_text(2 * f"elsewhere {BIN}/ninefold-client\n")
+        stats = self.finish(self.start_master("--wait-clients", 2))
+        self.assertEqual([c["name"] for c in stats["clients"]], ["elsewhere", "elsewhere"])
+        self.assertEqual(stats["image_hash"], near["image_hash"])
+        eventually(lambda: not remote_clients(), "no client is left")
+        self.assertEqual([f.name for f in self.remote.iterdir()], [], "no key file was there")
+
+    def test_a_client_that_dies_is_started_again_and_the_picture_is_the_same(self):
+        near = self.render("--local-clients", 1, frames=40)
+        master = self.start_master(frames=40)
+        master.waits_for(r"progress: \d+% frame [1-9]")
+        (first,) = remote_clients()
+        self.send(first, signal.SIGKILL)
+        master.waits_for(r"the client on elsewhere ended with .*; starting it again in 1\.0 s")
+        stats = self.finish(master)
+        self.assertEqual(stats["image_hash"], near["image_hash"])
+        self.assertEqual(len(stats["clients"]), 2)
+
+    def test_a_killed_master_leaves_no_client_on_a_host(self):
+        master = self.start_master("--seconds", 1000, frames=None)
+        master.waits_for(r"client 1 is ready")
+        (client,) = remote_clients()
+        self.send(master.process.pid, signal.SIGKILL)
+        master.ends()
+        eventually(lambda: not is_running(client), "the client on the host has ended")
+
+    def test_a_host_that_refuses_is_asked_again_and_holds_nobody_up(self):
+        (self.folder / "hosts").write_text("elsewhere /nowhere/ninefold-client\n")
+        master = self.master(
+            "--local-clients", 1, "--listen", "0.0.0.0:0", "--key-file", "cluster.key", "--hosts", "hosts", "--seconds", 3,
+            frames=None)
+        master.waits_for(r"the client on elsewhere ended with exit status 127; starting it again")
+        self.finish(master)
+
+    def test_a_list_that_cannot_be_read_ends_the_master_before_anything_else(self):
+        (self.folder / "hosts").write_text("elsewhere\n-oProxyCommand=touch$IFS$HOME/x\n")
+        master = self.start_master()
+        self.assertEqual(master.ends(), 1)
+        self.assertIn("hosts:2", master.lines[-1])
+        self.assertFalse(master.picture.exists())
 
 
 if __name__ == "__main__":

@@ -43,6 +43,13 @@ class SameBytes(ClusterTest):
         for method in methods():
             self.same_by(method, [(1, 1), (3, 1), (1, 2)], "--filter-at", "clients", frames=2)
 
+    def test_pictures_on_the_way_do_not_show(self):
+        expected = self.render("--local-clients", 1, frames=24)["image_hash"]
+        master = self.master("--local-clients", 1, "--output-every", 0.1, frames=24)
+        master.waits_for(r"(?m)^1 frame\(s\) in out\d+\.exr$")
+        self.assertTrue(master.picture.exists())
+        self.assertEqual(self.finish(master)["image_hash"], expected)
+
     def test_another_seed_or_method_is_another_picture(self):
         hashes = {self.hash_by(method, seed) for seed in (1, 2) for method in methods() if method != CHOICE}
         self.assertEqual(len(hashes), 2 * (len(methods()) - 1))

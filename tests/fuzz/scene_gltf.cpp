@@ -8,6 +8,7 @@
 #include "common/scene/gltf_scene.h"
 #include "common/scene/needs.h"
 #include "tests/fuzz/fuzz.h"
+#include "tests/scene/compressed_mesh.h"
 
 namespace {
 
@@ -37,14 +38,9 @@ void appendWord(Input& to, size_t word) {
   for (int shift = 0; shift < 32; shift += 8) to.push_back(static_cast<uint8_t>(word >> shift));
 }
 
-Input binary(std::string json) {
+Input binary(std::string json, Input chunk) {
   while (json.size() % 4 != 0) json += ' ';
-  Input chunk(60, 0);
-  chunk[14] = 0x80, chunk[15] = 0x3F, chunk[31] = 0x40;  // (0,0,0) (1,0,0) (0,2,0)
-  chunk[37] = 1, chunk[38] = 2;                          // 0 1 2
-  const uint8_t image[18] = {0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 8, 0x20};  // TGA
-  std::copy(std::begin(image), std::end(image), chunk.begin() + 40);
-  chunk[58] = 200;
+  while (chunk.size() % 4 != 0) chunk.push_back(0);
   Input file;
   for (const size_t word : {size_t{0x46546C67}, size_t{2}, 28 + json.size() + chunk.size(),
                             json.size(), size_t{0x4E4F534A}})
@@ -53,6 +49,29 @@ Input binary(std::string json) {
   appendWord(file, chunk.size()), appendWord(file, 0x004E4942);
   file.insert(file.end(), chunk.begin(), chunk.end());
   return file;
+}
+
+// With the data of kRich.
+Input binary(const std::string& json) {
+  Input chunk(60, 0);
+  chunk[14] = 0x80, chunk[15] = 0x3F, chunk[31] = 0x40;  // (0,0,0) (1,0,0) (0,2,0)
+  chunk[37] = 1, chunk[38] = 2;                          // 0 1 2
+  const uint8_t image[18] = {0, 0, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 8, 0x20};  // TGA
+  std::copy(std::begin(image), std::end(image), chunk.begin() + 40);
+  chunk[58] = 200;
+  return binary(json, chunk);
+}
+
+Input packed(const ninefold::OneMeshFile& file) { return binary(file.json(), file.binary); }
+
+// Meshes compressed in all ways.
+std::vector<Input> compressed() {
+  const ninefold::PlainMesh mesh = ninefold::wavyGrid(3);
+  std::vector<Input> files = {packed(ninefold::meshoptFile(mesh))};
+  for (const int speed : {0, 5, 10})
+    files.push_back(packed(ninefold::dracoFile(ninefold::encodeDraco(mesh, speed), mesh.vertices(),
+                                               mesh.indices.size())));
+  return files;
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
@@ -83,7 +102,10 @@ std::vector<Input> ninefoldFuzzSeeds() {
   const std::string text = replaced(
       good, R"({"byteLength":60})",
       R"({"byteLength":60,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAAEAAAAAAAAECAAAAAwAAAAAAAAAAAAEAAQAIIMgA"})");
-  return {binary(good), binary(kRich), binary(deformed(good)), Input(text.begin(), text.end())};
+  std::vector<Input> seeds = compressed();
+  seeds.insert(seeds.end(), {binary(good), binary(kRich), binary(deformed(good)),
+                             Input(text.begin(), text.end())});
+  return seeds;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -50,7 +50,11 @@ TEST(Absorption, PlatesInAMediumMeetTheExponentialIntegral) {
       const double kept = kAlbedo * 2 * thirdExponentialIntegral(tau);
       const double B = testing::furnaceRadiance(kept, n);
       auto all = testing::estimators(8, n);
-      for (testing::Estimator e : testing::estimators(8, n)) {
+      // Where few lines near the horizon pass, they pass few nodes, and light comes out too bright
+      // by what is dimmed along them.
+      for (testing::Estimator& e : all)
+        e.settings.fieldDistances = 64, e.settings.fieldPhotons = 4096;
+      for (testing::Estimator e : std::vector(all)) {
         if (!e.facts().has(kDirectVpls)) continue;
         e.name += " with a low bound", e.settings.bound = 0.01f;
         all.push_back(e);

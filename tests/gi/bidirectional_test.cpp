@@ -296,7 +296,7 @@ TEST(Bidirectional, ShowsWhatInstantRadiosityShowsWhicheverCausticsAreOn) {
       {"caustics off", [](Settings& s) { s.caustics = Caustics::off; }},
       {"caustics direct", [](Settings& s) { s.caustics = Caustics::direct; }},
       {"no photons", [](Settings& s) { s.photons = 0; }},
-      {"two D vertices", [](Settings& s) { s.pathLength = 2; }, 0.1},
+      {"two D vertices", [](Settings& s) { s.pathLength = 2; }, 0.15},
       {"three D vertices, caustics off",
        [](Settings& s) { s.pathLength = 3, s.caustics = Caustics::off; }},
   };

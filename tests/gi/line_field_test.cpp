@@ -219,8 +219,7 @@ TEST(LineField, IsAsLargeAsWasToldBefore) {
   for (const auto& [directions, distances] : {std::pair(9, 16), std::pair(19, 32)}) {
     size_t bytes = 0;
     const LineField field(scene, linesOf(directions, distances), nullptr);
-    for (size_t i = 0; i < field.instances(); ++i)
-      bytes += sizeof(LineRun) * field.local(i).runs().size();
+    for (size_t i = 0; i < field.instances(); ++i) bytes += field.local(i).bytes();
     EXPECT_NEAR(fieldBytes(scene, directions, distances), static_cast<double>(bytes),
                 0.1 * static_cast<double>(bytes));
   }

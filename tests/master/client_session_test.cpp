@@ -160,6 +160,27 @@ TEST_F(ClientSessionTest, LetsAnotherPixelClassInWithAWarning) {
   EXPECT_FALSE(admission.reproducible());
 }
 
+TEST_F(ClientSessionTest, AVisitorIsToldOfTheRunAndChangesNothing) {
+  ClientSession first = session(), visitor = session(), early = session(), client = session();
+  msg::Hello asks = hello("bbbb");
+  asks.visits = true;
+  early.received(Message(asks), now);
+  EXPECT_EQ(sent<msg::Welcome>(early.takeActions())[0].probeClass, "") << "no client was there";
+  first.received(hello("aaaa"), now);
+  visitor.received(Message(asks), now);
+  auto actions = visitor.takeActions();
+  ASSERT_EQ(sent<msg::Welcome>(actions).size(), 1u);
+  EXPECT_EQ(sent<msg::Welcome>(actions)[0].probeClass, "aaaa");
+  EXPECT_EQ(sent<msg::SceneOffer>(actions).size(), 1u);
+  EXPECT_TRUE(sent<msg::Configure>(actions).empty()) << "it gets no job";
+  EXPECT_TRUE(take<todo::Warn>(actions).empty());
+  EXPECT_TRUE(admission.reproducible());
+  visitor.jobChanged(nullptr);
+  EXPECT_TRUE(visitor.takeActions().empty());
+  visitor.received(msg::Ready{JobOffer::kScene, kJob}, now);
+  EXPECT_TRUE(visitor.over()) << "it cannot become a client";
+}
+
 TEST_F(ClientSessionTest, JoinsWhenReadyAndPassesResultsOn) {
   ClientSession s = session();
   s.received(hello(), now);

@@ -19,7 +19,7 @@ using Lines = std::vector<std::string>;
 
 TEST(Invitation, NamesAnAddressThatWorksElsewhere) {
   Options options;
-  options.keyFile = "cluster.key";
+  options.keyFile = std::make_optional<std::string>("cluster.key");
   EXPECT_EQ(commands(options, {"10.0.0.1", 4700}, {"192.0.2.7"}),
             Lines{"ninefold-client --master 10.0.0.1:4700 --key-file cluster.key"});
   EXPECT_EQ(commands(options, {"fd00::1", 4700}),
@@ -35,13 +35,25 @@ TEST(Invitation, NamesAnAddressThatWorksElsewhere) {
 TEST(Invitation, SaysWhenNobodyElsewhereCanCome) {
   Options options;
   EXPECT_EQ(invitation(options, {"127.0.0.1", 4700}, {}), Lines{"listening on 127.0.0.1:4700"});
-  options.keyFile = "cluster.key";
+  options.keyFile = std::make_optional<std::string>("cluster.key");
   const std::string alone = invitation(options, {"0.0.0.0", 4700}, {}).back();
   EXPECT_NE(alone.find("no network interface is up"), std::string::npos) << alone;
   EXPECT_NE(alone.find("--master 127.0.0.1:4700"), std::string::npos) << alone;
   const std::string loopback = invitation(options, {"127.0.0.1", 4700}, {}).back();
   EXPECT_NE(loopback.find("on this machine"), std::string::npos) << loopback;
   EXPECT_NE(loopback.find("--listen 0.0.0.0:4700"), std::string::npos) << loopback;
+}
+
+TEST(Invitation, AnAddressFileHasWhatOthersDial) {
+  const auto text = [](const Endpoint& at, const std::vector<std::string>& addresses) {
+    std::string all;
+    for (const Endpoint& one : reachableAt(at, addresses)) all += addressText(one) + " ";
+    return all;
+  };
+  EXPECT_EQ(text({"10.0.0.1", 4700}, {"192.0.2.7"}), "10.0.0.1:4700 ");
+  EXPECT_EQ(text({"0.0.0.0", 4700}, {"192.0.2.7", "10.1.0.2"}), "192.0.2.7:4700 10.1.0.2:4700 ");
+  EXPECT_EQ(text({"::", 4700}, {"2001:db8::7"}), "[2001:db8::7]:4700 ");
+  EXPECT_EQ(text({"0.0.0.0", 4700}, {}), "127.0.0.1:4700 ");
 }
 
 // Numbers only: no name that another machine may understand otherwise, and nothing that ends at its
@@ -64,7 +76,7 @@ TEST(Invitation, RefusesToWaitForClientsThatCannotCome) {
   EXPECT_NO_THROW(checkGuests(options));
   options.localClients = 0, options.waitClients = 1;
   EXPECT_THROW(checkGuests(options), UsageError);
-  options.keyFile = "cluster.key";
+  options.keyFile = std::make_optional<std::string>("cluster.key");
   EXPECT_NO_THROW(checkGuests(options));
 }
 

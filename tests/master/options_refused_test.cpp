@@ -75,11 +75,30 @@ TEST(OptionsRefused, WrongUsageIsRefused) {
   EXPECT_NE(complaint("a.glb --seed").find("seed"), std::string::npos);
 }
 
+TEST(OptionsRefused, HostsMustReachThisMachine) {
+  EXPECT_NE(complaint("a.glb --hosts h").find("--listen"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --hosts h --listen 0.0.0.0:4700").find("--key-file"),
+            std::string::npos);
+  EXPECT_EQ(complaint("a.glb --hosts h --listen 0.0.0.0:4700 --key-file k"), "");
+}
+
 TEST(OptionsRefused, AFileForThePictureOrTheStatsIsNeeded) {
   EXPECT_NE(complaint("a.glb", {}, false).find("--output"), std::string::npos);
   EXPECT_EQ(complaint("a.glb --stats s.json", {}, false), "");
   EXPECT_NE(complaint("a.glb --output a.jpg", {}, false).find(".exr"), std::string::npos);
   EXPECT_NE(complaint("a.glb --aovs --output a.png", {}, false).find("--aovs"), std::string::npos);
+}
+
+TEST(OptionsRefused, APictureOnTheWayNeedsAStillWithAFile) {
+  constexpr const char* kEvery = "--output-every is for --output";
+  EXPECT_EQ(complaint("a.glb --output a.png --output-every 2"), "");
+  EXPECT_NE(complaint("a.glb --output a.png --output-every 0"), "");
+  EXPECT_NE(complaint("a.glb --stats s.json --output-every 2", {}, false).find(kEvery),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --output a.png --window --output-every 2").find(kEvery),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --output a.#.png --animate 0:1:1 --output-every 2").find(kEvery),
+            std::string::npos);
 }
 
 TEST(OptionsRefused, ListeningBeyondThisMachineNeedsAKey) {

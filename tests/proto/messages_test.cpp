@@ -66,8 +66,8 @@ StatePage somePage(uint16_t kind, uint32_t index) {
 // One message of every type, with every field different from its default.
 std::vector<Message> oneOfEach() {
   return {
-      msg::Hello{7, "1.2.3", "host ü/42", 64, "avx512", "0123456789abcdef"},
-      msg::Welcome{5, "1.2.3"},
+      msg::Hello{7, "1.2.3", "host ü/42", 64, "avx512", "0123456789abcdef", true},
+      msg::Welcome{5, "1.2.3", "0123456789abcdef", 1'700'000'000'000},
       msg::Refuse{"another release"},
       msg::SceneOffer{3, {{someHash(1), 10, BlobKind::image}, {someHash(2), 20, BlobKind::rest}}},
       msg::BlobRequest{someHash(3), 1 << 20},

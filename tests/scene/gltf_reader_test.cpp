@@ -201,6 +201,22 @@ TEST(GltfReader, CamerasLookAlongMinusZOfTheirNode) {
   EXPECT_FLOAT_EQ(camera.verticalFov, 0.5f);
 }
 
+TEST(GltfReader, OrthographicCamerasAreLeftOutWithOneLine) {
+  std::string json =
+      with(kTriangleJson, R"("mesh": 0})", R"("mesh": 0}, {"name": "plan", "camera": 0})");
+  json = with(json, R"("nodes": [0])", R"("nodes": [0, 1])");
+  json = with(json, R"("materials")",
+              R"("cameras": [{"type": "orthographic", "orthographic":
+                 {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}}], "materials")");
+  testing::internal::CaptureStderr();
+  const Scene scene = readTriangle(json);
+  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
+                  "camera 'plan' is not perspective: left out; one that is far away and has a "
+                  "narrow angle looks nearly the same");
+  ASSERT_EQ(scene.cameras.size(), 1u);
+  EXPECT_NE(scene.cameras[0].name, "plan");
+}
+
 TEST(GltfReader, PunctualLightsComeWithColourTimesIntensity) {
   std::string json = with(
       kTriangleJson, R"("mesh": 0})",
@@ -312,7 +328,8 @@ TEST(GltfReader, OptionalUnknownExtensionsGiveOneWarning) {
       R"("extensionsUsed": ["KHR_materials_sheen", "VENDOR_magic", "KHR_materials_ior"], "scene": 0)"));
   const std::string lines = testing::internal::GetCapturedStderr();
   EXPECT_CONTAINS(lines,
-                  "left out, as nothing reads it: extensions KHR_materials_sheen, VENDOR_magic");
+                  "left out, as nothing reads it: extensions KHR_materials_sheen (cloth lacks its "
+                  "bright rim), VENDOR_magic");
 }
 
 }  // namespace

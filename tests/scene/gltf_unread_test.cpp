@@ -40,16 +40,16 @@ TEST(GltfUnread, MaterialPropertiesAreNamedWithTheirPlace) {
       "normalTexture": {"index": 0, "scale": 2, "texCoord": 1},
       "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}, "emissiveFactor": [1, 1, 1])")),
             "");
-  EXPECT_EQ(
-      unreadOf(material(R"("occlusionTexture": {"index": 0, "strength": 1},
+  EXPECT_EQ(unreadOf(material(R"("occlusionTexture": {"index": 0, "strength": 1},
       "emissiveTexture": {"index": 0, "scale": 1}, "pbrMetallicRoughness": {"shine": 1})")),
-      "material properties emissiveTexture.scale, occlusionTexture, pbrMetallicRoughness.shine");
+            "material properties emissiveTexture.scale, occlusionTexture (light is computed), "
+            "pbrMetallicRoughness.shine");
 }
 
 TEST(GltfUnread, ExtensionsAreNamedWhereverTheyStand) {
   EXPECT_EQ(unreadOf(material(R"("extensions": {"KHR_materials_ior": {"ior": 1.3},
       "KHR_materials_sheen": {"sheenRoughnessFactor": 1}})")),
-            "extensions KHR_materials_sheen");
+            "extensions KHR_materials_sheen (cloth lacks its bright rim)");
   EXPECT_EQ(unreadOf(R"({"extensions": {"A": {}}, "asset": {"extensions": {"B": {"a": [{}]}}},
       "bufferViews": [{"buffer": 0, "extensions": {"C": {}}}], "animations": [{"channels": [
       {"target": {"extensions": {"D": {}}}}]}], "nodes": [{"extensions": {"E": 1}}]})"),
@@ -66,15 +66,24 @@ TEST(GltfUnread, WhatAnExtensionSaysBeyondWhatIsReadIsNamed) {
   EXPECT_EQ(unreadOf(material(R"("extensions": {"KHR_materials_volume": {"thicknessFactor": 1,
       "thicknessTexture": {"index": 0}}, "KHR_materials_specular": {"specularTexture": {"index": 0,
       "extensions": {"KHR_texture_transform": {"scale": [1, 1]}, "OTHER": {}}}}})")),
-            "extensions KHR_materials_volume.thicknessTexture, OTHER");
+            "extensions KHR_materials_volume.thicknessTexture (as thick as the mesh is), OTHER");
 }
 
 TEST(GltfUnread, ExtensionsThatAreOnlyAnnouncedAreNamed) {
   EXPECT_EQ(unreadOf(R"({"extensionsUsed": ["KHR_mesh_quantization", "KHR_texture_transform",
       "KHR_materials_sheen", "KHR_lights_punctual"]})"),
-            "extensions KHR_materials_sheen");
+            "extensions KHR_materials_sheen (cloth lacks its bright rim)");
   EXPECT_TRUE(isReadExtension("KHR_texture_transform"));
-  EXPECT_FALSE(isReadExtension("KHR_draco_mesh_compression"));
+  EXPECT_FALSE(isReadExtension("KHR_texture_basisu"));
+}
+
+// Each is named once, however many materials have it.
+TEST(GltfUnread, WhatThePictureShowsInsteadIsSaid) {
+  EXPECT_EQ(unreadOf(R"({"extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_iridescence"],
+      "materials": [{"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
+      {"extensions": {"KHR_materials_clearcoat": {}, "KHR_materials_iridescence": {}}}]})"),
+            "extensions KHR_materials_clearcoat (without the coat and its reflection), "
+            "KHR_materials_iridescence (without colours of thin films)");
 }
 
 TEST(GltfUnread, ExtrasMayHoldAnything) {
@@ -105,7 +114,7 @@ TEST(GltfUnread, TheReaderWarnsOnce) {
   const std::string log = testing::internal::GetCapturedStderr();
   const std::string line =
       "warning: left out, as nothing reads it: vertex attributes _TEMPERATURE; material properties "
-      "occlusionTexture";
+      "occlusionTexture (light is computed)";
   const size_t at = log.find(line);
   ASSERT_NE(at, std::string::npos) << log;
   EXPECT_EQ(log.find("left out, as", at + line.size()), std::string::npos) << log;

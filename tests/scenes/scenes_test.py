@@ -14,7 +14,7 @@ import unittest
 SCENES = pathlib.Path(__file__).resolve().parents[2] / "scenes"
 sys.path.insert(0, str(SCENES))
 
-from generator import cornell, glb, keyhole, three_turns, wall_washers  # noqa: E402
+from generator import cornell, glb, keyhole, many_rooms, three_turns, wall_washers  # noqa: E402
 
 # Triangles after instancing and lights, as the paper's tests had them (cornell, u_office and what follows: our own).
 EXPECTED = {
@@ -28,6 +28,7 @@ EXPECTED = {
     "keyhole": (74, 1),
     "three_turns": (4400, 1),
     "wall_washers": (48, 2),
+    "many_rooms": (3440, 40),
 }
 _WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
 _CODE = {5126: "f", 5123: "H", 5125: "I"}
@@ -120,7 +121,7 @@ class Scenes(unittest.TestCase):
             for thing in file.json["buffers"] + file.json.get("images", []):
                 self.assertNotIn("uri", thing)
             glass = [m for m in file.json["materials"] if m["name"] == "glass"]
-            self.assertEqual(len(glass), 0 if name in ("cornell", "keyhole", "wall_washers") else 1)
+            self.assertEqual(len(glass), 0 if name in ("cornell", "keyhole", "wall_washers", "many_rooms") else 1)
             for material in glass:
                 self.assertGreater(
                     material["extensions"]["KHR_materials_volume"]["thicknessFactor"], 0
@@ -128,7 +129,7 @@ class Scenes(unittest.TestCase):
 
     def test_come_from_this_generator(self):
         """Those without textures stand for all: they are made in a moment."""
-        for scene in (cornell, keyhole, three_turns, wall_washers):
+        for scene in (cornell, keyhole, three_turns, wall_washers, many_rooms):
             made = scene.build()
             self.assertEqual(glb.encode(made), (SCENES / f"{made.name}.glb").read_bytes())
 

@@ -93,7 +93,7 @@ TEST_F(Compare, ExplainsItself) {
   EXPECT_EQ(run.status, 0);
   EXPECT_EQ(compare("-h").output, run.output);
   EXPECT_EQ(compare("--version").output, "ninefold-compare " + releaseName() + "\n");
-  for (const char* word : {"usage:", "--json", "Exit status: 0", "relmse_trimmed", "worst_pixel"})
+  for (const char* word : {"Usage:", "--json", "Exit status: 0", "relmse_trimmed", "worst_pixel"})
     EXPECT_NE(run.output.find(word), std::string::npos) << word;
 }
 

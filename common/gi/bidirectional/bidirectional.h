@@ -12,8 +12,12 @@
 //                                                                         tournament.h
 //   6  their power is made exact                                          raw_light.h
 //
-// The set is good for any point, but best for those that its view sees. It costs about ten times as
-// much as one of instant radiosity, so that small pictures gain less.
+// At rest pilots of the view decide before that which lamps to start from (lamp_choice.h), and
+// whether a fifth of the candidates will do (effort.h). They take about as long as the sets of one
+// frame, once a view. Very many candidates come in batches (batches.h).
+//
+// The set is good for any point, but best for those that its view sees. With all candidates it
+// takes three to nine times as long as one of instant radiosity, so that small pictures gain less.
 //
 // Source:  Segovia, Iehl, Mitanchey and Péroche, "Bidirectional Instant Radiosity", 2006.
 // Proved:  tests/gi/bidirectional_test.cpp; furnace, form factors, agreement with the path tracer.
@@ -23,7 +27,7 @@
 // Threads, owner, errors: as method.h says.
 #pragma once
 
-#include "common/gi/bidirectional/standard_density.h"
+#include "common/gi/bidirectional/effort.h"
 #include "common/gi/light_set/light_set_method.h"
 
 namespace ninefold {
@@ -39,8 +43,12 @@ class Bidirectional final : public LightSetMethod {
                                           const MethodState* state) const override;
 
  private:
+  ViewChoice choiceFor(const FrameKey& frame, std::span<const View> views) const;
+
+  const bool isGesture_;
   const int pathsLog2_;  // of the candidates, see indirect_vpls.h
-  const std::shared_ptr<const StandardDensity> standardDensity_;
+  const std::shared_ptr<const StandardDensity> standardDensity_;  // by power
+  const ViewChoices choices_;
 };
 
 }  // namespace ninefold

@@ -25,48 +25,63 @@ int keptVpls(const Settings& s) {
   return (s.directVpls > 0 ? s.directVpls : Settings{}.directVpls) + s.indirectVpls;
 }
 
-LightSet standardCandidates(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
+LightSet standardCandidates(const Transport& t, const FrameKey& frame, int k, int times,
+                            int pathsLog2) {
   LightSet candidates;
-  addStandardVpls(t, frame, k, t.settings.resampling, pathsLog2, candidates);
+  addStandardVpls(t, frame, k, times, pathsLog2, candidates);
   return candidates;
 }
 
-// What lights reverse places, and the photons that E(y) needs whatever the picture shows. Its light
-// paths are four times as many as the candidates' paths: all reverse places of a set share them. They
-// cost a fifth of the set's rays, and halve the squared error where light is rarely found.
-LightSet rawSet(const Transport& t, const FrameKey& frame, int k, int pathsLog2) {
+// What lights reverse places, and the photons that E(y) needs whatever the picture shows; their
+// lamps are chosen by power, as those of the `method`. Its light paths are four times as many as
+// the candidates' paths: all reverse places of a set share them. They cost a fifth of the set's
+// rays, and halve the squared error where light is rarely found.
+LightSet rawSet(const Transport& t, const Transport& method, const FrameKey& frame, int k,
+                int times, int pathsLog2) {
   LightSet raw;
   const Settings& s = t.settings;
-  addStandardVpls(t, frame, k, s.resampling, pathsLog2 < 0 ? -1 : pathsLog2 + 2, raw);
+  addStandardVpls(t, frame, k, times, pathsLog2 < 0 ? -1 : pathsLog2 + 2, raw);
   const int photons = s.photons > 0 ? s.photons : Settings{}.photons;
-  raw.photons = causticPhotons(t, frame, k, raw.vpls, Caustics::all, photons, raw.rays);
+  raw.photons = causticPhotons(method, frame, k, raw.vpls, Caustics::all, photons, raw.rays);
   return raw;
 }
 
-int reverseRays(const Settings& s) { return s.resampling * s.indirectVpls; }
+// Direct candidates for each direct VPL of the settings.
+int timesOf(const Settings& s, const Batch& batch) {
+  return std::max(batch.partOf(s.resampling), 1);
+}
+
+int reverseRays(const Settings& s, const Batch& batch) {
+  return batch.partOf(s.resampling * s.indirectVpls);
+}
 
 }  // namespace
 
-LightMaker::LightMaker(const Transport& t, const StandardDensity& standardDensity, int pathsLog2,
+LightMaker::LightMaker(const Transport& method, const ViewChoice& choice, const Batch& batch,
                        const FrameKey& frame, int set, std::span<const View> views)
-    : t_(t),
-      frame_(frame),
+    : method_(method),
+      t_(choice.transport != nullptr ? *choice.transport : method),
+      batch_(batch),
+      frame_(batch.keyOf(frame)),
       k_(set),
-      shot_(t.allows(2) ? reverseRays(t.settings) : 0),
-      samples_(t.settings.seed, frame.randomization, kFirstUse + static_cast<uint32_t>(set)),
-      guesses_(t.settings.seed, frame.randomization,
+      shot_(t_.allows(2) ? reverseRays(t_.settings, batch) : 0),
+      samples_(t_.settings.seed, frame_.randomization, kFirstUse + static_cast<uint32_t>(set)),
+      guesses_(t_.settings.seed, frame_.randomization,
                kFirstUse + kMostSets + static_cast<uint32_t>(set)),
-      candidates_(standardCandidates(t, frame, set, pathsLog2)),
-      raw_(t, rawSet(t, frame, set, pathsLog2)),
-      camera_(cameraPoints(t, views, frame, set, t.settings.cameraPoints, rays_)),
-      partition_{t, camera_.points, standardDensity,
-                 pathsLog2 < 0 ? 0 : static_cast<double>(1u << pathsLog2),
-                 static_cast<double>(shot_)},
+      candidates_(standardCandidates(t_, frame_, set, timesOf(t_.settings, batch),
+                                     batch.pathsLog2(choice.pathsLog2))),
+      raw_(t_, rawSet(t_, method, frame_, set, timesOf(t_.settings, batch),
+                      batch.pathsLog2(choice.pathsLog2))),
+      camera_(cameraPoints(t_, views, frame_, set, t_.settings.cameraPoints, rays_)),
+      partition_{
+          t_, camera_.points, *choice.standard,
+          choice.pathsLog2 < 0 ? 0 : static_cast<double>(1u << batch.pathsLog2(choice.pathsLog2)),
+          static_cast<double>(shot_)},
       estimated_(
           partition_.isEqual() && shot_ > 0
-              ? std::optional<EstimatedDensity>(std::in_place, t, views, frame, set, shot_, rays_)
+              ? std::optional<EstimatedDensity>(std::in_place, t_, views, frame_, set, shot_, rays_)
               : std::nullopt),
-      places_(reversePlaces(t, estimated_ ? estimated_->origins() : camera_.points, frame, set,
+      places_(reversePlaces(t_, estimated_ ? estimated_->origins() : camera_.points, frame_, set,
                             shot_, rays_)) {}
 
 float LightMaker::density(const ReversePlace& y) {
@@ -155,15 +170,18 @@ void LightMaker::make(LightSet& out) {
   const uint64_t key = hashWords(s.seed, static_cast<uint64_t>(SampleUse::resampling),
                                  frame_.randomization, static_cast<uint64_t>(k_));
   const Worth worth = worths();
-  const std::vector<Kept> kept = resample(worth.values(), positions(), keptVpls(s), t_.radius, key);
+  std::vector<Kept> kept =
+      resample(worth.values(), positions(), batch_.partOf(keptVpls(s)), t_.radius, key);
+  for (Kept& each : kept) each.gain /= static_cast<float>(batch_.count());
   for (const Kept& each : kept)
     if (each.index < candidates_.vpls.size())
       keepStandard(candidates_.vpls[each.index], each.gain, worth.seen(each.index), out);
   keepReverse(kept, worth, out);
-  out.photons = s.caustics == Caustics::all && s.photons > 0
-                    ? raw.photons
-                    : causticPhotons(t_, frame_, k_, raw.vpls, s.caustics, s.photons, rays_);
-  out.rays = rays_, out.rays += candidates_.rays, out.rays += raw.rays;
+  if (batch_.index == 0)
+    out.photons = s.caustics == Caustics::all && s.photons > 0
+                      ? raw.photons
+                      : causticPhotons(method_, frame_, k_, raw.vpls, s.caustics, s.photons, rays_);
+  out.rays += rays_, out.rays += candidates_.rays, out.rays += raw.rays;
 }
 
 }  // namespace ninefold

@@ -1,4 +1,5 @@
-// light_maker.h: makes one light set of the bidirectional method; the steps of bidirectional.h.
+// light_maker.h: makes one light set of the bidirectional method, or one batch of it; the steps of
+// bidirectional.h.
 //
 // Threads: one set's working memory.   Owner: refers to its arguments.   Errors: none.
 #pragma once
@@ -7,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "common/gi/bidirectional/batches.h"
+#include "common/gi/bidirectional/effort.h"
 #include "common/gi/bidirectional/estimated_density.h"
 #include "common/gi/bidirectional/partition.h"
 #include "common/gi/bidirectional/raw_light.h"
@@ -18,10 +21,13 @@ namespace ninefold {
 
 class LightMaker {
  public:
-  LightMaker(const Transport& transport, const StandardDensity& standardDensity, int pathsLog2,
+  // method: its transport, by which photons choose lamps.
+  LightMaker(const Transport& method, const ViewChoice& choice, const Batch& batch,
              const FrameKey& frame, int set, std::span<const View> views);
 
-  // Adds VPLs and photons to an empty set.
+  // What the candidates are worth.
+  WorthSummary summary() { return summaryOf(worths().values(), candidates_.vpls.size()); }
+  // Adds VPLs to a set; the first batch adds the photons.
   void make(LightSet& out);
 
  private:
@@ -35,8 +41,10 @@ class LightMaker {
   void keepStandard(const Vpl& candidate, float gain, float seen, LightSet& out);
   void keepReverse(const std::vector<Kept>& kept, const Worth& worth, LightSet& out);
 
-  const Transport& t_;
-  const FrameKey& frame_;
+  const Transport& method_;
+  const Transport& t_;  // of the choice
+  const Batch batch_;
+  const FrameKey frame_;  // of the batch
   const int k_;
   const int shot_;  // N_r
   const ReceiverSamples samples_, guesses_;

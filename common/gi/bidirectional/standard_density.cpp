@@ -6,15 +6,14 @@
 namespace ninefold {
 namespace {
 
-constexpr int kPathsLog2 = 12;
 constexpr float kRadius = 0.05f;  // of R
 constexpr float kNormalCosine = 0.5f;
 
-std::vector<Photon> pilotOf(const Transport& t) {
+std::vector<Photon> pilotOf(const Transport& t, int pathsLog2) {
   if (t.emitters.empty() || t.settings.indirectVpls == 0 || !t.allows(2)) return {};
   VplSet set;
   RayCounts rays;
-  addPilotVpls(t, kPathsLog2, set, rays);
+  addPilotVpls(t, pathsLog2, set, rays);
   std::vector<Photon> found;
   for (const Vpl& vpl : set.vpls) found.push_back({vpl.position, vpl.normal, vpl.power, 0});
   return found;
@@ -22,9 +21,9 @@ std::vector<Photon> pilotOf(const Transport& t) {
 
 }  // namespace
 
-StandardDensity::StandardDensity(const Transport& t)
-    : pilot_(pilotOf(t), std::max(kRadius * t.radius, PhotonGrid::kMinRadius)),
-      scale_(1 / (kPi * pilot_.radius() * pilot_.radius() * (1 << kPathsLog2))) {}
+StandardDensity::StandardDensity(const Transport& t, int pathsLog2)
+    : pilot_(pilotOf(t, pathsLog2), std::max(kRadius * t.radius, PhotonGrid::kMinRadius)),
+      scale_(1 / (kPi * pilot_.radius() * pilot_.radius() * static_cast<float>(1 << pathsLog2))) {}
 
 float StandardDensity::operator()(const Place& y) const {
   int count = 0;

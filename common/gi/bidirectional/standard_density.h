@@ -3,7 +3,7 @@
 //
 //   s(y) = n / (pi r^2 N)     [1/m^2]
 //
-//   n   VPLs of the pilot's N = 4096 paths within r, on the same side, normals within 60 degrees
+//   n   VPLs of the pilot's N paths within r, on the same side, normals within 60 degrees
 //   r   R/20
 //
 // The pilot is no part of any estimate. It only decides which estimator a place belongs to
@@ -21,7 +21,9 @@ namespace ninefold {
 
 class StandardDensity {
  public:
-  explicit StandardDensity(const Transport& transport);
+  static constexpr int kPathsLog2 = 12;
+
+  explicit StandardDensity(const Transport& transport, int pathsLog2 = kPathsLog2);
   float operator()(const Place& y) const;
 
  private:

@@ -10,36 +10,39 @@ namespace {
 
 constexpr int kEvery = 3;
 
-uint64_t runsOfSlope(const LineGrid& grid, int family, int i, const FamilyCorners& corners,
-                     const Mesh& mesh) {
+uint64_t bytesOfSlope(const LineGrid& grid, int family, int i, const FamilyCorners& corners,
+                      const Mesh& mesh) {
   std::array<LineRun, 2 * LineGrid::kMostDirections> runs;
   uint64_t count = 0;
+  int first = grid.distances(), end = 0;
   for (const Triangle& t : mesh.triangles) {
     const SlicedTriangle triangle(grid, family, i, corners.of(t));
     for (int j = triangle.first(grid); j < triangle.end(grid); ++j) {
+      first = std::min(first, j), end = std::max(end, j + 1);
       runsOf(grid, family, segmentOf(triangle, j), 0, runs);
       for (int k = 0; k < 2 * grid.directions(); ++k)
         count += runs[static_cast<size_t>(k)].count > 0 ? 1 : 0;
     }
   }
-  return count;
+  const auto pages = static_cast<uint64_t>(std::max(end - first, 0) * 2 * grid.directions());
+  return sizeof(LineRun) * count + sizeof(uint32_t) * pages;
 }
 
 }  // namespace
 
 double fieldBytes(const Scene& scene, int directions, int distances) {
   const LineGrid grid(scene.bounds, directions, distances);
-  uint64_t runs = 0, counted = 0;
+  uint64_t bytes = 0, counted = 0;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     for (int family = 0; family < LineGrid::kFamilies; ++family) {
       const FamilyCorners corners(grid, family, mesh, instance.toWorld);
       for (int i = (directions / 2) % kEvery; i < directions; i += kEvery)
-        runs += runsOfSlope(grid, family, i, corners, mesh);
+        bytes += bytesOfSlope(grid, family, i, corners, mesh);
     }
   }
   for (int i = (directions / 2) % kEvery; i < directions; i += kEvery) ++counted;
-  return sizeof(LineRun) * static_cast<double>(runs) * directions / static_cast<double>(counted);
+  return static_cast<double>(bytes) * directions / static_cast<double>(counted);
 }
 
 void checkFieldSize(const Scene& scene, const Settings& s) {

@@ -78,7 +78,7 @@ PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_
   const auto photons = static_cast<uint32_t>(t_.settings.fieldPhotons);
   const float share = 1 / static_cast<float>(photons);
   const LineWalk walk{t_.tracer, field_, *elements_, lines_};
-  const auto leave = [&](const ShadingPoint& p, Vec2 u) { return walk.leave(p, u); };
+  const auto leave = [&](const ShadingPoint& p, Vec2 u) { return walk.leave(p, u, rays); };
   const auto gain = [&](const Arrival& a) { return a.known ? walk.gain(*a.point) : 1.0f; };
   const auto streams = photonStreams(t_, SampleUse::fieldPhoton, randomization);
   const uint32_t end = std::min((row + 1) * kPhotonsOfRow, photons);

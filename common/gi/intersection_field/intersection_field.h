@@ -15,8 +15,8 @@
 //   photon           leaves its lamp, mirrors and glass by a ray, matte surfaces by a line
 //                    (line_walk.h)
 //
-// At rest each frame has photons of its own, by numbers with other digit shifts (sampling/halton.h).
-// So frames are independent. The lines stay the same.
+// At rest each frame has photons of its own, by numbers with other digit shifts
+// (sampling/halton.h). So frames are independent. The lines stay the same.
 //
 // Other ways than the paper's: light lies in mesh elements that share their corners, not in texture
 // atlases; the way of a field to the clients is that each makes it; line_grid.h, local_field.h and
@@ -24,8 +24,10 @@
 //
 // Source:  Ren, Hua, Chen and Bao, "Intersection Fields for Interactive Global Illumination", 2005.
 // Proved:  tests/gi (all tests over the table of methods; intersection_field_test.cpp).
-// Fails:   as mesh elements do (selective/selective.h), and what is smaller than the lines lie apart
-//          is missed by light that has bounced: its shadows, and gaps through which light comes.
+// Fails:   light that has bounced is blurred over an element, and leaks under walls that stand on
+//          one. What is smaller than the lines lie apart is missed by it: its shadows, and gaps
+//          through which light comes. By field-direct field, what stands on an element darkens the
+//          light straight from lamps, too.
 // Threads, owner, errors: as method.h says.
 #pragma once
 

@@ -71,11 +71,15 @@ void LampVisibility::addPairs(size_t lamp, const GridLine& line, const std::vect
                       maxComponent(point.radiance) / lamps_[lamp].brightest;
   const Vec3 way = isForward ? grid.directionOf(line) : -grid.directionOf(line);
   const float least = grid.rounding() / grid.lengthOf(line);
+  const float close = kClose * t_.settings.elementSize * t_.radius / grid.lengthOf(line);
   Vec3 seen(1);
+  float last = hits[at].t;  // of the hit before
   for (size_t k = at; (isForward ? ++k < hits.size() : k-- > 0);) {
     if (std::abs(hits[k].t - hits[at].t) < least) continue;  // in the lamp's place
-    add(lamp, hits[k], line, way, seen, weight);
+    const bool isCovered = isBlack(seen) && std::abs(hits[k].t - last) < close;
+    if (!isCovered) add(lamp, hits[k], line, way, seen, weight);
     if (!isBlack(seen)) seen *= passed(hits[k], line, way);
+    last = hits[k].t;
   }
 }
 

@@ -9,6 +9,10 @@
 // count as much as they bring light, and H V tends to the true E. (As published all pairs count
 // alike, which is wrong by cos_p cos_q/d^2 and by the grid's density, however fine it is.)
 //
+// What hides q at less than kClose of an element's side before p covers p: a picture on a wall, a
+// cupboard on a floor. Nobody sees such a p, and its pairs are left out, as elements would spread
+// its dark over what is around.
+//
 // The lines are those of the lamp's local field: no ray is traced, and lines that miss the lamp are
 // not looked at. A pair counts for the element's three nodes by their weights. Nodes with fewer
 // than kFewest pairs know nothing.
@@ -33,6 +37,7 @@ namespace ninefold {
 class LampVisibility {
  public:
   static constexpr float kFewest = 4;
+  static constexpr float kClose = 0.125f;
 
   LampVisibility(const Transport& transport, const LineField& field, const SceneElements& elements);
 

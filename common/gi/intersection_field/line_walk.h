@@ -8,10 +8,14 @@
 //
 // So light that is the same everywhere comes out the same, however unevenly lines pass the nodes.
 //
-// No ray is traced. Where no line passes a node (it is much smaller than the lines lie apart), a
-// ray is traced all the same.
+// What stands on a node covers some of it, and a wall on it has two sides. So the line's place on
+// the node must be seen from where the photon came to: one short ray tells. Of kTries lines the
+// first one is taken.
 //
-// Source:  Ren et al. 2005, 5 (indirect irradiance).   Proved: tests/gi/line_walk_test.cpp.
+// No ray is traced to find where light goes to, but where no line will do: none passes the node (it
+// is much smaller than the lines lie apart), or all begin behind something.
+//
+// Source:  Ren et al. 2005, 5 (indirect irradiance).   Proved: tests/gi/intersection_field_test.cpp.
 // Threads: const.   Owner: refers to its parts.   Errors: none.
 #pragma once
 
@@ -40,10 +44,16 @@ struct LineWalk {
   const SceneElements& elements;
   const SceneNodeLines& lines;
 
-  // The way on of a photon that came to p.
-  WayOn leave(const ShadingPoint& p, Vec2 u) const;
+  // The way on of a photon that came to p. Adds its rays to `rays`.
+  WayOn leave(const ShadingPoint& p, Vec2 u, RayCounts& rays) const;
   // Factor on the flux that it leaves at p, where it came by a line.
   float gain(const ShadingPoint& p) const;
+
+ private:
+  static constexpr int kTries = 4;
+
+  bool isSeen(const ShadingPoint& p, Vec3 place, Vec3 normal) const;
+  WayOn along(const NodeLines::Start& start, bool isForward) const;
 };
 
 }  // namespace ninefold

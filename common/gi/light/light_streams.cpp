@@ -5,6 +5,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "common/base/check.h"
 #include "common/sampling/hash.h"
 
 namespace ninefold {
@@ -52,6 +53,13 @@ LightStreams::LightStreams(const Emitters& now, const Emitters* begun) {
   if (second.choice.empty()) return;
   secondOverFirst_ = powerOfFirst > 0 ? second.choice.total() / powerOfFirst : 1;
   streams_.push_back(std::move(second));
+}
+
+LightStreams LightStreams::chosenBy(const std::vector<float>& shares) const {
+  NINEFOLD_CHECK(streams_.size() == 1 && shares.size() == places_.size());
+  LightStreams other = *this;
+  other.streams_.front().choice = Distribution(shares);
+  return other;
 }
 
 std::optional<Distribution::Choice> LightStreams::choose(size_t stream, float u) const {

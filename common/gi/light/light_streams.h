@@ -1,6 +1,7 @@
 // light_streams.h: which lamp each sample of a light set starts from.
 //
 //   at rest        One stream of n samples. Lamps are chosen in proportion to power (emitters.h).
+//   for a view     Methods may choose by other shares than power (chosenBy).
 //   in a gesture   The first stream chooses with the probabilities that the gesture began with. So
 //                  a sample stays with its lamp, whatever is done to the others; it finds no light
 //                  if that lamp is off now. Lamps that were off then have a second stream:
@@ -24,6 +25,9 @@ class LightStreams {
  public:
   // `begun`: the lamps that a gesture began with; null at rest.
   LightStreams(const Emitters& now, const Emitters* begun);
+
+  // The same lamps, chosen by other shares, one an emitter: where there is one stream.
+  LightStreams chosenBy(const std::vector<float>& shares) const;
 
   size_t count() const { return streams_.size(); }
   // The emitter that sample u of a stream takes; nothing if it is off now.

@@ -23,6 +23,8 @@ namespace ninefold {
 
 struct LightSet : FrameLight, VplSet {
   CausticPhotons photons;
+  // Of which its VPLs are, if lamps are chosen otherwise than the method's transport says; or null.
+  std::shared_ptr<const Transport> transport;
 
   std::string oddValue() const override;
 };

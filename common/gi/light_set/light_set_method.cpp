@@ -16,8 +16,10 @@ std::unique_ptr<Scratch> LightSetMethod::makeScratch() const {
 void LightSetMethod::query(const FrameLight& light, const ReceiverSamples& samples,
                            int pathVertices, LayeredScratch& scratch, Receivers& receivers,
                            std::vector<Irradiance>* caustic, RayCounts& rays) const {
-  gatherLightSet(t_, static_cast<const LightSet&>(light), samples, pathVertices,
-                 static_cast<MethodScratch&>(scratch).gather, receivers, caustic, rays);
+  const auto& lights = static_cast<const LightSet&>(light);
+  gatherLightSet(lights.transport != nullptr ? *lights.transport : t_, lights, samples,
+                 pathVertices, static_cast<MethodScratch&>(scratch).gather, receivers, caustic,
+                 rays);
 }
 
 }  // namespace ninefold

@@ -71,9 +71,12 @@ void addOfStream(const Transport& t, size_t stream, const FrameKey& frame, int k
   for (uint32_t i = 0; i < static_cast<uint32_t>(count); ++i) {
     const Vec2 u = sampler.get2D(i, 0);
     const auto choice = t.streams.choose(stream, u.x);
-    if (!choice || leftOut.has(lampOf(t.emitters[choice->index]))) continue;
-    const Vpl vpl = directVpl(t, choice->index, Vec2(choice->remapped, u.y),
-                              1 / (static_cast<float>(count) * choice->probability));
+    if (!choice) continue;
+    const uint32_t lamp = lampOf(t.emitters[choice->index]);
+    if (leftOut.has(lamp)) continue;
+    Vpl vpl = directVpl(t, choice->index, Vec2(choice->remapped, u.y),
+                        1 / (static_cast<float>(count) * choice->probability));
+    vpl.lamp = lamp;
     const EmitterKind kind = t.emitters[choice->index].kind;
     const bool fixed = kind != EmitterKind::triangle && kind != EmitterKind::environment;
     if (fixed) {

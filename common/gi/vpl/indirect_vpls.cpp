@@ -11,7 +11,7 @@ constexpr int kPilotLog2 = 10;
 constexpr int kMaxPathsLog2 = 20;
 
 // Walks 2^pathsLog2 particles of block k of a stream and hands each D or glossy vertex to
-// deposit(arrival).
+// deposit(arrival, lamp).
 template <typename Deposit>
 void walkIndirect(const Transport& t, size_t stream, SampleUse use, uint32_t randomization, int k,
                   int pathsLog2, RayCounts& rays, Deposit&& deposit) {
@@ -23,7 +23,7 @@ void walkIndirect(const Transport& t, size_t stream, SampleUse use, uint32_t ran
       const Bsdf& bsdf = a.point->bsdf;
       if ((!isBlack(bsdf.diffuse) && t.allows(a.diffuseBefore + 2)) ||
           (isGlossy(bsdf) && t.allows(a.diffuseBefore + 1)))
-        deposit(a);
+        deposit(a, start.lamp);
       return t.allows(a.diffuseBefore + (t.needs.glossy ? 2 : 3));
     });
   }
@@ -44,8 +44,9 @@ Vpl indirectVpl(const Transport& t, const Arrival& a, float share) {
 // One VPL for both lobes, D and glossy. Eye paths give back what its bound cuts off
 // (compensation.h). Where they cannot find the light, the glossy lobe has a VPL of its own, without
 // a bound.
-void depositVpls(const Transport& t, const Arrival& a, float share, VplSet& set) {
+void depositVpls(const Transport& t, const Arrival& a, uint32_t lamp, float share, VplSet& set) {
   Vpl vpl = indirectVpl(t, a, share);
+  vpl.lamp = lamp;
   const ShadingPoint& p = *a.point;
   const bool glossy = isGlossy(p.bsdf);
   if (glossy && a.hidden) {
@@ -66,7 +67,7 @@ void addOfStream(const Transport& t, size_t stream, SampleUse use, uint32_t rand
   const int pathsLog2 = std::bit_width(wanted) - 1;
   const float share = 1 / static_cast<float>(1u << pathsLog2);
   walkIndirect(t, stream, use, randomization, k, pathsLog2, rays,
-               [&](const Arrival& a) { depositVpls(t, a, share, set); });
+               [&](const Arrival& a, uint32_t lamp) { depositVpls(t, a, lamp, share, set); });
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ int lightPathsLog2(const Transport& t, int meanVpls) {
   uint64_t vertices = 0;
   for (size_t stream = 0; stream < t.streams.count(); ++stream)
     walkIndirect(t, stream, SampleUse::probe, 0, 0, kPilotLog2, rays,
-                 [&](const Arrival&) { ++vertices; });
+                 [&](const Arrival&, uint32_t) { ++vertices; });
   if (vertices == 0) return -1;
   const double mean = static_cast<double>(vertices) / (1 << kPilotLog2);
   const double wanted = std::log2(meanVpls / mean);

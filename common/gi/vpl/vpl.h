@@ -34,6 +34,7 @@ struct Vpl {
   int diffuseCount = 0;  // surface: D vertices of the light path, this one too; 0 on an emitter
   int glossy = -1;       // surface: what its S lobe sends on, in VplSet::glossy; -1: nothing
   MediumStack media;     // surface: around the VPL
+  uint32_t lamp = 0;     // lampOf the emitter that its light comes from
   float seen = 1;  // guess of the share of receivers that it is not hidden from, see vpl_roulette.h
   int firstVertex = 1;  // D vertices of an eye path from which on it counts
 

@@ -1,4 +1,4 @@
-#include "master/serving/local_clients.h"
+#include "master/serving/started_clients.h"
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,12 @@ namespace {
 
 using std::chrono::seconds;
 
-LocalClients::Plan shell(const std::string& script, int count) {
-  return {"/bin/sh", {"-c", script}, std::make_shared<const Key>(Key::random()), count};
+StartedClients::Plan shell(const std::string& script, int count) {
+  StartedClients::Plan plan{
+      "/bin/sh", {"-c", script}, std::make_shared<const Key>(Key::random()), {}};
+  for (int i = 1; i <= count; ++i)
+    plan.clients.push_back({fmt::format("local{}", i), fmt::format("local client {}", i), {}});
+  return plan;
 }
 
 // Real processes, a told time: the deadline of a condition is only there to end a broken test.
@@ -51,6 +55,22 @@ TEST(RestartPolicy, ALongLifeForgivesEarlierCrashes) {
   }
 }
 
+TEST(RestartPolicy, AHostIsAskedAgainForEverMoreAndMoreRarely) {
+  RestartPolicy policy(true);
+  Time now(seconds(100));
+  Duration pause{0};
+  for (int i = 0; i < 1000; ++i) {
+    const auto next = policy.crashed(now, now);
+    ASSERT_TRUE(next);
+    EXPECT_GE(*next - now, pause);
+    pause = *next - now;
+    ASSERT_LE(pause, seconds(64));
+    now = *next;
+  }
+  EXPECT_EQ(pause, seconds(64));
+  EXPECT_EQ(*policy.crashed(now - seconds(3600), now) - now, seconds(1)) << "it lived long";
+}
+
 TEST(RestartPolicy, ThreeHangsInARowAreEnoughUnlessAResultCameBetween) {
   RestartPolicy policy;
   const Time now(seconds(100));
@@ -62,10 +82,10 @@ TEST(RestartPolicy, ThreeHangsInARowAreEnoughUnlessAResultCameBetween) {
   EXPECT_FALSE(policy.hung(false, now));
 }
 
-TEST(LocalClients, GetTheKeyByTheirDescriptor) {
+TEST(StartedClients, GetTheKeyByTheirDescriptor) {
   std::string file = testing::TempDir() + "ninefold-key-bytes-XXXXXX";
   ASSERT_GE(Descriptor(::mkstemp(file.data())).get(), 0);
-  LocalClients clients(shell("wc -c <&3 >" + file + "; exec sleep 1000", 1));
+  StartedClients clients(shell("wc -c <&3 >" + file + "; exec sleep 1000", 1));
   clients.start(Time(seconds(100)));
   int bytes = 0;
   EXPECT_TRUE(eventually([&] { return !!(std::ifstream(file) >> bytes); }));
@@ -73,8 +93,21 @@ TEST(LocalClients, GetTheKeyByTheirDescriptor) {
   std::filesystem::remove(file);
 }
 
-TEST(LocalClients, AreStartedAgainAfterACrash) {
-  LocalClients clients(shell("kill -9 $$", 1));
+TEST(StartedClients, GetTheKeyAsStandardInputWherePlanned) {
+  std::string file = testing::TempDir() + "ninefold-key-bytes-XXXXXX";
+  ASSERT_GE(Descriptor(::mkstemp(file.data())).get(), 0);
+  StartedClients::Plan plan = shell("wc -c >" + file + "; exec sleep 1000", 1);
+  plan.child = {.inheritedAs = 0, .ownGroup = true};
+  StartedClients clients(plan);
+  clients.start(Time(seconds(100)));
+  int bytes = 0;
+  EXPECT_TRUE(eventually([&] { return !!(std::ifstream(file) >> bytes); }));
+  EXPECT_EQ(bytes, static_cast<int>(Key::kBytes));
+  std::filesystem::remove(file);
+}
+
+TEST(StartedClients, AreStartedAgainAfterACrash) {
+  StartedClients clients(shell("kill -9 $$", 1));
   Time now(seconds(100));
   clients.start(now);
   EXPECT_TRUE(eventually([&] {
@@ -87,8 +120,8 @@ TEST(LocalClients, AreStartedAgainAfterACrash) {
   EXPECT_EQ(clients.running(), 1);
 }
 
-TEST(LocalClients, AreGivenUpWhenTheyKeepCrashing) {
-  LocalClients clients(shell("exit 1", 2));
+TEST(StartedClients, AreGivenUpWhenTheyKeepCrashing) {
+  StartedClients clients(shell("exit 1", 2));
   Time now(seconds(100));
   clients.start(now);
   EXPECT_TRUE(eventually([&] {
@@ -98,13 +131,13 @@ TEST(LocalClients, AreGivenUpWhenTheyKeepCrashing) {
   EXPECT_GE(clients.crashes(), 6u);
 }
 
-TEST(LocalClients, OneThatHangsThreeTimesIsGivenUpAndItsTaskIsNamed) {
+TEST(StartedClients, OneThatHangsThreeTimesIsGivenUpAndItsTaskIsNamed) {
   std::string asked;
-  LocalClients clients(shell(fmt::format("exit {}", kHungStatus), 1),
-                       [&](const std::string& name) -> LocalClients::Work {
-                         asked = name;
-                         return {0, "frame 3, tile 5, set 2"};
-                       });
+  StartedClients clients(shell(fmt::format("exit {}", kHungStatus), 1),
+                         [&](const std::string& name) -> StartedClients::Work {
+                           asked = name;
+                           return {0, "frame 3, tile 5, set 2"};
+                         });
   Time now(seconds(100));
   clients.start(now);
   EXPECT_TRUE(clients.isStarting(now));
@@ -119,11 +152,11 @@ TEST(LocalClients, OneThatHangsThreeTimesIsGivenUpAndItsTaskIsNamed) {
   EXPECT_FALSE(clients.isStarting(now));
 }
 
-TEST(LocalClients, OneThatHangsAgainAndAgainBetweenResultsIsStartedAgain) {
-  LocalClients clients(shell(fmt::format("exit {}", kHungStatus), 1),
-                       [](const std::string&) -> LocalClients::Work {
-                         return {1, "frame 3, tile 5, set 2"};
-                       });
+TEST(StartedClients, OneThatHangsAgainAndAgainBetweenResultsIsStartedAgain) {
+  StartedClients clients(shell(fmt::format("exit {}", kHungStatus), 1),
+                         [](const std::string&) -> StartedClients::Work {
+                           return {1, "frame 3, tile 5, set 2"};
+                         });
   Time now(seconds(100));
   clients.start(now);
   EXPECT_TRUE(eventually([&] {
@@ -134,9 +167,9 @@ TEST(LocalClients, OneThatHangsAgainAndAgainBetweenResultsIsStartedAgain) {
   EXPECT_FALSE(clients.hang());
 }
 
-TEST(LocalClients, GoWhenAskedAndAreKilledWhenTheyDoNot) {
+TEST(StartedClients, GoWhenAskedAndAreKilledWhenTheyDoNot) {
   const Time now(seconds(100));
-  LocalClients polite(shell("exec sleep 1000", 1));
+  StartedClients polite(shell("exec sleep 1000", 1));
   polite.start(now);
   polite.stop(now);
   EXPECT_TRUE(eventually([&] {
@@ -144,7 +177,7 @@ TEST(LocalClients, GoWhenAskedAndAreKilledWhenTheyDoNot) {
     return polite.running() == 0;
   }));
 
-  LocalClients stubborn(shell("trap '' TERM; while :; do sleep 1; done", 1));
+  StartedClients stubborn(shell("trap '' TERM; while :; do sleep 1; done", 1));
   stubborn.start(now);
   std::this_thread::sleep_for(milliseconds(100));  // let it set its trap
   stubborn.stop(now);

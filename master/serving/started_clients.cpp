@@ -1,4 +1,6 @@
-#include "master/serving/local_clients.h"
+#include "master/serving/started_clients.h"
+
+#include <algorithm>
 
 #include "common/base/error.h"
 #include "common/base/log.h"
@@ -10,6 +12,8 @@ namespace {
 constexpr Duration kLongLife = std::chrono::seconds(30);
 constexpr Duration kFirstPause = milliseconds(100);
 constexpr int kCrashesInARow = 5;
+constexpr Duration kFirstPauseOfHosts = std::chrono::seconds(1);
+constexpr int kMostDoublings = 6;  // about a minute
 constexpr int kHangsInARow = 3;
 constexpr Duration kStart = std::chrono::seconds(5);
 constexpr Duration kTimeToGo = milliseconds(600);
@@ -18,7 +22,9 @@ constexpr Duration kTimeToGo = milliseconds(600);
 
 std::optional<Time> RestartPolicy::crashed(Time started, Time now) {
   if (now - started >= kLongLife) crashes_ = 0;
-  if (++crashes_ >= kCrashesInARow) return std::nullopt;
+  ++crashes_;
+  if (forEver_) return now + kFirstPauseOfHosts * (1 << std::min(crashes_ - 1, kMostDoublings));
+  if (crashes_ >= kCrashesInARow) return std::nullopt;
   return now + kFirstPause * (1 << (crashes_ - 1));
 }
 
@@ -29,24 +35,24 @@ std::optional<Time> RestartPolicy::hung(bool gaveResults, Time now) {
   return now + kFirstPause;
 }
 
-void LocalClients::start(Time now) {
-  for (int i = 0; i < plan_.count; ++i) {
-    slots_.emplace_back().number = i + 1;
+void StartedClients::start(Time now) {
+  for (const Client& client : plan_.clients) {
+    slots_.push_back({client, RestartPolicy(plan_.forEver)});
     startOne(slots_.back(), now);
   }
 }
 
-void LocalClients::startOne(Slot& slot, Time now) {
+void StartedClients::startOne(Slot& slot, Time now) {
   const Descriptor key(keyPipe(*plan_.key));
   std::vector<std::string> arguments = plan_.arguments;
-  arguments.push_back("--name=" + slot.name());
-  arguments.push_back(fmt::format("--key-descriptor={}", kInheritedDescriptor));
-  slot.process = ChildProcess::start(plan_.program, arguments, key);
+  const auto& more = slot.client.arguments;
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  slot.process = ChildProcess::start(plan_.program, arguments, key, plan_.child);
   slot.started = now;
   slot.startAt.reset();
 }
 
-void LocalClients::poll(Time now) {
+void StartedClients::poll(Time now) {
   for (Slot& slot : slots_) {
     if (slot.process) {
       if (const auto how = slot.process->ended())
@@ -59,7 +65,7 @@ void LocalClients::poll(Time now) {
   }
 }
 
-void LocalClients::restart(Slot& slot, Time now) {
+void StartedClients::restart(Slot& slot, Time now) {
   try {
     startOne(slot, now);
   } catch (const Error& error) {
@@ -67,41 +73,41 @@ void LocalClients::restart(Slot& slot, Time now) {
   }
 }
 
-void LocalClients::ended(Slot& slot, const std::string& how, Time now) {
+void StartedClients::ended(Slot& slot, const std::string& how, Time now) {
   slot.process.reset();
   if (killAt_) return;
   ++crashes_;
   slot.startAt = slot.policy.crashed(slot.started, now);
   if (slot.startAt)
-    warn("local client {} ended with {}; starting it again in {:.1f} s", slot.number, how,
+    warn("{} ended with {}; starting it again in {:.1f} s", slot.client.title, how,
          seconds(*slot.startAt - now));
   else
-    warn("local client {} ended with {} once more and is given up", slot.number, how);
+    warn("{} ended with {} once more and is given up", slot.client.title, how);
 }
 
-void LocalClients::hung(Slot& slot, Time now) {
+void StartedClients::hung(Slot& slot, Time now) {
   slot.process.reset();
   if (killAt_) return;
   ++crashes_;
-  const Work work = workOf_ ? workOf_(slot.name()) : Work{};
+  const Work work = workOf_ ? workOf_(slot.client.name) : Work{};
   slot.startAt = slot.policy.hung(work.results > 0, now);
   if (slot.startAt)
-    return warn("local client {} hung in {} and ended itself; starting it again", slot.number,
+    return warn("{} hung in {} and ended itself; starting it again", slot.client.title,
                 work.oldestTask);
   hang_ = fmt::format(
-      "local client {} hung {} times in a row without a result, at last in {}, and is given up; "
+      "{} hung {} times in a row without a result, at last in {}, and is given up; "
       "its own lines above say how to see that again",
-      slot.number, kHangsInARow, work.oldestTask);
+      slot.client.title, kHangsInARow, work.oldestTask);
   warn("{}", *hang_);
 }
 
-bool LocalClients::isStarting(Time now) const {
+bool StartedClients::isStarting(Time now) const {
   for (const Slot& slot : slots_)
     if (slot.startAt || (slot.process && now - slot.started < kStart)) return true;
   return false;
 }
 
-void LocalClients::stop(Time now) {
+void StartedClients::stop(Time now) {
   killAt_ = now + kTimeToGo;
   for (Slot& slot : slots_) {
     slot.startAt.reset();
@@ -109,16 +115,16 @@ void LocalClients::stop(Time now) {
   }
 }
 
-int LocalClients::running() const {
+int StartedClients::running() const {
   int count = 0;
   for (const Slot& slot : slots_) count += slot.process ? 1 : 0;
   return count;
 }
 
-bool LocalClients::exhausted() const {
+bool StartedClients::exhausted() const {
   for (const Slot& slot : slots_)
     if (slot.process || slot.startAt) return false;
-  return plan_.count > 0;
+  return !slots_.empty();
 }
 
 }  // namespace ninefold

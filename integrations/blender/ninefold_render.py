@@ -1,0 +1,934 @@
+"""Ninefold as a render engine of Blender (3.4 and later). docs/blender.md tells how to install and use it.
+
+    F12 ─► render(): .blend copy ─► a Blender without window: glTF ─► ninefold-master ─► .exr ─► passes
+
+The exporter needs a context that render() does not have; in a Blender of its own it has one, and may change the scene so that
+the exporter sees what a render sees. This file is both: the add-on, and what runs there (`export_main`).
+
+Units: lamps become W/sr and W/m^2, emission W/(m^2 sr), as Cycles has them.
+Threads: render() runs in a thread of Blender's, or in its main thread without a window. The master's log has a thread here.
+Errors: Trouble, told in one line in Blender's report area. Whatever happens, both programs are ended before render() returns;
+they end by themselves when Blender dies.
+"""
+import collections
+import functools
+import json
+import math
+import os
+import pathlib
+import queue
+import shlex
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import zlib
+
+import bpy
+import numpy as np
+from mathutils import Matrix, Vector
+
+bl_info = {
+    "name": "Ninefold",
+    "description": "Global illumination on a cluster of ordinary computers",
+    "author": "The Ninefold developers",
+    "version": (1, 0, 0),
+    "blender": (3, 4, 0),
+    "location": "Render Properties > Render Engine > Ninefold",
+    "category": "Render",
+}
+
+MOST_PIXELS = 16384  # of a side, as the master takes them
+EVERY = 2            # a new look at the picture so often [s]
+PATIENCE = 20        # of an interrupted master, before it is killed [s]
+FAR = 1e10           # Blender's depth where nothing is
+PICTURES = "none|COLOR|FILE"  # in the help of a master that takes pictures of what is outside
+EXPORT_FLAG = "--ninefold-export"
+
+Pass = collections.namedtuple("Pass", "name channels id type source")
+COMBINED = Pass("Combined", 4, "RGBA", "COLOR", ("R", "G", "B"))
+PASSES = (
+    Pass("Depth", 1, "Z", "VALUE", ("Z",)),
+    Pass("Normal", 3, "XYZ", "VECTOR", ("N.x", "N.y", "N.z")),
+    Pass("Albedo", 3, "RGB", "COLOR", ("albedo.R", "albedo.G", "albedo.B")),
+    Pass("Irradiance", 3, "RGB", "COLOR", ("irradiance.R", "irradiance.G", "irradiance.B")),
+    Pass("Caustic", 3, "RGB", "COLOR", ("caustic.R", "caustic.G", "caustic.B")),
+    Pass("Error", 1, "X", "VALUE", ("error.Y",)),
+    Pass("Object", 1, "X", "VALUE", ("objectId",)),
+)
+
+
+class Trouble(Exception):
+    """What keeps a picture from being made, and what to do: one line."""
+
+
+class Cancelled(Exception):
+    """The user has had enough."""
+
+
+# ---------------------------------------------------------------- pictures
+
+def read_exr(path):
+    """Size and channels of an OpenEXR file as the master writes it: {name: array[y, x]}, y upwards as in Blender.
+
+    Scan lines of float or unsigned channels, stored plain or by ZIP: deflate over differences of bytes, the even ones of
+    a block before the odd ones (openexr.com, "OpenEXR File Layout")."""
+    data = pathlib.Path(path).read_bytes()
+    if data[:4] != b"v/1\x01" or data[5] & 0x1A:
+        raise Trouble(f"{path} is no OpenEXR picture of scan lines")
+    attributes, at = {}, 8
+    while data[at]:
+        name_end = data.index(b"\0", at)
+        kind_end = data.index(b"\0", name_end + 1)
+        size, = struct.unpack_from("<i", data, kind_end + 1)
+        start = kind_end + 5
+        attributes[data[at:name_end]] = data[start:start + size]
+        at = start + size
+    at += 1
+    left, bottom, right, top = struct.unpack("<4i", attributes[b"dataWindow"])
+    width, height = right - left + 1, top - bottom + 1
+    names, types = [], []
+    listed = attributes[b"channels"]
+    while listed[0]:
+        name, listed = listed.split(b"\0", 1)
+        names.append(name.decode())
+        types.append({1: np.float16, 0: np.uint32, 2: np.float32}[struct.unpack_from("<i", listed)[0]])
+        listed = listed[16:]
+    lines = {0: 1, 2: 1, 3: 16}[attributes[b"compression"][0]]
+    line_bytes = width * sum(np.dtype(t).itemsize for t in types)
+    channels = {name: np.empty((height, width), np.float32) for name in names}
+    for offset in struct.unpack_from(f"<{-(-height // lines)}Q", data, at):
+        first, size = struct.unpack_from("<2i", data, offset)
+        first -= bottom
+        count = min(lines, height - first)
+        block = _plain(data[offset + 8:offset + 8 + size], count * line_bytes)
+        place = 0
+        for y in range(first, first + count):
+            for name, kind in zip(names, types):
+                channels[name][height - 1 - y] = np.frombuffer(block, kind, width, place)
+                place += width * np.dtype(kind).itemsize
+    return width, height, channels
+
+
+def _plain(block, size):
+    """A block of scan lines without its compression."""
+    if len(block) == size:
+        return block
+    coded = np.frombuffer(zlib.decompress(block), np.uint8).copy()
+    coded[1:] -= 128
+    split = np.cumsum(coded, dtype=np.uint8)
+    plain = np.empty(size, np.uint8)
+    half = (size + 1) // 2
+    plain[0::2], plain[1::2] = split[:half], split[half:]
+    return plain.tobytes()
+
+
+def pass_values(kind, channels, shape):
+    """What a pass holds, [y, x, channel] as Blender means it; zeros where the picture has no such channel."""
+    height, width = shape
+    if any(name not in channels for name in kind.source):
+        return np.zeros((height, width, kind.channels), np.float32)
+    planes = [channels[name] for name in kind.source]
+    if kind.name == "Combined":
+        planes.append(np.ones_like(planes[0]))
+    elif kind.name == "Depth":
+        planes = [np.where(planes[0] > 0, planes[0], np.float32(FAR))]
+    elif kind.name == "Normal":
+        planes = [planes[0], -planes[2], planes[1]]  # glTF has y upwards
+    return np.stack(planes, axis=-1)
+
+
+# ---------------------------------------------------------------- programs
+
+class Program:
+    """A program that is watched, ended when this object is closed, and by the kernel when Blender dies."""
+
+    def __init__(self, command, **more):
+        guard = shutil.which("setpriv")
+        if guard:
+            command = [guard, "--pdeathsig", "TERM", "--"] + command
+        try:
+            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                            text=True, errors="replace", **more)
+        except OSError as error:
+            raise Trouble(f"{command[0]} cannot be started: {error.strerror}") from error
+        self.lines = queue.SimpleQueue()
+        self.last = collections.deque(maxlen=20)
+        self.reader = threading.Thread(target=self._read, daemon=True)
+        self.reader.start()
+
+    def _read(self):
+        for line in self.process.stderr:
+            self.last.append(line.rstrip())
+            self.lines.put(line.rstrip())
+
+    def follow(self, engine):
+        """Its lines as they come, "" when none came for a while. Returns when it has ended. Raises Cancelled."""
+        while True:
+            if engine.test_break():
+                raise Cancelled()
+            try:
+                yield self.lines.get(timeout=0.1)
+            except queue.Empty:
+                if not self.reader.is_alive() and self.lines.empty():
+                    self.process.wait()
+                    return
+                yield ""
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.terminate()
+            try:
+                self.process.wait(PATIENCE)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+        self.reader.join(1)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+
+def master_path():
+    addon = bpy.context.preferences.addons.get(__name__)
+    stated = bpy.path.abspath(addon.preferences.master) if addon else ""
+    found = shutil.which(stated or "ninefold-master")
+    if found:
+        return found
+    raise Trouble(f"there is no program {stated}: correct the path in the preferences of the add-on Ninefold" if stated else
+                  "ninefold-master is not in PATH: give its path in the preferences of the add-on Ninefold")
+
+
+@functools.lru_cache
+def flags_of(master, changed):  # `changed`: another build may know others
+    """The names of the master's flags."""
+    try:
+        said = subprocess.run([master, "--help"], capture_output=True, text=True, timeout=60, stdin=subprocess.DEVNULL).stdout
+    except (OSError, subprocess.TimeoutExpired) as error:
+        raise Trouble(f"{master} does not run: {error}") from error
+    flags = {word for word in said.split() if word.startswith("--")}
+    if "--local-clients" not in flags:
+        raise Trouble(f"{master} is no ninefold-master: correct the path in the preferences of the add-on Ninefold")
+    return flags | ({PICTURES} if PICTURES in said else set())
+
+
+def master_command(master, flags, settings, scene, exported, folder, passes):
+    """The command line; refuses what cannot come to an end."""
+    s, (width, height) = settings, exported["size"]
+    command = [master, scene, "--size", f"{width}x{height}", "--seed", str(s.seed), "--method", s.method,
+               "--output", str(folder / "picture.exr"),
+               "--environment", exported["environment"], "--local-clients", str(s.local_clients)]
+    if not (s.frames or s.seconds or s.error):
+        raise Trouble("nothing ends the render: set frames, a time limit or a noise limit")
+    if s.local_clients == 0 and not s.listen:
+        raise Trouble("no client can come: set local clients, or an address to listen at")
+    for flag, value in (("--frames", s.frames), ("--seconds", s.seconds), ("--until-error", s.error / 100), ("--listen", s.listen),
+                        ("--key-file", bpy.path.abspath(s.key_file)), ("--denoise", "on" if s.denoise else "")):
+        if value:
+            command += [flag, f"{value:.7g}" if isinstance(value, float) else str(value)]
+    for flag, value in (("--output-every", str(EVERY)), ("--light-units", "radiometric")):
+        if flag in flags:
+            command += [flag, value]
+    if passes:
+        command.append("--aovs")
+    try:
+        return command + shlex.split(s.more)
+    except ValueError as error:
+        raise Trouble(f"more options: {error}") from error
+
+
+def complaint(program, what):
+    """Why a program ended badly."""
+    status = program.process.returncode
+    if status < 0 or status > 128:
+        return f"{what}: killed by signal {abs(status) % 128}; render again, the system's log may tell why"
+    told = [line for line in program.last if line and not line.startswith("progress:")]
+    return f"{what}: {told[-1] if told else f'ended with status {status}'}"
+
+
+# ---------------------------------------------------------------- the engine
+
+class NinefoldEngine(bpy.types.RenderEngine):
+    bl_idname = "NINEFOLD"
+    bl_label = "Ninefold"
+    bl_use_preview = False
+    bl_use_eevee_viewport = True  # materials look alike there, as far as it can
+    bl_use_shading_nodes_custom = False
+
+    def update_render_passes(self, scene, layer):
+        for kind in (COMBINED,) + (PASSES if scene.ninefold.passes else ()):
+            self.register_pass(scene, layer, kind.name, kind.channels, kind.id, kind.type)
+
+    def render(self, depsgraph):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="ninefold-"))
+        try:
+            self.render_in(folder, depsgraph)
+        except Cancelled:
+            pass
+        except Trouble as trouble:
+            self.report({"ERROR"}, f"Ninefold: {trouble}")
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+
+    def render_in(self, folder, depsgraph):
+        settings = depsgraph.scene.ninefold
+        master = master_path()
+        flags = flags_of(master, os.path.getmtime(master))
+        self.check(depsgraph.scene)
+        exported = self.export(folder, depsgraph, PICTURES in flags)
+        for warning in exported["warnings"]:
+            self.report({"WARNING"}, f"Ninefold: {warning}")
+        passes = PASSES if settings.passes else ()
+        command = master_command(master, flags, settings, str(folder / "scene.gltf"), exported, folder, passes)
+        with Program(command, cwd=folder) as program:
+            self.gather(program, folder / "picture.exr", exported["crop"], passes, depsgraph.view_layer.name)
+
+    def check(self, scene):
+        """Refuses what would be a wrong picture."""
+        camera = scene.camera
+        if camera is None or camera.type != "CAMERA":
+            raise Trouble("the scene has no camera")
+        if camera.data.type != "PERSP":
+            raise Trouble(f"camera {camera.name} is not perspective: only such cameras can be rendered")
+        if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
+            raise Trouble("pixels must be square: set both aspects in the output's format to 1")
+
+    def export(self, folder, depsgraph, pictures):
+        """The scene as glTF in `folder`, by another Blender, and what that said of it."""
+        self.update_stats("", "Exporting the scene")
+        scene = depsgraph.scene.original
+        copy = folder / "scene.blend"
+        bpy.data.libraries.write(str(copy), {scene}, path_remap="ABSOLUTE", fake_user=True)
+        order = {"blend": str(copy), "scene": scene.name, "layer": depsgraph.view_layer.name, "frame": scene.frame_current,
+                 "subframe": scene.frame_subframe, "resolution": [self.resolution_x, self.resolution_y],
+                 "folder": str(folder), "pictures": pictures}
+        trust = "--enable-autoexec" if bpy.context.preferences.filepaths.use_scripts_auto_execute else "--disable-autoexec"
+        command = [bpy.app.binary_path, "--background", "--factory-startup", trust, "--python-exit-code", "1", "--python",
+                   os.path.abspath(__file__), "--", EXPORT_FLAG, json.dumps(order)]
+        with Program(command) as program:
+            for _ in program.follow(self):
+                pass
+        said = folder / "export.json"
+        if program.process.returncode or not said.exists():
+            raise Trouble(complaint(program, "the scene cannot be exported"))
+        return json.loads(said.read_text())
+
+    def gather(self, program, picture, crop, passes, layer):
+        """Shows the picture as it converges, until the master ends."""
+        left, bottom, width, height = crop
+        for kind in passes:
+            self.add_pass(kind.name, kind.channels, kind.id)
+        result = self.begin_result(0, 0, width, height, layer=layer)
+        shown = False
+        try:
+            for line in program.follow(self):
+                if line.startswith("progress: "):
+                    self.tell(line[len("progress: "):])
+                elif " frame(s) in " in line:
+                    self.show(result, picture, crop)
+                    shown = True
+                elif line.startswith("warning: "):
+                    self.report({"WARNING"}, f"Ninefold: {line[len('warning: '):]}")
+        except Cancelled:
+            program.close()  # the master leaves the picture so far
+            if picture.exists():
+                self.show(result, picture, crop)
+            self.end_result(result, cancel=not picture.exists())
+            raise
+        self.end_result(result, cancel=not shown)
+        if program.process.returncode:
+            raise Trouble(complaint(program, "the master"))
+
+    def tell(self, text):
+        percent = text.split("%")[0]
+        if percent.isdigit():
+            self.update_progress(int(percent) / 100)
+        self.update_stats("", text)
+
+    def show(self, result, picture, crop):
+        left, bottom, width, height = crop
+        *_, channels = read_exr(picture)
+        known = {kind.name: kind for kind in (COMBINED,) + PASSES}
+        seen = {name: plane[bottom:bottom + height, left:left + width] for name, plane in channels.items()}
+        # What a view layer asks for beside ours stays black.
+        values = [pass_values(known[p.name], seen, (height, width)).ravel() if p.name in known else
+                  np.zeros(width * height * p.channels, np.float32) for p in result.layers[0].passes]
+        result.layers[0].passes.foreach_set("rect", np.concatenate(values))
+        self.update_result(result)
+
+
+class NinefoldPreferences(bpy.types.AddonPreferences):
+    bl_idname = __name__
+
+    master: bpy.props.StringProperty(name="ninefold-master", subtype="FILE_PATH",
+                                     description="The program; empty: the one in PATH")
+
+    def draw(self, _):
+        self.layout.prop(self, "master")
+
+
+class NinefoldSettings(bpy.types.PropertyGroup):
+    method: bpy.props.EnumProperty(name="Method", default="instant-radiosity", description="How light is computed", items=[
+        ("instant-radiosity", "Instant Radiosity", "Virtual lights and caustic photons"),
+        ("bidirectional", "Bidirectional", "Virtual lights chosen for the camera; finds light that comes round corners"),
+        ("auto", "Automatic", "One of both kinds of instant radiosity, as a short trial tells"),
+        ("photon-map", "Photon Map", "A rolling pool of photons; blurs bounced light"),
+        ("selective-photons", "Selective Photons", "Light kept in mesh elements; blurs bounced light"),
+        ("intersection-field", "Intersection Field", "Light among lines that are drawn through the scene; blurs"),
+        ("path-trace", "Path Tracing", "The slow, unbiased reference")])
+    frames: bpy.props.IntProperty(name="Frames", default=64, min=0, soft_max=4096,
+                                  description="Frames that the picture is the mean of; 0: no limit")
+    seconds: bpy.props.FloatProperty(name="Time Limit", default=0, min=0, unit="TIME_ABSOLUTE", description="0: none")
+    error: bpy.props.FloatProperty(name="Noise Limit", default=0, min=0, max=100, precision=2, subtype="PERCENTAGE",
+                                   description="Ends when the picture's relative standard error is below this; 0: none")
+    seed: bpy.props.IntProperty(name="Seed", default=1, min=0)
+    denoise: bpy.props.BoolProperty(name="Denoise", description="A last touch of filtering, by no more than the noise")
+    passes: bpy.props.BoolProperty(name="Passes", description="Depth, normal, albedo, irradiance, caustic, error and object",
+                                   update=lambda self, _: self.id_data.view_layers.update())
+    local_clients: bpy.props.IntProperty(name="Local Clients", default=os.cpu_count() or 1, min=0, max=1024,
+                                         description="Processes that render on this machine; 0: only others render")
+    listen: bpy.props.StringProperty(name="Listen At", description="ADDR:PORT where other machines' clients connect, such as "
+                                                                   "0.0.0.0:4700; empty: none")
+    key_file: bpy.props.StringProperty(name="Key File", subtype="FILE_PATH",
+                                       description="The cluster's key (ninefold-master --new-key FILE makes one)")
+    more: bpy.props.StringProperty(name="More Options", description="Of ninefold-master, as its --help lists them")
+
+
+class NinefoldPanel(bpy.types.Panel):
+    bl_idname = "RENDER_PT_ninefold"
+    bl_label = "Ninefold"
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = {NinefoldEngine.bl_idname}
+
+    @classmethod
+    def poll(cls, context):
+        return context.engine in cls.COMPAT_ENGINES
+
+    def draw(self, context):
+        layout, settings = self.layout, context.scene.ninefold
+        layout.use_property_split = True
+        layout.use_property_decorate = False
+        for names in (("method", "seed"), ("frames", "seconds", "error"), ("denoise", "passes"),
+                      ("local_clients", "listen", "key_file"), ("more",)):
+            column = layout.column()
+            for name in names:
+                column.prop(settings, name)
+
+
+def shared_panels():
+    """Blender's own panels of what is carried over: those of every engine, and of Eevee's those of lamps and surfaces."""
+    unfit = {"VIEWLAYER_PT_filter", "VIEWLAYER_PT_layer_passes", "RENDER_PT_freestyle", "DATA_PT_light"}
+    eevee = {"EEVEE_MATERIAL_PT_context_material", "EEVEE_MATERIAL_PT_surface", "EEVEE_WORLD_PT_surface", "DATA_PT_EEVEE_light"}
+    for panel in bpy.types.Panel.__subclasses__():
+        if panel.__name__ in eevee or ("BLENDER_RENDER" in getattr(panel, "COMPAT_ENGINES", ()) and panel.__name__ not in unfit):
+            yield panel
+
+
+CLASSES = (NinefoldPreferences, NinefoldSettings, NinefoldEngine, NinefoldPanel)
+
+
+def register():
+    for kind in CLASSES:
+        bpy.utils.register_class(kind)
+    bpy.types.Scene.ninefold = bpy.props.PointerProperty(type=NinefoldSettings)
+    for panel in shared_panels():
+        panel.COMPAT_ENGINES.add(NinefoldEngine.bl_idname)
+
+
+def unregister():
+    for panel in shared_panels():
+        panel.COMPAT_ENGINES.discard(NinefoldEngine.bl_idname)
+    del bpy.types.Scene.ninefold
+    for kind in reversed(CLASSES):
+        bpy.utils.unregister_class(kind)
+
+
+# ---------------------------------------------------------------- what runs in a Blender of its own
+
+class Exporter:
+    """Writes the scene of a .blend copy as `folder`/scene.gltf, and export.json: {size, crop, environment, warnings}.
+
+    What a render sees is made anew as plain meshes, one a mesh and material, placed as often as it is seen: so the glTF exporter
+    needs to know nothing of modifiers, instances, poses and parents. Lamps, camera and what else it does not say as Cycles
+    means it are put into its file afterwards."""
+
+    def __init__(self, order):
+        self.order = order
+        self.warnings = []
+        self.lamps = []      # (light, matrix)
+        self.meshes = {}     # by what they were made of
+        self.none = None     # the material of what has none
+        self.files = pathlib.Path(order["folder"])
+
+    def run(self):
+        scene = self.load()
+        self.show_as_rendered(scene)
+        bpy.context.evaluated_depsgraph_get()  # from now on what is animated reaches lamps and materials themselves
+        scene.frame_set(self.order["frame"], subframe=self.order["subframe"])
+        for material in bpy.data.materials:
+            self.prepare(material)
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        camera = scene.camera.evaluated_get(depsgraph)
+        matrix = camera.matrix_world.copy()
+        size, crop, fov = frame_of(camera.data, scene.render, self.order["resolution"])
+        self.warn_of_the_rest(scene, camera.data)
+        environment = self.environment_of(scene.world)
+        plain = bpy.data.scenes.new("plain")
+        for name, mesh, place in self.realise(depsgraph):
+            add_object(plain, name, mesh, place)
+        punctual = self.place_lamps(plain)
+        bpy.context.window.scene = plain
+        self.write(plain)
+        path = self.files / "scene.gltf"
+        gltf = json.loads(path.read_text())
+        self.complete(gltf, punctual, matrix, fov)
+        path.write_text(json.dumps(gltf))
+        (self.files / "export.json").write_text(json.dumps(
+            {"size": size, "crop": crop, "environment": environment, "warnings": self.warnings}))
+
+    def warn_of_the_rest(self, scene, camera):
+        for is_on, what in ((camera.dof.use_dof, "depth of field"), (scene.render.use_motion_blur, "motion blur"),
+                            (scene.render.film_transparent, "transparent film")):
+            if is_on:
+                self.warn(f"there is no {what}: it is left out")
+
+    def warn(self, text):
+        if text not in self.warnings:
+            self.warnings.append(text)
+
+    def load(self):
+        with bpy.data.libraries.load(self.order["blend"]) as (_, wanted):
+            wanted.scenes = [self.order["scene"]]
+        scene = wanted.scenes[0]
+        bpy.context.window.scene = scene
+        bpy.context.window.view_layer = scene.view_layers[self.order["layer"]]
+        return scene
+
+    def show_as_rendered(self, scene):
+        """This Blender only knows the viewport: it gets the render's eyes."""
+        for thing in list(bpy.data.objects) + list(bpy.data.collections):
+            thing.hide_viewport = thing.hide_render
+        show_layers(bpy.context.view_layer.layer_collection)
+        for thing in scene.objects:
+            thing.hide_set(False)
+        for thing in bpy.data.objects:
+            for modifier in thing.modifiers:
+                modifier.show_viewport = modifier.show_render
+                for shown, rendered in (("levels", "render_levels"), ("screw_steps", "render_steps")):
+                    if hasattr(modifier, rendered) and hasattr(modifier, shown):
+                        setattr(modifier, shown, getattr(modifier, rendered))
+            if thing.type in {"CURVE", "SURFACE", "FONT"} and thing.data.render_resolution_u:
+                thing.data.resolution_u = thing.data.render_resolution_u
+            elif thing.type == "META":
+                thing.data.resolution = thing.data.render_resolution
+        scene.render.use_simplify = False
+
+    def realise(self, depsgraph):
+        """All that is seen, as (name, mesh, matrix); lamps go into `lamps`."""
+        for instance in depsgraph.object_instances:
+            if not instance.show_self:
+                continue
+            thing, matrix = instance.object, instance.matrix_world.copy()
+            if thing.type == "LIGHT":
+                self.lamps.append((thing.data.original, matrix))
+            elif thing.type == "MESH":  # so come curves, texts and metaballs, too
+                mesh = self.mesh_of(thing)
+                if mesh.polygons:
+                    yield (thing.name, *upright(mesh, matrix))
+            elif thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}:
+                self.warn(f"{thing.name} is left out: glTF has no {thing.type.lower()}")
+
+    def mesh_of(self, thing):
+        key = (thing.original.as_pointer(), thing.data.as_pointer(),
+               tuple(slot.material and slot.material.name for slot in thing.material_slots))
+        if key not in self.meshes:
+            mesh = thing.data.copy()
+            for slot, place in zip(thing.material_slots, range(len(mesh.materials))):
+                mesh.materials[place] = slot.material.original if slot.material else self.grey()
+            if not mesh.materials:
+                mesh.materials.append(self.grey())
+            if thing.particle_systems and any(s.settings.render_type == "PATH" for s in thing.particle_systems):
+                self.warn(f"the hair of {thing.name} is left out")
+            self.meshes[key] = mesh
+        return self.meshes[key]
+
+    # ------------------------------------------------------------ materials
+
+    def grey(self):
+        """What a surface without material looks like."""
+        if self.none is None:
+            self.none = bpy.data.materials.new("no material")
+            self.prepare(self.none)
+        return self.none
+
+    def prepare(self, material):
+        """As Cycles sees it: both sides, transparent where it says so; and a plain shader as the one the exporter knows."""
+        material.use_backface_culling = False
+        if not material.use_nodes or material.node_tree is None:
+            return as_diffuse(material)
+        tree = material.node_tree
+        output = tree.get_output_node("CYCLES") or tree.get_output_node("ALL")
+        if output is None or not output.inputs["Surface"].is_linked:
+            return self.warn(f"material {material.name} has no surface: it is rendered white")
+        shader = output.inputs["Surface"].links[0].from_node
+        if shader.type in PLAIN_SHADERS:
+            shader = principled_for(tree, shader, output)
+        if shader.type not in {"BSDF_PRINCIPLED", "EMISSION"}:
+            self.warn(f"material {material.name}: the exporter cannot tell all that its node {shader.name} does")
+        elif shader.type == "BSDF_PRINCIPLED":
+            alpha = shader.inputs["Alpha"]
+            if getattr(material, "blend_method", "") == "OPAQUE" and (alpha.is_linked or alpha.default_value < 1):
+                material.blend_method = "HASHED"
+            for name in UNTOLD:
+                socket = shader.inputs.get(name)
+                if socket and (socket.is_linked or socket.default_value):
+                    self.warn(f"material {material.name}: {name} is not carried over")
+        for name in ("Volume", "Displacement"):
+            if output.inputs[name].is_linked:
+                self.warn(f"material {material.name}: its {name.lower()} is not carried over")
+
+    # ------------------------------------------------------------ light
+
+    def environment_of(self, world):
+        """The value of --environment."""
+        if world is None:
+            return "none"
+        if not world.use_nodes:
+            return colour_text(world.color)
+        output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
+        node = output and output.inputs["Surface"].is_linked and output.inputs["Surface"].links[0].from_node
+        if not node:
+            return "none"
+        if node.type != "BACKGROUND":
+            self.warn(f"world {world.name}: only a Background node is carried over; it is rendered black")
+            return "none"
+        colour, strength = node.inputs["Color"], node.inputs["Strength"]
+        if strength.is_linked:
+            self.warn(f"world {world.name}: what is linked to Strength is left out")
+        if not colour.is_linked:
+            return colour_text([c * strength.default_value for c in colour.default_value[:3]])
+        source = colour.links[0].from_node
+        if source.type != "TEX_ENVIRONMENT" or source.image is None:
+            self.warn(f"world {world.name}: its colour by nodes is not carried over; it is rendered black")
+            return "none"
+        width, height = source.image.size
+        if self.order["pictures"] and source.projection == "EQUIRECTANGULAR" and width == 2 * height > 0:
+            return self.picture_of(world, source, strength.default_value)
+        self.warn(f"world {world.name}: its picture is carried over as its mean colour")
+        return colour_text([c * strength.default_value for c in mean_radiance(source.image)])
+
+    def picture_of(self, world, source, strength):
+        """FILE:ROTATION:STRENGTH; the picture's middle is +x for both. A turned place of looking turns the picture back."""
+        name, turn = "environment.exr", 0
+        if source.inputs["Vector"].is_linked:
+            node = source.inputs["Vector"].links[0].from_node
+            if node.type == "MAPPING" and node.vector_type in {"POINT", "TEXTURE"}:
+                x, y, z = node.inputs["Rotation"].default_value
+                turn = math.degrees(z) * (-1 if node.vector_type == "POINT" else 1)
+                if x or y or any(node.inputs["Location"].default_value) or tuple(node.inputs["Scale"].default_value) != (1, 1, 1):
+                    self.warn(f"world {world.name}: of its Mapping only the turn about z is carried over")
+            elif node.type != "TEX_COORD":
+                self.warn(f"world {world.name}: how its picture is placed is not carried over")
+        saver = bpy.data.scenes.new("saver")
+        saver.render.image_settings.file_format, saver.render.image_settings.color_depth = "OPEN_EXR", "32"
+        source.image.save_render(str(self.files / name), scene=saver)
+        return f"{name}:{turn:.9g}:{strength:.9g}" if strength > 0 else "none"
+
+    def place_lamps(self, scene):
+        """Lamps with a size as surfaces that shine. Returns the others as (name, light, radiant quantity, matrix)."""
+        punctual = []
+        for light, matrix in self.lamps:
+            colour = self.power_of(light)
+            if light.type == "AREA":
+                add_shining(scene, light.name, area_mesh(light), matrix,
+                            lambda area: [c / (4 * area) for c in colour])
+                if light.spread < math.pi - 1e-3:
+                    self.warn(f"lamp {light.name}: its spread is left out, it lights the whole half space")
+            elif light.type == "POINT" and light.shadow_soft_size > 0:
+                place = Matrix.Translation(matrix.translation)
+                add_shining(scene, light.name, ball_mesh(light.shadow_soft_size), place,
+                            lambda area: [c / (math.pi * area) for c in colour])
+            else:
+                if light.type == "SUN" and light.angle > 0.02:
+                    self.warn(f"sun {light.name}: its angle is left out, shadows are sharp")
+                punctual.append((light, colour if light.type == "SUN" else [c / (4 * math.pi) for c in colour], matrix))
+        return punctual
+
+    def power_of(self, light):
+        """Colour times strength, as the light's panel means them: [W], of a sun [W/m^2]."""
+        colour = [c * light.energy for c in light.color]
+        if not light.use_nodes or light.node_tree is None:
+            return colour
+        output = light.node_tree.get_output_node("CYCLES") or light.node_tree.get_output_node("ALL")
+        node = output and output.inputs["Surface"].is_linked and output.inputs["Surface"].links[0].from_node
+        if not node or node.type != "EMISSION":
+            self.warn(f"lamp {light.name}: its nodes are left out")
+            return colour
+        if node.inputs["Color"].is_linked or node.inputs["Strength"].is_linked:
+            self.warn(f"lamp {light.name}: what is linked to its Emission is left out")
+        strength = node.inputs["Strength"].default_value
+        return [c * n * strength for c, n in zip(colour, node.inputs["Color"].default_value)]
+
+    # ------------------------------------------------------------ the file
+
+    def write(self, scene):
+        wanted = {"filepath": str(self.files / "scene.gltf"), "export_format": "GLTF_SEPARATE", "use_active_scene": True,
+                  "export_yup": True, "export_apply": False, "export_animations": False, "export_skins": False,
+                  "export_morph": False, "export_lights": False, "export_cameras": False, "export_extras": False}
+        known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
+        bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
+
+    def complete(self, gltf, punctual, matrix, fov):
+        """What the exporter does not say, or not as Cycles means it."""
+        gltf["asset"]["generator"] = "Ninefold for Blender"  # lamps are in W/sr, whoever wrote the rest
+        for material in gltf.get("materials", []):
+            extensions = material.get("extensions", {})
+            if "KHR_materials_transmission" in extensions:  # Cycles refracts, glTF's alone is a thin wall
+                extensions.setdefault("KHR_materials_volume", {"thicknessFactor": 1})
+                use_extension(gltf, "KHR_materials_volume")
+            specular = extensions.get("KHR_materials_specular", {})
+            if specular.get("specularColorFactor") == [0, 0, 0]:  # glTF's alone still reflects at grazing angles
+                specular["specularFactor"] = 0
+        roots = gltf["scenes"][gltf.get("scene", 0)].setdefault("nodes", [])
+
+        def add_node(node, place):
+            node["matrix"] = [c for column in (Y_UP @ place).col for c in column]
+            roots.append(len(gltf.setdefault("nodes", [])))
+            gltf["nodes"].append(node)
+
+        gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": fov, "znear": 0.01}}]
+        add_node({"name": "camera", "camera": 0}, unscaled(matrix))
+        for light, intensity, place in punctual:
+            add_node({"name": light.name, "extensions": self.punctual(gltf, light, intensity)}, unscaled(place))
+
+    def punctual(self, gltf, light, intensity):
+        strength = max(max(intensity), 1e-30)
+        colour = [c / strength for c in intensity]
+        if light.type == "SPOT":
+            lights = extension_list(gltf, "EXT_lights_ies")
+            name = f"spot{len(lights)}.ies"
+            (self.files / name).write_text(spot_profile(light))
+            lights.append({"uri": name})
+            return {"EXT_lights_ies": {"light": len(lights) - 1, "multiplier": strength, "color": colour}}
+        lights = extension_list(gltf, "KHR_lights_punctual")
+        lights.append({"type": "directional" if light.type == "SUN" else "point", "color": colour, "intensity": strength})
+        return {"KHR_lights_punctual": {"light": len(lights) - 1}}
+
+
+Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
+# Of other shaders the settings of the Principled one that mean the same. Roughness and colour are the shader's.
+PLAIN_SHADERS = {"BSDF_DIFFUSE": {"Specular": 0, "Specular IOR Level": 0}, "BSDF_GLOSSY": {"Metallic": 1},
+                 "BSDF_GLASS": {"Transmission": 1, "Transmission Weight": 1}}
+UNTOLD = ("Subsurface", "Subsurface Weight", "Anisotropic", "Sheen", "Sheen Weight")
+
+
+def principled_for(tree, shader, output):
+    """A Principled node that means the same as a plain `shader`, in its place."""
+    node = tree.nodes.new("ShaderNodeBsdfPrincipled")
+    for name, value in PLAIN_SHADERS[shader.type].items():
+        if name in node.inputs:
+            node.inputs[name].default_value = value
+    for theirs, ours in (("Color", "Base Color"), ("Roughness", "Roughness"), ("IOR", "IOR"), ("Normal", "Normal")):
+        socket = shader.inputs.get(theirs)
+        if socket is None or (shader.type == "BSDF_DIFFUSE" and theirs == "Roughness"):
+            continue
+        if socket.is_linked:
+            tree.links.new(socket.links[0].from_socket, node.inputs[ours])
+        elif theirs != "Normal":
+            node.inputs[ours].default_value = socket.default_value
+    tree.links.new(node.outputs[0], output.inputs["Surface"])
+    return node
+
+
+def as_diffuse(material):
+    """Without nodes a material scatters its viewport colour."""
+    colour = material.diffuse_color
+    material.use_nodes = True
+    node = next(n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED")
+    node.inputs["Base Color"].default_value = colour
+    for name, value in PLAIN_SHADERS["BSDF_DIFFUSE"].items():
+        if name in node.inputs:
+            node.inputs[name].default_value = value
+
+
+def show_layers(layer):
+    layer.hide_viewport = False
+    for child in layer.children:
+        show_layers(child)
+
+
+def frame_of(camera, render, resolution):
+    """(size, crop, vertical angle) of the picture that holds the wanted one.
+
+    The master's line of sight goes through the middle of its picture. A shifted lens or a border asks for a part beside it: the
+    picture gets as large as to hold that, and is cropped [left, bottom, width, height]; to a quarter of a pixel.
+
+        p = sensor / (lens n)   tangent of a pixel, n pixels along the sensor's side that counts
+        x0 = shift n - width/2 + border   of the wanted part's left edge, in pixels from the line of sight"""
+    width, height = resolution
+    fit = camera.sensor_fit if camera.sensor_fit != "AUTO" else ("HORIZONTAL" if width >= height else "VERTICAL")
+    along = width if fit == "HORIZONTAL" else height
+    sensor = camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width
+    shift = (camera.shift_x * along, camera.shift_y * along)
+    edges = ((0, 1), (0, 1))
+    if render.use_border:
+        edges = ((render.border_min_x, render.border_max_x), (render.border_min_y, render.border_max_y))
+    size, start, part = [], [], []
+    for side, moved, (low, high) in zip(resolution, shift, edges):
+        first, last = int(low * side), int(high * side)
+        if last <= first:
+            raise Trouble("the render border holds no pixel")
+        x0, x1 = moved - side / 2 + first, moved - side / 2 + last
+        least = max(1, math.ceil(2 * max(abs(x0), abs(x1)) - 1e-6))
+        offset = lambda n: x0 + n / 2
+        whole = min((least, least + 1), key=lambda n: (round(abs(offset(n) - round(offset(n))), 6), n))
+        size.append(whole)
+        start.append(min(max(round(offset(whole)), 0), whole - (last - first)))
+        part.append(last - first)
+    if max(size) > MOST_PIXELS:
+        raise Trouble(f"the picture has {size[0]}x{size[1]} pixels, with what the shift needs; at most are {MOST_PIXELS} a side")
+    return size, start + part, 2 * math.atan(sensor / (camera.lens * along) * size[1] / 2)
+
+
+def upright(mesh, matrix):
+    """The mesh and its place; what no position, rotation and scale can say goes into a copy of the mesh."""
+    told = Matrix.LocRotScale(*matrix.decompose())
+    size = max(abs(v) for row in matrix.to_3x3() for v in row)
+    if all(abs(a - b) <= 1e-5 * size for told_row, row in zip(told.to_3x3(), matrix.to_3x3()) for a, b in zip(told_row, row)):
+        return mesh, matrix
+    mesh = mesh.copy()
+    mesh.transform(matrix)
+    if matrix.is_negative:
+        mesh.flip_normals()
+    return mesh, Matrix()
+
+
+def unscaled(matrix):
+    """Place and direction alone."""
+    place, turn, _ = matrix.decompose()
+    return Matrix.LocRotScale(place, turn, None)
+
+
+def add_object(scene, name, mesh, matrix):
+    thing = bpy.data.objects.new(name, mesh)
+    scene.collection.objects.link(thing)
+    thing.matrix_world = matrix
+
+
+def add_shining(scene, name, mesh, matrix, radiance):
+    """A surface that sends out radiance(its area in the world) on the side of its normals."""
+    mesh.transform(matrix)
+    if matrix.is_negative:
+        mesh.flip_normals()
+    area = sum(polygon.area for polygon in mesh.polygons)
+    if area == 0:
+        return
+    material = bpy.data.materials.new(name)
+    material.use_nodes = True
+    material.use_backface_culling = True
+    nodes, links = material.node_tree.nodes, material.node_tree.links
+    emission = nodes.new("ShaderNodeEmission")
+    colour = radiance(area)
+    strength = max(max(colour), 1e-30)
+    emission.inputs["Color"].default_value = (*(c / strength for c in colour), 1)
+    emission.inputs["Strength"].default_value = strength
+    links.new(emission.outputs[0], material.node_tree.get_output_node("ALL").inputs["Surface"])
+    mesh.materials.append(material)
+    add_object(scene, name, mesh, Matrix())
+
+
+def area_mesh(light):
+    """In the lamp's plane, seen from below: it shines down its z."""
+    x = light.size / 2
+    y = (light.size_y if light.shape in {"RECTANGLE", "ELLIPSE"} else light.size) / 2
+    if light.shape in {"SQUARE", "RECTANGLE"}:
+        corners = [(-x, -y), (-x, y), (x, y), (x, -y)]
+    else:
+        steps = 64
+        grow = math.sqrt(2 * math.pi / steps / math.sin(2 * math.pi / steps))  # the polygon has the ellipse's area
+        turns = [-2 * math.pi * i / steps for i in range(steps)]
+        corners = [(grow * x * math.cos(t), grow * y * math.sin(t)) for t in turns]
+    mesh = bpy.data.meshes.new("area")
+    mesh.from_pydata([(a, b, 0) for a, b in corners], [], [list(range(len(corners)))])
+    return mesh
+
+
+def ball_mesh(radius):
+    import bmesh
+    mesh, maker = bpy.data.meshes.new("ball"), bmesh.new()
+    bmesh.ops.create_icosphere(maker, subdivisions=3, radius=radius)
+    maker.to_mesh(mesh)
+    maker.free()
+    return mesh
+
+
+def spot_profile(light):
+    """A spot's cone as IES LM-63, 1 cd along its axis.
+
+        f = s t^2 (3 - 2t),   t = (cos - cos o) / ((1 - cos o) blend) in [0, 1],   o half the angle of the cone
+        s = cos up to Blender 3.x, 1 since"""
+    outer = light.spot_size / 2
+    edge, width = math.cos(outer), (1 - math.cos(outer)) * light.spot_blend
+
+    def falloff(angle):
+        t = min(max((math.cos(angle) - edge) / width, 0), 1) if width > 1e-9 else 1
+        return t * t * (3 - 2 * t) * (math.cos(angle) if bpy.app.version < (4, 0, 0) else 1)
+
+    angles = [outer * i / 512 for i in range(513)]
+    end = math.degrees(outer)
+    rows = [(math.degrees(a), max(falloff(a), 0)) for a in angles] + [(end + 1e-3, 0), (max(90, end + 2e-3), 0)]
+    vertical = " ".join(f"{angle:.9g}" for angle, _ in rows)
+    candela = " ".join(f"{value:.9g}" for _, value in rows)
+    return f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {len(rows)} 1 1 2 0 0 0\n1 1 0\n{vertical}\n0\n{candela}\n"
+
+
+def mean_radiance(image):
+    """Mean of an equirectangular picture over all directions: rows count by the cosine of their height."""
+    width, height = image.size
+    if not width or not height:
+        return (0, 0, 0)
+    pixels = np.empty(width * height * 4, np.float32)
+    image.pixels.foreach_get(pixels)
+    rows = pixels.reshape(height, width, 4)[:, :, :3].astype(float)
+    if not image.is_float and image.colorspace_settings.name == "sRGB":
+        rows = np.where(rows <= 0.04045, rows / 12.92, ((rows + 0.055) / 1.055) ** 2.4)
+    rows = np.nan_to_num(rows, nan=0, posinf=0, neginf=0).mean(axis=1)
+    weights = np.cos((np.arange(height) + 0.5) / height * math.pi - math.pi / 2)
+    return (weights[:, None] * rows).sum(axis=0) / weights.sum()
+
+
+def colour_text(colour):
+    colour = [max(float(c), 0) for c in colour]
+    return ",".join(f"{c:.9g}" for c in colour) if max(colour) > 0 else "none"
+
+
+def use_extension(gltf, name):
+    used = gltf.setdefault("extensionsUsed", [])
+    if name not in used:
+        used.append(name)
+
+
+def extension_list(gltf, name):
+    use_extension(gltf, name)
+    return gltf.setdefault("extensions", {}).setdefault(name, {}).setdefault("lights", [])
+
+
+def export_main():
+    try:
+        Exporter(json.loads(sys.argv[sys.argv.index(EXPORT_FLAG) + 1])).run()
+    except Trouble as trouble:
+        sys.exit(f"{trouble}")
+
+
+if __name__ == "__main__":
+    if EXPORT_FLAG in sys.argv:
+        export_main()
+    else:
+        register()

@@ -1,0 +1,115 @@
+"""Renders that go wrong, one after another, and what Blender says of them: run inside Blender for blender_test.py.
+
+    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- wrong|long|passes|animation [FOLDER]
+
+Prints for each render a line: OUTCOME {"what", "error" or "result", "mean"}.
+"""
+import json
+import pathlib
+import sys
+
+import addon_utils
+import bpy
+import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from blender_scenes import base_scene, lamp, pixels_of_result, rectangle, with_shader  # noqa: E402
+
+FOLDER = pathlib.Path(sys.argv[-1])
+
+
+def make_scene():
+    scene = base_scene()
+    scene.render.engine = "NINEFOLD"
+    scene.render.resolution_x, scene.render.resolution_y = 48, 36
+    grey = with_shader("grey", "ShaderNodeBsdfDiffuse", (0.5, 0.5, 0.5))
+    rectangle("floor", grey, 40, 40, (0, 0, 0))
+    rectangle("step", grey, 3, 3, (0, 0, 1))
+    lamp("sun", "SUN", (0, 0, 5), energy=2.0, angle=0.0)
+    scene.ninefold.frames, scene.ninefold.local_clients, scene.ninefold.method = 2, 1, "path-trace"
+    return scene
+
+
+def render(what):
+    outcome = {"what": what}
+    try:
+        outcome["result"] = list(bpy.ops.render.render())
+        outcome["mean"] = pixels_of_result(bpy.context.scene, FOLDER, what.replace(" ", "_")).mean()
+    except RuntimeError as error:
+        outcome["error"] = str(error)
+    print("OUTCOME", json.dumps(outcome), flush=True)
+
+
+def go_wrong(scene):
+    camera, settings = scene.camera, scene.ninefold
+    addon_utils.enable("ninefold_render", default_set=True)  # with preferences
+    preferences = bpy.context.preferences.addons["ninefold_render"].preferences
+
+    def wrong(what, owner, name, value):
+        right = getattr(owner, name)
+        setattr(owner, name, value)
+        render(what)
+        setattr(owner, name, right)
+
+    wrong("no camera", scene, "camera", None)
+    wrong("no perspective", camera.data, "type", "ORTHO")
+    wrong("no square pixels", scene.render, "pixel_aspect_x", 2)
+    wrong("no program", preferences, "master", "/nowhere/ninefold-master")
+    wrong("another program", preferences, "master", "/bin/true")
+    wrong("no end", settings, "frames", 0)
+    wrong("no client", settings, "local_clients", 0)
+    wrong("no key", settings, "listen", "0.0.0.0:4700")
+    wrong("no such option", settings, "more", "--brightness 3")
+    wrong("an open quotation", settings, "more", "--stats 'a")
+    render("all right")
+
+
+def take_long(scene):
+    scene.ninefold.frames, scene.ninefold.seconds = 0, 1000
+    render("long")
+    scene.ninefold.frames, scene.ninefold.seconds = 2, 0
+    render("after that")
+
+
+def give_passes(scene):
+    """Saves the passes, as the compositor gets them, into one .exr."""
+    scene.ninefold.passes = True
+    scene.use_nodes = True
+    tree = scene.node_tree
+    tree.nodes.clear()
+    layers, files = tree.nodes.new("CompositorNodeRLayers"), tree.nodes.new("CompositorNodeOutputFile")
+    files.base_path, files.format.file_format, files.format.color_depth = str(FOLDER), "OPEN_EXR", "32"
+    files.file_slots.clear()
+    for output in [o for o in layers.outputs if o.enabled and o.name not in ("Image", "Alpha")]:
+        files.file_slots.new(output.name)
+        tree.links.new(output, files.inputs[-1])
+    render("passes")
+    values = {}
+    for slot in files.file_slots:
+        image = bpy.data.images.load(str(FOLDER / f"{slot.path}0001.exr"))
+        pixels = np.array(image.pixels[:]).reshape(36, 48, 4)
+        values[slot.path] = pixels[18, 24, :3].tolist()
+    print("PASSES", json.dumps(values), flush=True)
+
+
+def animate(scene):
+    """The sun goes out in the second of three frames, and is back in the third above a floor that got darker."""
+    sun = bpy.data.lights["sun"]
+    for frame, energy in ((1, 2.0), (2, 0.0), (3, 1.0)):
+        sun.energy = energy
+        sun.keyframe_insert("energy", frame=frame)
+    colour = bpy.data.materials["grey"].node_tree.nodes["Diffuse BSDF"].inputs["Color"]
+    for frame, value in ((1, 0.5), (2, 0.5), (3, 0.25)):
+        colour.default_value = (value, value, value, 1)
+        colour.keyframe_insert("default_value", frame=frame)
+    scene.frame_start, scene.frame_end = 1, 3
+    scene.render.filepath = str(FOLDER / "frame")
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+    bpy.ops.render.render(animation=True)
+    means = [float(np.array(bpy.data.images.load(str(FOLDER / f"frame{i:04}.exr")).pixels[:]).reshape(-1, 4)[:, 0].mean())
+             for i in (1, 2, 3)]
+    print("FRAMES", json.dumps(means), flush=True)
+
+
+if __name__ == "__main__":
+    {"wrong": go_wrong, "long": take_long, "passes": give_passes, "animation": animate}[sys.argv[-2]](make_scene())
