@@ -34,12 +34,11 @@ constexpr Flag kPicture[] = {
      "are), or auto, by who wrote the file (default auto; docs/light-units.md)"},
     {"exposure", "EV|auto",
      "brightness of .png files and of what is looked at, -50 to 50, or by the first picture "
-     "itself, held "
-     "from then on (default: what the scene says, else auto)"},
+     "itself, "
+     "held from then on (default: what the scene says, else, and under a picture or sky, auto)"},
     {"tone-map", "NAME",
      "how light becomes the colours of .png files and of what is looked at: srgb (as it is, lamps "
-     "rolled "
-     "off), filmic or agx (default srgb; common/image/tone_map.h)"},
+     "rolled off), filmic or agx (default srgb; common/image/tone_map.h)"},
     {"denoise", "off|on",
      "a last touch of filtering, by no more than a pixel's standard error (default: on in the "
      "window and for .png, else off; off for path tracing, paper and --filter-at clients)"},

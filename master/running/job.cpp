@@ -55,6 +55,12 @@ void tellPhotonScene(const Options& options, const Scene& scene) {
         options.settings.mapDistance * scene.bounds.radius() / 8);
 }
 
+// The scene's own suits its own light, not a sky that the command line puts around it.
+std::optional<float> exposureOf(const Options& options, const Scene& scene) {
+  if (options.autoExposure || options.exposure || scene.environmentMap) return options.exposure;
+  return scene.exposure;
+}
+
 }  // namespace
 
 Job makeJob(const Options& options) {
@@ -77,7 +83,7 @@ Job makeJob(const Options& options) {
                   : FrameShape{grid, layerMaskOf(job.needs, job.settings.method),
                                extraPlanes(options, job.needs)};
   job.sceneRadius = scene.bounds.radius();
-  job.exposure = options.autoExposure || options.exposure ? options.exposure : scene.exposure;
+  job.exposure = exposureOf(options, scene);
   job.firstPhotonRadius = job.settings.photonRadius * scene.bounds.radius();
   std::vector<Blob> blobs = packScene(withPhotonScene(scene, options.photonScene));
   job.sceneHash = hashOf(blobs);
