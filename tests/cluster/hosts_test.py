@@ -67,15 +67,18 @@ class Master(WithSshServer, ClusterTest):
         self.assertEqual([f.name for f in self.remote.iterdir()], [], "no key file was there")
 
     def test_a_client_that_dies_is_started_again_and_the_picture_is_the_same(self):
-        near = self.render("--local-clients", 1, frames=40)
-        master = self.start_master(frames=40)
-        master.waits_for(r"progress: \d+% frame [1-9]")
+        near = self.render("--local-clients", 1)
+        master = self.start_master("--wait-clients", 2)  # so that nothing is rendered before another one comes
+        master.waits_for(r"client 1 is ready")
         (first,) = remote_clients()
         self.send(first, signal.SIGKILL)
         master.waits_for(r"the client on elsewhere ended with .*; starting it again in 1\.0 s")
+        master.waits_for(r"client 2 is ready")
+        other = self.client(self.address_of(master).replace("0.0.0.0", "127.0.0.1"))
         stats = self.finish(master)
+        self.assertEqual(other.ends(), 0, other.text)
         self.assertEqual(stats["image_hash"], near["image_hash"])
-        self.assertEqual(len(stats["clients"]), 2)
+        self.assertEqual([c["name"] for c in stats["clients"]].count("elsewhere"), 2)
 
     def test_a_killed_master_leaves_no_client_on_a_host(self):
         master = self.start_master("--seconds", 1000, frames=None)
