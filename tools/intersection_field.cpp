@@ -25,7 +25,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "ninefold-intersection-field";
 constexpr const char* kHelp =
-    "usage: ninefold-intersection-field SCENE [options]\n\n"
+    "Usage: ninefold-intersection-field SCENE [options]\n\n"
     "Size of a field of lines, and the processor time that its parts take, as JSON. One thread.\n\n"
     "  --edit FILE     a script (docs/script.md): also what all that it has done at its end makes "
     "anew\n"

@@ -1,5 +1,5 @@
-// started_clients.h: the clients that the master starts itself, watches and ends: on its own machine,
-// or on others by ssh (host_clients.h).
+// started_clients.h: the clients that the master starts itself, watches and ends: on its own
+// machine, or on others by ssh (host_clients.h).
 //
 // Each gets the run's one-time key through a pipe. None is left behind whatever happens: the kernel
 // kills a client whose parent is gone, the master or the ssh server, and a client that has lost its

@@ -1,7 +1,9 @@
 """Debian systems in folders: made by debootstrap once for each release, entered by chroot, or booted."""
 import contextlib
+import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -124,7 +126,11 @@ def booted(place):
     try:
         machine = Machine(process)
         machine.until("systemctl is-system-running --wait | grep -Ex 'running|degraded'")
-        yield machine
+        try:
+            yield machine
+        finally:
+            os.kill(int(machine.leader), signal.SIGKILL)  # all of it: nobody writes into the folder any more
+            process.wait(60)
     finally:
         process.kill()
         process.wait()

@@ -105,11 +105,11 @@ def test_machine(machine):
     hashes = set()
     machine.run("echo 127.0.0.1 render-master render1 >> /etc/hosts; hostname > name")
     machine.run(PAGE["lan-master"].splitlines()[0])
-    check(finish(machine, master(machine, "lan-master"), hashes)[0] == "local1", "a master alone renders")
+    check("local1" in finish(machine, master(machine, "lan-master"), hashes), "a master alone renders")
 
     print("== LAN", flush=True)
     running = master(machine, "lan-master", local_clients=0)
-    machine.until("grep -q :125C /proc/net/tcp")  # 4700
+    machine.until("grep -q ' 00000000:125C 00000000:0000 0A ' /proc/net/tcp")  # somebody listens at 4700
     doctor, client = PAGE["lan-client"].splitlines()
     print(machine.run(doctor), flush=True)
     machine.run(client)
@@ -119,8 +119,7 @@ def test_machine(machine):
     machine.run(PAGE["service"])
     for _ in range(2):  # there before its master, and again after it
         check(len(finish(machine, master(machine, "lan-master", local_clients=0), hashes)) == 1, "the service renders")
-    user = machine.until("ps -o user= -p $(systemctl show -P MainPID ninefold-client@render-master:4700)")
-    check(user.strip() == "ninefold", f"the service runs as {user}")
+    machine.until("ps -o user= -p $(systemctl show -P MainPID ninefold-client@render-master:4700) | grep -x ninefold")
     print(machine.run("systemd-analyze security --no-pager ninefold-client@render-master:4700 | tail -n 1"), flush=True)
     machine.run(PAGE["rotate"])
     finish(machine, master(machine, "lan-master", local_clients=0), hashes)

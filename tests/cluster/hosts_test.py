@@ -90,11 +90,12 @@ class Master(WithSshServer, ClusterTest):
 
     def test_a_host_that_refuses_is_asked_again_and_holds_nobody_up(self):
         (self.folder / "hosts").write_text("elsewhere /nowhere/ninefold-client\n")
-        master = self.master(
-            "--local-clients", 1, "--listen", "0.0.0.0:0", "--key-file", "cluster.key", "--hosts", "hosts", "--seconds", 3,
-            frames=None)
+        master = self.master("--local-clients", 1, "--listen", "0.0.0.0:0", "--key-file", "cluster.key", "--hosts", "hosts",
+                             "--seconds", 1000, frames=None)
         master.waits_for(r"the client on elsewhere ended with exit status 127; starting it again")
-        self.finish(master)
+        master.waits_for(r"progress: \d+% frame [1-9]")
+        self.send(master.process.pid, signal.SIGTERM)
+        self.assertEqual(master.ends(), 143)
 
     def test_a_list_that_cannot_be_read_ends_the_master_before_anything_else(self):
         (self.folder / "hosts").write_text("elsewhere\n-oProxyCommand=touch$IFS$HOME/x\n")
