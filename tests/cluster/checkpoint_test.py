@@ -149,7 +149,7 @@ class Checkpoint(ClusterTest):
 
     def test_a_picture_that_cannot_be_written_at_the_end_is_kept_elsewhere(self):
         os.mkdir(self.folder / "away")
-        master = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--size", self.SIZE, "--frames", 100,
+        master = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--size", self.SIZE, "--seconds", 5,
                             "--local-clients", 2, "--output", "away/a.png")
         master.waits_for(r"progress: \d+% frame [1-9]")
         os.rename(self.folder / "away", self.folder / "gone")
@@ -171,8 +171,8 @@ class Checkpoint(ClusterTest):
         self.assertGreater(whole, 3)
 
     def test_a_signal_asks_for_the_picture_and_the_run_goes_on(self):
-        calm = self.render("--local-clients", 2, frames=150)
-        master = self.master("--local-clients", 2, frames=150)
+        calm = self.render("--local-clients", 2, frames=2500)
+        master = self.master("--local-clients", 2, frames=2500)
         master.waits_for(r"progress: \d+% frame [1-9]")
         self.assertFalse(master.picture.exists())
         self.send(master.process.pid, signal.SIGUSR1)
