@@ -1,14 +1,19 @@
-"""Ninefold as a render engine of Blender (3.4 and later). docs/blender.md tells how to install and use it.
+"""Ninefold as a render engine of Blender (3.4 and later).
 
-    F12 ─► render(): .blend copy ─► a Blender without window: glTF ─► ninefold-master ─► .exr ─► passes
+docs/blender.md tells how to install and use it.
 
-The exporter needs a context that render() does not have; in a Blender of its own it has one, and may change the scene so that
-the exporter sees what a render sees. This file is both: the add-on, and what runs there (`export_main`).
+    F12 ─► render(): .blend copy ─► a Blender without window: glTF
+        ─► ninefold-master ─► .exr ─► passes
+
+The exporter needs a context that render() does not have. A Blender of its own has one. There the
+scene may be changed, so that the exporter sees what a render sees. This file is both: the add-on,
+and what runs there (`export_main`).
 
 Units: lamps become W/sr and W/m^2, emission W/(m^2 sr), as Cycles has them.
-Threads: render() runs in a thread of Blender's, or in its main thread without a window. The master's log has a thread here.
-Errors: Trouble, told in one line in Blender's report area. Whatever happens, both programs are ended before render() returns;
-they end by themselves when Blender dies.
+Threads: render() runs in a thread of Blender's, or in its main thread without a window. The
+master's log has a thread here.
+Errors: Trouble, told in one line in Blender's report area. Whatever happens, both programs are
+ended before render() returns. They end by themselves when Blender dies.
 """
 import collections
 import functools

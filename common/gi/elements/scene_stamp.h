@@ -1,6 +1,7 @@
 // scene_stamp.h: a number that tells two states of a scene apart, as far as photons feel them.
 //
-//   where its instances are, what materials and punctual lights are like, which lamps there are
+//   where its instances are, what materials and punctual lights are like, which lamps there are,
+//   and which of them are minor (light/minor_lamps.h)
 //
 // Meshes and images stay as they were read; edits cannot change them.
 //
@@ -14,7 +15,7 @@
 
 namespace ninefold {
 
-// Which lamps' direct light photons bring counts, too.
+// minor: the lamps whose direct light these photons bring.
 uint64_t sceneStamp(const Transport& transport, const MinorLamps& minor);
 
 }  // namespace ninefold

@@ -15,7 +15,8 @@
 // No ray is traced to find where light goes to, but where no line will do: none passes the node (it
 // is much smaller than the lines lie apart), or all begin behind something.
 //
-// Source:  Ren et al. 2005, 5 (indirect irradiance).   Proved: tests/gi/intersection_field_test.cpp.
+// Source:  Ren et al. 2005, 5 (indirect irradiance).
+// Proved:  tests/gi/intersection_field_test.cpp.
 // Threads: const.   Owner: refers to its parts.   Errors: none.
 #pragma once
 
