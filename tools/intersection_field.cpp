@@ -69,7 +69,7 @@ struct Parts {
                                          before == nullptr ? nullptr : before->field.get());
     });
     elements = timed(elementSeconds, [&] {
-      return std::make_unique<SceneElements>(t.scene, t.settings.elementSize * t.radius,
+      return std::make_unique<SceneElements>(t.tracer, t.settings.elementSize * t.radius,
                                              before == nullptr ? nullptr : before->elements.get());
     });
     lines = timed(nodeSeconds, [&] {

@@ -171,9 +171,10 @@ TEST(SceneElements, SayWhenTheyAreTooMany) {
   const int white = b.material(testing::matte(Vec3(0.5f)));
   for (int i = 0; i < 12; ++i) b.quad(white, Vec3(0, 0, i), Vec3(1, 0, 0), Vec3(0, 1, 0));
   const Scene scene = b.build();
+  const Tracer tracer(scene, Isa::automatic);
   const auto said = [&](Metres size) -> std::string {
     try {
-      SceneElements(scene, size, nullptr);
+      SceneElements(tracer, size, nullptr);
     } catch (const Error& error) {
       return error.what();
     }
@@ -187,7 +188,10 @@ TEST(SceneElements, SayWhenTheyAreTooMany) {
 
 class Pool {
  public:
-  Pool() : scene_(roomAndBall(12)), surfaces_(std::make_shared<const SurfaceNumbers>(scene_)) {
+  Pool()
+      : scene_(roomAndBall(12)),
+        tracer_(std::as_const(scene_), Isa::automatic),
+        surfaces_(std::make_shared<const SurfaceNumbers>(scene_)) {
     settings_ = testing::small(Method::selective);
     settings_.photonPool = 4608;
   }
@@ -210,25 +214,26 @@ class Pool {
     return row;
   }
   std::shared_ptr<const ElementLight> digest(const StatePages& pages, const ElementLight* before,
-                                             const Scene& scene) const {
-    auto elements = std::make_shared<const SceneElements>(
-        scene, 0.2f, before != nullptr ? before->elements().get() : nullptr);
-    return std::make_shared<const ElementLight>(pages, GroupPages(groups()), surfaces_, elements,
-                                                ElementRule::linear, before);
+                                             const Tracer& tracer) const {
+    auto elements = sceneElements(tracer, 0.2f, before != nullptr ? before->elements() : nullptr);
+    return std::make_shared<const ElementLight>(tracer, pages, GroupPages(groups()), surfaces_,
+                                                elements, ElementRule::linear, before);
   }
   // E at many points of both sides.
-  std::vector<Irradiance> look(const ElementLight& light) const {
+  std::vector<Irradiance> look(const ElementLight& light, const Tracer& tracer) const {
     std::vector<Irradiance> seen;
     for (uint32_t instance = 0; instance < 2; ++instance)
       for (uint32_t k = 0; k < std::as_const(scene_).meshes[instance].triangles.size(); ++k)
         for (const bool isBack : {false, true})
-          seen.push_back(light.at({instance, k, isBack}, 0.3f, 0.2f));
+          seen.push_back(light.at(tracer, {instance, k, isBack}, 0.3f, 0.2f));
     return seen;
   }
   const Scene& scene() const { return scene_; }
+  const Tracer& tracer() const { return tracer_; }
 
  private:
   Scene scene_;
+  Tracer tracer_;
   std::shared_ptr<const SurfaceNumbers> surfaces_;
   Settings settings_;
 };
@@ -239,7 +244,7 @@ TEST(ElementLight, DigestedAtOnceIsDigestedStepByStep) {
   const GroupPages rows(pool.groups());
   StatePages pages;
   for (uint32_t g = 0; g < 306; ++g) pages.apply(rows.replace(pages, g, pool.row(g)));
-  auto light = pool.digest(pages, nullptr, pool.scene());
+  auto light = pool.digest(pages, nullptr, pool.tracer());
   Scene moved = pool.scene();
   for (const uint64_t step : seedsFrom(1, 8)) {
     const Repeatable repeatable(step);
@@ -247,10 +252,13 @@ TEST(ElementLight, DigestedAtOnceIsDigestedStepByStep) {
       const auto g = static_cast<uint32_t>(hashWords(step, i) % 306);
       pages.apply(rows.replace(pages, g, pool.row(hashWords(step, i, 1))));
     }
-    if (step % 2 == 0) moved.instances[1].toWorld[3].x += 0.0371;
-    light = pool.digest(pages, light.get(), moved);
-    const auto fresh = pool.digest(pages, nullptr, moved);
-    EXPECT_EQ(pool.look(*light), pool.look(*fresh));
+    // By and by through a wall.
+    if (step % 2 == 0) moved.instances[1].toWorld[3].x += 0.1371;
+    const Scene& now = moved;
+    const Tracer after(pool.tracer(), now, {false, true}), late(now, Isa::automatic);
+    light = pool.digest(pages, light.get(), after);
+    const auto fresh = pool.digest(pages, nullptr, late);
+    EXPECT_EQ(pool.look(*light, after), pool.look(*fresh, late));
   }
 }
 
@@ -264,9 +272,10 @@ TEST(ElementLight, LosesNoLight) {
   glm::dvec3 sent(0);
   for (const ElementHit& hit : row.hits) sent += glm::dvec3(unpackFlux(hit.flux));
   for (const ElementRule rule : {ElementRule::linear, ElementRule::buckets}) {
-    auto elements = std::make_shared<const SceneElements>(pool.scene(), 0.2f, nullptr);
-    const ElementLight light(pages, rows, std::make_shared<const SurfaceNumbers>(pool.scene()),
-                             elements, rule, nullptr);
+    auto elements = sceneElements(pool.tracer(), 0.2f, nullptr);
+    const ElementLight light(pool.tracer(), pages, rows,
+                             std::make_shared<const SurfaceNumbers>(pool.scene()), elements, rule,
+                             nullptr);
     glm::dvec3 found(0);
     for (uint32_t instance = 0; instance < 2; ++instance) {
       const Mesh& mesh = std::as_const(pool.scene()).meshes[instance];
@@ -278,7 +287,7 @@ TEST(ElementLight, LosesNoLight) {
                 Vec2((static_cast<float>(i) + 0.5f) / kPoints,
                      unitFloat(static_cast<uint32_t>(hashWords(k, static_cast<uint64_t>(i))))));
             found += double{areaOf(mesh, k)} / kPoints *
-                     glm::dvec3(light.at({instance, k, isBack}, uv.x, uv.y));
+                     glm::dvec3(light.at(pool.tracer(), {instance, k, isBack}, uv.x, uv.y));
           }
         }
     }

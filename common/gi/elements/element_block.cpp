@@ -99,8 +99,9 @@ class Making {
     }
   }
 
-  // The final node of each raw one, and their areas.
-  std::vector<uint32_t> merge(Connected& connected, std::vector<float>& areas) {
+  // The final node of each raw one, their areas and middles.
+  std::vector<uint32_t> merge(Connected& connected, std::vector<float>& areas,
+                              std::vector<Vec3>& positions) {
     std::unordered_map<uint64_t, double> areaOfCell;
     for (uint32_t i = 0; i < raw_.size(); ++i)
       if (isFine(raw_[i])) areaOfCell[cellOf(raw_[i], 1 + connected.find(i))] += raw_[i].area;
@@ -108,6 +109,7 @@ class Making {
     std::unordered_map<uint64_t, uint32_t> nodes;
     std::vector<uint32_t> final(raw_.size());
     std::vector<double> sums;
+    std::vector<DVec3> moments;
     for (uint32_t i = 0; i < raw_.size(); ++i) {
       const auto fresh = static_cast<uint32_t>(sums.size());
       final[i] = fresh;
@@ -116,10 +118,15 @@ class Making {
         if (areaOfCell[cell] < least) cell = cellOf(raw_[i], 0);
         final[i] = nodes.try_emplace(cell, fresh).first->second;
       }
-      if (final[i] == fresh) sums.push_back(0);
-      sums[final[i]] += raw_[i].area;
+      if (final[i] == fresh) {
+        sums.push_back(0), moments.emplace_back(0);
+        positions.push_back(raw_[i].position);
+      }
+      sums[final[i]] += raw_[i].area, moments[final[i]] += raw_[i].area * DVec3(raw_[i].position);
     }
     areas.assign(sums.begin(), sums.end());
+    for (size_t node = 0; node < sums.size(); ++node)
+      if (sums[node] > 0) positions[node] = Vec3(moments[node] / sums[node]);
     return final;
   }
 
@@ -182,11 +189,17 @@ ElementBlock::ElementBlock(const Scene& scene, const Mesh& mesh, const DMat3& li
     : mesh_(&mesh), linear_(linear), size_(size), twins_(mesh) {
   Making making(mesh, linear, size, twins_);
   making.cut(cuts_, firstPoint_);
+  uint32_t elements = 0;
+  for (size_t k = 0; k < cuts_.size(); ++k) {
+    firstElement_.push_back(elements);
+    elements += uint32_t{cuts_[k]} * cuts_[k];
+    triangleAreas_.push_back(cornersIn(mesh, linear, mesh.triangles[k]).area());
+  }
   nodeOf_ = making.name(cuts_);
   const uint32_t most = nodeOf_.empty() ? 0 : *std::max_element(nodeOf_.begin(), nodeOf_.end());
   Connected connected(size_t{most} + 1);
   making.survey(cuts_, firstPoint_, nodeOf_, connected);
-  const std::vector<uint32_t> merged = making.merge(connected, areas_);
+  const std::vector<uint32_t> merged = making.merge(connected, areas_, positions_);
   for (uint32_t& node : nodeOf_) node = merged[node];
   const Material& material = scene.materials[static_cast<size_t>(mesh.material)];
   if (material.alphaMode == AlphaMode::mask) leaveOutHoles(scene, mesh);
@@ -196,23 +209,23 @@ ElementBlock::ElementBlock(const Scene& scene, const Mesh& mesh, const DMat3& li
 // tell.
 void ElementBlock::leaveOutHoles(const Scene& scene, const Mesh& mesh) {
   std::vector<double> areas(areas_.size(), 0);
-  for (uint32_t k = 0; k < cuts_.size(); ++k) {
-    const uint32_t rows = kHoleRows * cuts_[k];
-    if (rows == 0) continue;
-    const float step = 1 / static_cast<float>(rows);
-    const double parts = static_cast<double>(rows) * static_cast<double>(rows);
-    const double area = double{cornersIn(mesh, linear_, mesh.triangles[k]).area()} / parts;
-    for (uint32_t j = 0; j < rows; ++j)
-      for (uint32_t i = 0; i < 2 * (rows - j) - 1; ++i) {
-        const float middle = i % 2 == 0 ? 1 / 3.0f : 2 / 3.0f;
-        const float u = step * (static_cast<float>(i / 2) + middle);
-        const float v = step * (static_cast<float>(j) + middle);
-        if (isOpenAt(scene, mesh, k, u, v)) continue;
-        const ElementPlace at = within(k, u, v);
-        for (size_t c = 0; c < 3; ++c) areas[at.nodes[c]] += double{at.weights[c]} * area;
-      }
-  }
+  forEachElement([&](const Element& e) {
+    const double share = double{e.area} / (kHoleRows * kHoleRows);
+    forEachMiddle(kHoleRows, [&](const std::array<float, 3>& weights) {
+      const Vec2 at = e.at(weights);
+      if (isOpenAt(scene, mesh, e.triangle, at.x, at.y)) return;
+      for (size_t c = 0; c < 3; ++c) areas[e.nodes[c]] += double{weights[c]} * share;
+    });
+  });
   areas_.assign(areas.begin(), areas.end());
+}
+
+std::array<uint32_t, 3> ElementBlock::nodesOf(uint32_t triangle, const Cell& cell) const {
+  const auto [i, j, isUpper] = cell;
+  const uint32_t* points = nodeOf_.data() + firstPoint_[triangle];
+  const auto node = [&](uint32_t a, uint32_t b) { return points[pointOf(a, b, cuts_[triangle])]; };
+  if (isUpper) return {node(i + 1, j + 1), node(i, j + 1), node(i + 1, j)};
+  return {node(i, j), node(i + 1, j), node(i, j + 1)};
 }
 
 ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
@@ -234,13 +247,15 @@ ElementPlace ElementBlock::within(uint32_t triangle, float u, float v) const {
   const uint32_t i = std::min(static_cast<uint32_t>(x), n - 1 - j);
   const float fx = std::clamp(x - static_cast<float>(i), 0.0f, 1.0f);
   const float fy = std::clamp(y - static_cast<float>(j), 0.0f, 1.0f);
-  const uint32_t* points = nodeOf_.data() + firstPoint_[triangle];
-  const auto node = [&](uint32_t di, uint32_t dj) { return points[pointOf(i + di, j + dj, n)]; };
   const float left = 1 - fx - fy;
-  if (left >= 0) return {{node(0, 0), node(1, 0), node(0, 1)}, {left, fx, fy}};
-  if (i + j + 2 > n)  // past the long side by rounding
-    return {{node(0, 0), node(1, 0), node(0, 1)}, {0, fx / (fx + fy), fy / (fx + fy)}};
-  return {{node(1, 1), node(0, 1), node(1, 0)}, {-left, 1 - fx, 1 - fy}};
+  const Cell cell{i, j, left < 0 && i + j + 2 <= n};
+  const uint32_t element = firstElement_[triangle] + j * (2 * n - j) + 2 * i + cell.isUpper;
+  std::array<float, 3> weights = {left, fx, fy};
+  if (cell.isUpper)
+    weights = {-left, 1 - fx, 1 - fy};
+  else if (left < 0)  // past the long side by rounding
+    weights = {0, fx / (fx + fy), fy / (fx + fy)};
+  return {nodesOf(triangle, cell), weights, triangle, element};
 }
 
 }  // namespace ninefold

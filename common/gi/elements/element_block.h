@@ -12,6 +12,8 @@
 //   twin       A triangle that is there twice, either way round: a ray meets one of the two. The
 //              later one has no elements, and its light is the first one's.
 //
+// What else is in the scene makes no difference here: node_parts.h.
+//
 // A point of an element stands for its three nodes in proportion to its barycentrics w. A photon
 // leaves w Phi at each, and E at a point is sum w Phi_node / area_node. So no light is lost, and a
 // constant E comes out constant in the mean.
@@ -37,8 +39,34 @@ namespace ninefold {
 struct ElementPlace {
   std::array<uint32_t, 3> nodes;
   std::array<float, 3> weights;
+  uint32_t triangle = 0;  // that the element is cut from: of twins, the first
+  uint32_t element = 0;   // its number among all of the block
   bool isTurned = false;  // the elements' front is the triangle's back
 };
+
+struct Element {
+  uint32_t number, triangle;
+  std::array<uint32_t, 3> nodes;
+  std::array<Vec2, 3> corners;  // barycentrics in the triangle, in the order of the nodes
+  float area;                   // holes included [m^2]
+
+  Vec2 at(const std::array<float, 3>& weights) const {
+    return weights[0] * corners[0] + weights[1] * corners[1] + weights[2] * corners[2];
+  }
+};
+
+// visit(weights) for the middles of rows^2 alike parts of an element.
+template <typename Visit>
+void forEachMiddle(uint32_t rows, const Visit& visit) {
+  const float step = 1 / static_cast<float>(rows);
+  for (uint32_t j = 0; j < rows; ++j)
+    for (uint32_t i = 0; i < 2 * (rows - j) - 1; ++i) {
+      const float third = i % 2 == 0 ? 1 / 3.0f : 2 / 3.0f;
+      const float u = step * (static_cast<float>(i / 2) + third);
+      const float v = step * (static_cast<float>(j) + third);
+      visit(std::array<float, 3>{1 - u - v, u, v});
+    }
+}
 
 class ElementBlock {
  public:
@@ -54,23 +82,60 @@ class ElementBlock {
   }
   size_t nodes() const { return areas_.size(); }
   size_t points() const { return nodeOf_.size(); }
+  Metres size() const { return size_; }
   float area(uint32_t node) const { return areas_[node]; }  // [m^2]
+  // Where it is, in the scene's axes, from the instance's origin. Of merged ones, the middle.
+  Vec3 position(uint32_t node) const { return positions_[node]; }
   // u, v: barycentrics of the second and third corner.
   ElementPlace at(uint32_t triangle, float u, float v) const;
+  size_t triangles() const { return cuts_.size(); }
+  uint32_t cuts(uint32_t triangle) const { return cuts_[triangle]; }
+  template <typename Visit>
+  void forEachElement(uint32_t triangle, const Visit& visit) const;  // visit(element)
+  template <typename Visit>
+  void forEachElement(const Visit& visit) const {  // by rising numbers
+    for (uint32_t k = 0; k < cuts_.size(); ++k) forEachElement(k, visit);
+  }
 
  private:
+  // Points (i, j), (i+1, j), (i, j+1), or, if it is upper, (i+1, j+1), (i, j+1), (i+1, j).
+  struct Cell {
+    uint32_t i, j;
+    bool isUpper;
+  };
   ElementPlace within(uint32_t triangle, float u, float v) const;
+  std::array<uint32_t, 3> nodesOf(uint32_t triangle, const Cell& cell) const;
   void leaveOutHoles(const Scene& scene, const Mesh& mesh);
 
   const Mesh* mesh_;
   DMat3 linear_;
   Metres size_;
   // Points of a triangle's grid: row j has those at v = j/n, u = i/n.
-  std::vector<uint16_t> cuts_;        // n, by triangle; 0: it is a twin
-  std::vector<uint32_t> firstPoint_;  // by triangle
-  std::vector<uint32_t> nodeOf_;      // by point
-  std::vector<float> areas_;          // by node
+  std::vector<uint16_t> cuts_;          // n, by triangle; 0: it is a twin
+  std::vector<uint32_t> firstPoint_;    // by triangle
+  std::vector<uint32_t> firstElement_;  // by triangle
+  std::vector<float> triangleAreas_;    // likewise [m^2]
+  std::vector<uint32_t> nodeOf_;        // by point
+  std::vector<float> areas_;            // by node
+  std::vector<Vec3> positions_;         // likewise
   Twins twins_;
 };
+
+template <typename Visit>
+void ElementBlock::forEachElement(uint32_t triangle, const Visit& visit) const {
+  const uint32_t n = cuts_[triangle];
+  const float step = 1 / static_cast<float>(n);
+  uint32_t number = firstElement_[triangle];
+  for (uint32_t j = 0; j < n; ++j)
+    for (uint32_t c = 0; c < 2 * (n - j) - 1; ++c) {
+      const Cell cell{c / 2, j, c % 2 == 1};
+      const Vec2 low = step * Vec2(cell.i, cell.j), high = step * Vec2(cell.i + 1, cell.j + 1);
+      const Vec2 right(high.x, low.y), above(low.x, high.y);
+      visit(Element{number++, triangle, nodesOf(triangle, cell),
+                    cell.isUpper ? std::array<Vec2, 3>{high, above, right}
+                                 : std::array<Vec2, 3>{low, right, above},
+                    step * step * triangleAreas_[triangle]});
+    }
+}
 
 }  // namespace ninefold

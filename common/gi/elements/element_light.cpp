@@ -24,27 +24,7 @@ bool hasAny(const std::vector<bool>& wanted) {
 
 }  // namespace
 
-SceneElements::SceneElements(const Scene& scene, Metres size, const SceneElements* before)
-    : meshes_(scene.meshes) {
-  size_t nodes = 0, points = 0;
-  for (size_t i = 0; i < scene.instances.size(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
-    const DMat3 linear(instance.toWorld);
-    const bool isKept =
-        before != nullptr && i < before->instances() && before->block(i).isOf(mesh, linear, size);
-    blocks_.push_back(isKept ? before->blocks_[i]
-                             : std::make_shared<const ElementBlock>(scene, mesh, linear, size));
-    nodes += blocks_.back()->nodes(), points += blocks_.back()->points();
-    if (nodes > ElementBlock::kMostNodes || points > ElementBlock::kMostPoints)
-      fail(
-          "the scene has more than {} corners of mesh elements: raise --element-size, or use "
-          "another method",
-          ElementBlock::kMostNodes);
-  }
-}
-
-ElementLight::ElementLight(const StatePages& pages, const PhotonRows& rows,
+ElementLight::ElementLight(const Tracer& tracer, const StatePages& pages, const PhotonRows& rows,
                            std::shared_ptr<const SurfaceNumbers> surfaces,
                            std::shared_ptr<const SceneElements> elements, ElementRule rule,
                            const ElementLight* before)
@@ -65,8 +45,8 @@ ElementLight::ElementLight(const StatePages& pages, const PhotonRows& rows,
     const bool isSame = goesOn && rows_.isShared(pages_, before->pages_, r);
     if (isSame && !hasAny(fresh)) continue;
     if (goesOn && !isSame)
-      if (const auto old = rows_.read(before->pages_, r)) add(*old, -1, kept);
-    if (const auto now = rows_.read(pages_, r)) add(*now, 1, isSame ? fresh : all);
+      if (const auto old = rows_.read(before->pages_, r)) add(tracer, *old, -1, kept);
+    if (const auto now = rows_.read(pages_, r)) add(tracer, *now, 1, isSame ? fresh : all);
   }
 }
 
@@ -78,7 +58,7 @@ ElementLight::Wanted ElementLight::begin(const ElementLight* before) {
     if (before != nullptr && elements_->isShared(*before->elements_, i))
       sums_[i] = before->sums_[i], isOwn_[i] = fresh[i] = false;
     else
-      sums_[i] = std::make_shared<Sums>(kPerNode * elements_->block(i).nodes(), 0);
+      sums_[i] = std::make_shared<Sums>(kPerPart * elements_->parts(i).size(), 0);
   }
   return fresh;
 }
@@ -89,43 +69,45 @@ ElementLight::Sums& ElementLight::own(uint32_t instance) {
   return *sums_[instance];
 }
 
-void ElementLight::add(const PhotonRow& row, int64_t sign, const Wanted& wanted) {
+void ElementLight::add(const Tracer& tracer, const PhotonRow& row, int64_t sign,
+                       const Wanted& wanted) {
   if (!hasAny(wanted)) return;
   for (const ElementHit& hit : row.hits) {
     if (!surfaces_->isThere(hit.surface)) continue;
     const SurfaceNumbers::Surface surface = surfaces_->surfaceOf(hit.surface);
     if (!wanted[surface.instance]) continue;
-    const ElementPlace at =
-        place(surface, static_cast<float>(hit.u) / 65535, static_cast<float>(hit.v) / 65535);
+    const PartPlace at = place(tracer, surface, static_cast<float>(hit.u) / 65535,
+                               static_cast<float>(hit.v) / 65535);
     const Flux flux = unpackFlux(hit.flux);
     Sums& sums = own(surface.instance);
     for (size_t k = 0; k < 3; ++k) {
       if (at.weights[k] == 0) continue;
-      int64_t* of = sums.data() + kPerNode * at.nodes[k] + (surface.isBack != at.isTurned ? 3 : 0);
+      int64_t* of = sums.data() + kPerPart * at.parts[k];
       const double weight = double{at.weights[k]};
       for (int c = 0; c < 3; ++c) of[c] += sign * toFixed(weight * double{flux[c]}, quantum_);
     }
   }
 }
 
-ElementPlace ElementLight::place(const SurfaceNumbers::Surface& surface, float u, float v) const {
-  ElementPlace at = elements_->block(surface.instance).at(surface.triangle, u, v);
+PartPlace ElementLight::place(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,
+                              float v) const {
+  PartPlace at = elements_->at(tracer, surface, u, v);
   if (rule_ == ElementRule::linear) return at;
   const auto nearest = std::max_element(at.weights.begin(), at.weights.end());
-  const auto k = static_cast<size_t>(nearest - at.weights.begin());
-  return {{at.nodes[k], at.nodes[k], at.nodes[k]}, {1, 0, 0}, at.isTurned};
+  const uint32_t part = at.parts[static_cast<size_t>(nearest - at.weights.begin())];
+  return {{part, part, part}, {1, 0, 0}};
 }
 
-Irradiance ElementLight::at(const SurfaceNumbers::Surface& surface, float u, float v) const {
-  const ElementPlace there = place(surface, u, v);
-  const ElementBlock& block = elements_->block(surface.instance);
+Irradiance ElementLight::at(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,
+                            float v) const {
+  const PartPlace there = place(tracer, surface, u, v);
+  const NodeParts& parts = elements_->parts(surface.instance);
   const Sums& sums = *sums_[surface.instance];
   Irradiance e(0);
   for (size_t k = 0; k < 3; ++k) {
-    const float area = block.area(there.nodes[k]);
+    const float area = parts.area(there.parts[k]);
     if (there.weights[k] == 0 || !(area > 0)) continue;
-    const int64_t* of =
-        sums.data() + kPerNode * there.nodes[k] + (surface.isBack != there.isTurned ? 3 : 0);
+    const int64_t* of = sums.data() + kPerPart * there.parts[k];
     const float scale = there.weights[k] / area;
     for (int c = 0; c < 3; ++c) e[c] += scale * static_cast<float>(fromFixed(of[c], quantum_));
   }
@@ -136,7 +118,8 @@ void ElementLight::addTo(const Tracer& tracer, Receivers& receivers) const {
   for (size_t i = 0; i < receivers.size(); ++i) {
     const uint32_t object = receivers.object[i], triangle = receivers.triangle[i];
     const bool isBack = glm::dot(receivers.ng(i), tracer.frontNormal(object, triangle)) < 0;
-    receivers.addIrradiance(i, at({object, triangle, isBack}, receivers.u[i], receivers.v[i]));
+    receivers.addIrradiance(i,
+                            at(tracer, {object, triangle, isBack}, receivers.u[i], receivers.v[i]));
   }
 }
 

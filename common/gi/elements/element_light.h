@@ -1,10 +1,11 @@
 // element_light.h: the light that all rows leave in the mesh elements, ready to be asked.
 //
-//   Phi_node  = sum over hits of w Phi        whole numbers of the quantum u (state/fixed_point.h)
-//   E(x)      = sum over the three nodes at x of w Phi_node / A_node     [W/m^2]
+//   Phi_part  = sum over hits of w Phi        whole numbers of the quantum u (state/fixed_point.h)
+//   E(x)      = sum over the three parts at x of w Phi_part / A_part     [W/m^2]
 //
-// with w the barycentrics in the element (element_block.h), both sides of a surface apart. By
-// buckets, as published: a photon and a point have the nearest node alone.
+// with w the barycentrics in the element (element_block.h), and those parts of its three nodes that
+// x sees (node_parts.h), both sides of a surface apart. By buckets, as published: a photon and a
+// point have the nearest node alone.
 //
 // Sums of whole numbers do not depend on their order. So what changed is taken away and added, and
 // the sums are those of a fresh start to the last bit.
@@ -17,55 +18,42 @@
 #include <memory>
 #include <vector>
 
-#include "common/gi/elements/element_block.h"
 #include "common/gi/elements/photon_rows.h"
+#include "common/gi/elements/scene_elements.h"
 #include "common/gi/elements/surface_numbers.h"
 #include "common/gi/eye/receivers.h"
 #include "common/gi/method/method.h"
 
 namespace ninefold {
 
-// The elements of all instances: a function of the scene and h. Blocks of `before` are used again.
-class SceneElements {
- public:
-  SceneElements(const Scene& scene, Metres size, const SceneElements* before);
-
-  size_t instances() const { return blocks_.size(); }
-  const ElementBlock& block(size_t instance) const { return *blocks_[instance]; }
-  bool isShared(const SceneElements& other, size_t instance) const {
-    return blocks_[instance] == other.blocks_[instance];
-  }
-
- private:
-  SharedList<Mesh> meshes_;  // so that no other mesh takes the place of one
-  std::vector<std::shared_ptr<const ElementBlock>> blocks_;
-};
-
 class ElementLight : public MethodState {
  public:
-  // `before`: of other pages or another state of the same scene, or null: it saves work alone.
-  ElementLight(const StatePages& pages, const PhotonRows& rows,
+  // `tracer`: of the scene that the elements are of. `before`: of other pages or another state of
+  // the same scene, or null: it saves work alone.
+  ElementLight(const Tracer& tracer, const StatePages& pages, const PhotonRows& rows,
                std::shared_ptr<const SurfaceNumbers> surfaces,
                std::shared_ptr<const SceneElements> elements, ElementRule rule,
                const ElementLight* before);
 
   const std::shared_ptr<const SceneElements>& elements() const { return elements_; }
-  Irradiance at(const SurfaceNumbers::Surface& surface, float u, float v) const;
+  Irradiance at(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,
+                float v) const;
   // Adds E to receivers.
   void addTo(const Tracer& tracer, Receivers& receivers) const;
 
  private:
-  static constexpr size_t kPerNode = 6;  // R, G, B in front; the same on the back
+  static constexpr size_t kPerPart = 3;  // R, G, B
   using Sums = std::vector<int64_t>;     // of one instance
   using Wanted = std::vector<bool>;      // by instance
 
   // Takes over from `before` the sums of instances that are the same, and tells the others.
   Wanted begin(const ElementLight* before);
   // Adds a row's hits, `sign` times, to the instances that are wanted.
-  void add(const PhotonRow& row, int64_t sign, const Wanted& wanted);
+  void add(const Tracer& tracer, const PhotonRow& row, int64_t sign, const Wanted& wanted);
   Sums& own(uint32_t instance);
 
-  ElementPlace place(const SurfaceNumbers::Surface& surface, float u, float v) const;
+  PartPlace place(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,
+                  float v) const;
 
   StatePages pages_;
   const PhotonRows rows_;

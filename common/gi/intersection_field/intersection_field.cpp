@@ -25,9 +25,8 @@ IntersectionField::IntersectionField(const Transport& transport, const Intersect
       stamp_(sceneStamp(transport, {})),
       lampFlux_(fluxOfLamps(transport.emitters)),
       field_(transport.scene, transport.settings, begun == nullptr ? nullptr : &begun->field_),
-      elements_(std::make_shared<const SceneElements>(
-          transport.scene, transport.settings.elementSize * transport.radius,
-          begun == nullptr ? nullptr : begun->elements_.get())),
+      elements_(sceneElements(transport.tracer, transport.settings.elementSize * transport.radius,
+                              begun == nullptr ? nullptr : begun->elements_)),
       lines_(field_, transport.scene, *elements_, begun == nullptr ? nullptr : &begun->field_,
              begun == nullptr ? nullptr : begun->elements_.get(),
              begun == nullptr ? nullptr : &begun->lines_),
@@ -92,7 +91,7 @@ PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_
 
 std::shared_ptr<const MethodState> IntersectionField::digest(const StatePages& pages,
                                                              const MethodState* before) const {
-  return std::make_shared<const ElementLight>(pages, rows_, surfaces_, elements_,
+  return std::make_shared<const ElementLight>(t_.tracer, pages, rows_, surfaces_, elements_,
                                               t_.settings.elementRule,
                                               static_cast<const ElementLight*>(before));
 }

@@ -83,11 +83,11 @@ StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_
 std::shared_ptr<const MethodState> Selective::digest(const StatePages& pages,
                                                      const MethodState* before) const {
   const auto* earlier = static_cast<const ElementLight*>(before);
-  const SceneElements* known = earlier == nullptr ? nullptr : earlier->elements().get();
-  auto elements =
-      std::make_shared<const SceneElements>(t_.scene, t_.settings.elementSize * t_.radius, known);
-  return std::make_shared<const ElementLight>(
-      pages, GroupPages(groups_), surfaces_, std::move(elements), t_.settings.elementRule, earlier);
+  auto elements = sceneElements(t_.tracer, t_.settings.elementSize * t_.radius,
+                                earlier == nullptr ? nullptr : earlier->elements());
+  return std::make_shared<const ElementLight>(t_.tracer, pages, GroupPages(groups_), surfaces_,
+                                              std::move(elements), t_.settings.elementRule,
+                                              earlier);
 }
 
 void Selective::query(const FrameLight& frameLight, const ReceiverSamples& samples,

@@ -1,0 +1,57 @@
+// scene_elements.h: the mesh elements of all instances, and what stands on them: a function of the
+// scene as it is now, and of h.
+//
+// After an edit only those elements are looked at anew that the box of something meets which moved,
+// where it was or where it is.
+//
+// Threads: const after construction.   Owner: shares the scene's meshes.
+// Errors:  throws Error if there are too many elements.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/gi/elements/node_parts.h"
+
+namespace ninefold {
+
+class SceneElements {
+ public:
+  // `before`: of another state of the scene, or null: it saves work alone.
+  SceneElements(const Tracer& tracer, Metres size, const SceneElements* before);
+
+  // Whether it would come out the same.
+  bool isOf(const Tracer& tracer, Metres size) const;
+  size_t instances() const { return instances_.size(); }
+  const ElementBlock& block(size_t instance) const { return *instances_[instance].block; }
+  const NodeParts& parts(size_t instance) const { return *instances_[instance].parts; }
+  // What lies there, and what stands on it, is the same.
+  bool isShared(const SceneElements& other, size_t instance) const {
+    return instances_[instance].parts == other.instances_[instance].parts;
+  }
+  // `tracer`: of a scene that is the same around the instance.
+  PartPlace at(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,
+               float v) const {
+    return parts(surface.instance).at(tracer, block(surface.instance), surface, u, v);
+  }
+
+ private:
+  struct InstanceElements {
+    DMat4 toWorld;
+    Bounds box;  // in the scene
+    std::shared_ptr<const ElementBlock> block;
+    std::shared_ptr<const NodeParts> parts;
+  };
+  void makeBlocks(const Scene& scene, const SceneElements* before);
+  std::vector<Bounds> boxesOfChanges(const SceneElements& before) const;
+
+  SharedList<Mesh> meshes_;  // so that no other mesh takes the place of one
+  Metres size_;
+  std::vector<InstanceElements> instances_;
+};
+
+// `before` itself, if it is what would be made.
+std::shared_ptr<const SceneElements> sceneElements(
+    const Tracer& tracer, Metres size, const std::shared_ptr<const SceneElements>& before);
+
+}  // namespace ninefold
