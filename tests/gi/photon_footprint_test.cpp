@@ -70,8 +70,7 @@ TEST(PhotonFootprint, WallsAcrossDoNotCountSlopesDo) {
 // A sheet on a floor, a thousandth of r above it: the light that falls on the sheet is its alone.
 TEST(PhotonFootprint, WhatLiesUnderASheetTakesNoShare) {
   SceneBuilder b = square();
-  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-1, 5e-4f, -1), Vec3(0, 0, 2),
-         Vec3(1, 0, 0));
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-1, 5e-4f, -1), Vec3(0, 0, 2), Vec3(1, 0, 0));
   EXPECT_NEAR(footprint(b, Vec3(-0.5f, 5e-4f, 0), Vec3(0, 1, 0), 0.4f), 1, 1e-3);
   // Partly on the sheet, partly beside it: neither is lost.
   EXPECT_NEAR(footprint(b, Vec3(-0.1f, 5e-4f, 0), Vec3(0, 1, 0), 0.5f), 1, 1e-3);
