@@ -26,9 +26,8 @@
 //
 // Source:  Dmitriev, Brabec, Myszkowski and Seidel 2002.
 // Proved:  tests/gi (all tests over the table of methods; selective_test.cpp).
-// Fails:   light that has bounced is blurred over an element; where a wall stands on an element,
-//          light leaks under it. Where a thing stands on an element, what it covers counts as area,
-//          and the rest of the element is too dark by as much.
+// Fails:   light that has bounced is blurred over an element, on its side of what stands there
+//          (node_parts.h).
 // Threads, owner, errors: as method.h says.
 #pragma once
 
