@@ -80,52 +80,6 @@ TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
   }
 }
 
-// Every method, with its state as at rest.
-std::vector<Bytes> renderAtRest(const std::shared_ptr<const TracedScene>& scene, Method method) {
-  RenderJob job(scene, 1, smallPicture(*scene->scene, method), {}, 1);
-  FrameKey key;
-  key.photonRadius = 0.05f;
-  StatePages state;
-  if (factsOf(method).state != nullptr) key.state = 1, state = job.stateAtRest(0);
-  std::vector<Bytes> tiles;
-  for (const uint32_t phase : {0u, 4u})
-    tiles.push_back(job.run(
-                           key, {0, phase, 0}, 1, 1, 0, [] { return Time(); }, state)
-                        .result.encoded);
-  return tiles;
-}
-
-// The instances of that name, turned at the top against the foot.
-SceneEdit twistOf(const Scene& scene, const std::string& name) {
-  SceneEdit edit;
-  for (const Instance& instance : scene.instances) {
-    if (instance.name != name) continue;
-    Bounds bounds;
-    for (const Vec3& p : scene.meshes[static_cast<size_t>(instance.mesh)].positions)
-      bounds.add(worldPoint(instance.toWorld, p));
-    const Twist twist{DVec3(bounds.centre()), double{bounds.low.y}, double{bounds.high.y}, 0.7};
-    edit.shapes = twisted(scene, static_cast<uint32_t>(instance.mesh), instance.toWorld, twist);
-  }
-  return edit;
-}
-
-TEST(Edits, ADeformedSceneGivesTheBytesOfOneThatWasReadSo) {
-  const Scene read = readScene(NINEFOLD_SCENES "/cornell.glb");
-  const SceneEdit edit = twistOf(read, "tall block");
-  const auto asRead =
-      std::make_shared<const TracedScene>(std::make_shared<const Scene>(read), Isa::automatic);
-  const auto deformed = std::make_shared<const TracedScene>(*asRead, edit);
-  Scene other = edited(read, edit);
-  ASSERT_EQ(other.bounds.low, read.bounds.low);
-  for (size_t i = 0; i < other.meshes.size(); ++i) other.meshes[i].shape = 0;
-  const auto readSo =
-      std::make_shared<const TracedScene>(std::make_shared<const Scene>(other), Isa::automatic);
-  for (const MethodFacts& by : allMethods()) {
-    EXPECT_EQ(renderAtRest(deformed, by.method), renderAtRest(readSo, by.method)) << by.name;
-    EXPECT_NE(renderAtRest(deformed, by.method), renderAtRest(asRead, by.method)) << by.name;
-  }
-}
-
 // The other order of building: edited first, traced in one hierarchy.
 TEST(Edits, PartsOfTheirOwnSeeWhatOneHierarchySees) {
   const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
