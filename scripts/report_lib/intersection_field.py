@@ -79,14 +79,16 @@ def _script(context, event):
 
 
 def _add_interactions(context, section):
-    sizes = Table("field_beside_theirs", ["scene", "lines", "triangles", "lamps", "field [MB]", "V [ms]", "indirect light [ms]", "all [ms]"])
+    sizes = Table("field_beside_theirs", ["scene", "lines", "triangles", "lamps", "field [MB]", "V [ms]", "indirect light [ms]",
+                                          "all [ms]"])
     for name, values in THEIR_SIZES.items():
         sizes.rows.append([f"theirs, {name}", "76 x 127", *[figure(v) if isinstance(v, float) else str(v) for v in values]])
     rates = Table("field_interactions", ["scene", "interaction", "lines [ms]", "lines of nodes [ms]", "V [ms]", "photons of a frame [ms]",
                                          "a second, one thread", "theirs, scenes 1, 2, 3"])
     for name, events in INTERACTIONS.items():
         for interaction, event in events.items():
-            made = context.programs.intersection_field(shipped(name).file, "--edit", _script(context, event), *METHOD, *_grid(19, 32), *ROOM)
+            made = context.programs.intersection_field(shipped(name).file, "--edit", _script(context, event), *METHOD, *_grid(19, 32),
+                                                       *ROOM)
             edit = made["edit"]
             photons = IN_MOTION * made["photon_seconds"] + made["digest_seconds"]
             parts = [edit["field_seconds"] + edit["element_seconds"], edit["node_seconds"], edit["lamp_seconds"], photons]

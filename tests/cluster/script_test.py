@@ -62,7 +62,7 @@ class Deformation(Pictures):
         self.assertEqual(len(set(twisted)), 3)
         master = self.start(BIN / "ninefold-master", cornell, "--size", self.SIZE, "--local-clients", 2, "--wait-clients", 2,
                             "--script", "s.json", "--output", "b.#.png")
-        master.waits_for("the shape of 'tall block' changes")
+        master.waits_for("the shape of '.*' changes")
         self.send(master.children()[0], signal.SIGKILL)
         self.assertEqual(master.ends(), 0, master.text)
         self.assertTrue(self.pictures("b.*.png") == twisted)
