@@ -38,12 +38,12 @@ struct KeepBlob {
 struct BuildScene {
   uint32_t load = 0;
 };
-// The scene as it was fetched has changed: jobs from here on see it so. `moving` as in msg::Edit.
-// Answered by sceneFailed() if that cannot be.
+// The scene as it was fetched has changed: jobs from here on see it so. `moving` and `more` as in
+// msg::Edit. Answered by sceneFailed() if that cannot be.
 struct EditScene {
   uint32_t load = 0;
   SceneEdit edit;
-  bool moving = false;
+  bool moving = false, more = false;
 };
 // Back to the scene as it was fetched.
 struct RestoreScene {

@@ -46,15 +46,18 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
       settings(its),
       filter(delivery.filter),
       layerMask(layerMaskOf(needsOf(*scene->scene, settings.environment), settings.method)),
-      begun(!scene->begun ? nullptr
-            : before != nullptr && before->scene->begun == scene->begun &&
-                    differInViewAlone(before->settings, settings)
-                ? before->begun
-                : std::make_shared<const Renderer>(scene->begun->tracer, settings)),
+      begun(
+          !scene->begun ? nullptr
+          : before != nullptr && before->scene->begun == scene->begun &&
+                  differInViewAlone(before->settings, settings)
+              ? before->begun
+              : std::make_shared<const Renderer>(scene->begun->tracer, settings, nullptr,
+                                                 before != nullptr ? &before->renderer : nullptr)),
       renderer(before != nullptr && before->scene == scene &&
                        differInViewAlone(before->settings, settings)
                    ? Renderer(before->renderer, settings)
-                   : Renderer(scene->tracer, settings, begun.get())),
+                   : Renderer(scene->tracer, settings, begun.get(),
+                              before != nullptr ? &before->renderer : nullptr)),
       states([this](const StatePages& pages,
                     const MethodState* last) { return renderer.digest(pages, last); },
              before != nullptr && before->settings.method == settings.method

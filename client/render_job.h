@@ -41,7 +41,7 @@ struct TracedScene {
   TracedScene(const TracedScene& before, const SceneEdit& all,
               std::shared_ptr<const TracedScene> itBegan = nullptr)
       : asFetched(before.asFetched),
-        scene(std::make_shared<const Scene>(edited(*asFetched, all))),
+        scene(std::make_shared<const Scene>(edited(*asFetched, all, before.scene.get()))),
         tracer(before.tracer, *scene, movedInstances(*asFetched, all)),
         begun(std::move(itBegan)) {}
 
@@ -61,7 +61,8 @@ struct TracedScene {
 class RenderJob {
  public:
   // `before`: an earlier job. It lends what was worked out about the same scene under another view
-  // and, in the same gesture, with the same light, about the gesture's beginning.
+  // and, in the same gesture, with the same light, about the gesture's beginning; also what an edit
+  // has left as it was (gi/renderer.h).
   RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion, const Settings& settings,
             const Delivery& delivery, int threads, const RenderJob* before = nullptr);
   // Another view of the light of `lit`. Needs lit.hasLightOf(its scene, settings, delivery).

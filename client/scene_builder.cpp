@@ -94,7 +94,7 @@ void SceneBuilder::answer(const act::BuildScene& question) {
 void SceneBuilder::answer(const act::EditScene& question) {
   checkEdit(*scene_->asFetched, question.edit);
   merge(edits_, question.edit);
-  scene_ = TracedScene::after(scene_, edits_, question.moving);
+  if (!question.more) scene_ = TracedScene::after(scene_, edits_, question.moving);
 }
 
 void SceneBuilder::answer(const act::RestoreScene&) {

@@ -137,13 +137,19 @@ void Session::sceneBuilt(uint32_t load, Time now) {
 
 void Session::on(msg::Edit&& m, Time) {
   if (!inside()) fail("an edit before Welcome");
-  if (scene_ != Scene::built) return edits_.add(m.edit, m.moving);
-  editScene(std::move(m.edit), m.moving);
+  if (scene_ != Scene::built) {
+    edits_.add(m.edit, m.moving);
+    if (verticesOf(edits_.settled.shapes) + verticesOf(edits_.moving.shapes) >
+        2 * kMaxShapeVertices)
+      fail("edits of more vertices than a scene may have changed");
+    return;
+  }
+  editScene(std::move(m.edit), m.moving, m.more);
 }
 
-void Session::editScene(SceneEdit&& edit, bool moving) {
+void Session::editScene(SceneEdit&& edit, bool moving, bool more) {
   edited_ = true;
-  push(act::EditScene{load_, std::move(edit), moving});
+  push(act::EditScene{load_, std::move(edit), moving, more});
 }
 
 void Session::on(msg::Configure&& m, Time) {

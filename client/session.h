@@ -100,7 +100,7 @@ class Session {
   void continueFetch(Time now);
   void continueStateFetch(Time now);
   bool fetchesState() const { return scene_ == Scene::built && !states_.isWhole(); }
-  void editScene(SceneEdit&& edit, bool moving);
+  void editScene(SceneEdit&& edit, bool moving, bool more = false);
   void prepare(const msg::Configure& job);
   const msg::Configure* findJob(uint32_t version) const;
   void sendProgress(Time now);

@@ -20,7 +20,32 @@ ObjectEdit fromWire(const pb::ObjectEdit& in) {
   return edit;
 }
 
+std::vector<Vec3> vectors(ByteReader& bytes, size_t count) {
+  std::vector<Vec3> all(bytes.count(count, sizeof(Vec3), "a shape"));
+  bytes.raw(all.data(), all.size() * sizeof(Vec3), "a shape");
+  return all;
+}
+
+ShapeEdit fromWire(const pb::ShapeEdit& in, ByteReader& bytes) {
+  if (in.vertices() < 1 || in.vertices() > ShapePiece::kVertices)
+    fail("a piece of a shape has {} vertices, must be 1 to {}", in.vertices(),
+         ShapePiece::kVertices);
+  ShapeVertices vertices;
+  vertices.positions = vectors(bytes, in.vertices());
+  if (in.normals()) vertices.normals = vectors(bytes, in.vertices());
+  return {{in.mesh(), in.piece()}, std::make_shared<const ShapeVertices>(std::move(vertices))};
+}
+
 }  // namespace
+
+Bytes shapeBytes(const std::vector<ShapeEdit>& shapes) {
+  Bytes bytes;
+  ByteWriter out(bytes);
+  for (const ShapeEdit& shape : shapes)
+    for (const auto* list : {&shape.vertices->positions, &shape.vertices->normals})
+      out.raw(list->data(), list->size() * sizeof(Vec3));
+  return bytes;
+}
 
 void toWire(const SceneEdit& edit, pb::Edit& out) {
   for (const ObjectEdit& e : edit.objects) {
@@ -46,9 +71,16 @@ void toWire(const SceneEdit& edit, pb::Edit& out) {
     material.set_ior(e.ior);
     toWire(e.emission, *material.mutable_emission());
   }
+  for (const ShapeEdit& e : edit.shapes) {
+    pb::ShapeEdit& shape = *out.add_shapes();
+    shape.set_mesh(e.where.mesh);
+    shape.set_piece(e.where.piece);
+    shape.set_vertices(static_cast<uint32_t>(e.vertices->positions.size()));
+    shape.set_normals(!e.vertices->normals.empty());
+  }
 }
 
-SceneEdit fromWire(const pb::Edit& in) {
+SceneEdit fromWire(const pb::Edit& in, ByteView payload) {
   const int total = std::max({in.objects_size(), in.lights_size(), in.materials_size()});
   if (static_cast<size_t>(total) > kMaxEdits) fail("{} edits, at most {}", total, kMaxEdits);
   SceneEdit edit;
@@ -59,6 +91,11 @@ SceneEdit fromWire(const pb::Edit& in) {
   for (const pb::MaterialEdit& e : in.materials())
     edit.materials.push_back({e.material(), fromWire(e.base_color()), e.metallic(), e.roughness(),
                               e.transmission(), e.ior(), fromWire(e.emission())});
+  if (static_cast<size_t>(in.shapes_size()) > kMaxShapePieces)
+    fail("{} pieces of shapes, at most {}", in.shapes_size(), kMaxShapePieces);
+  ByteReader bytes(payload, "shapes");
+  for (const pb::ShapeEdit& e : in.shapes()) edit.shapes.push_back(fromWire(e, bytes));
+  bytes.expectEnd();
   return edit;
 }
 

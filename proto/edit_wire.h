@@ -4,11 +4,14 @@
 #pragma once
 
 #include "common/scene/edit.h"
+#include "proto/bytes.h"
 #include "proto/messages.pb.h"
 
 namespace ninefold {
 
 void toWire(const SceneEdit& edit, pb::Edit& out);
-SceneEdit fromWire(const pb::Edit& in);
+// What shapes have behind the header.
+Bytes shapeBytes(const std::vector<ShapeEdit>& shapes);
+SceneEdit fromWire(const pb::Edit& in, ByteView payload);
 
 }  // namespace ninefold

@@ -36,7 +36,7 @@ constexpr TypeFacts kTypes[] = {
     {"Ping", kBoth, {kSmall, 0}},
     {"Pong", kBoth, {kSmall, 0}},
     {"Goodbye", kBoth, {kSmall, 0}},
-    {"Edit", kFromMaster, {kEditBytes, 0}},
+    {"Edit", kFromMaster, {kEditBytes, kMaxShapeBytes}},
     {"Steps", kFromMaster, {kStepsBytes, 0}},
     {"Stepped", kFromClient, {kSmall, kMaxDeltaBytes}},
     {"CancelSteps", kFromMaster, {kSmall, 0}},

@@ -38,7 +38,9 @@ inline constexpr size_t kMaxText = 256;     // name, reason: bytes of printable 
 inline constexpr size_t kMaxBlobs = 65536;  // in one scene
 inline constexpr size_t kMaxTasksPerMessage = 4096;
 inline constexpr size_t kMaxEdits = 65536;  // things in one edit
-inline constexpr size_t kJobsKept = 20;     // the latest jobs are those that tasks may be of
+inline constexpr size_t kMaxShapePieces = 5;
+inline constexpr size_t kMaxShapeBytes = kMaxShapePieces * ShapePiece::kVertices * 24;
+inline constexpr size_t kJobsKept = 20;  // the latest jobs are those that tasks may be of
 inline constexpr size_t kBlobChunkBytes = 256 << 10;     // so that heartbeats slip in between
 inline constexpr uint64_t kMaxPackedBytes = 3ull << 30;  // one compressed blob
 inline constexpr uint8_t kAllExtraPlanes = (1 << kExtraPlanes) - 1;  // every bit of ExtraPlane
@@ -205,6 +207,7 @@ struct Edit {
   uint32_t version = 0;  // how often the scene was edited; grows
   SceneEdit edit;        // what has changed since the version that the client has
   bool moving = false;   // a gesture: streams stay those of the last edit that was none
+  bool more = false;     // the next message goes on with it; only the last makes a scene
 };
 struct Steps {
   uint32_t jobVersion = 0;

@@ -168,7 +168,9 @@ msg::Result decode(const pb::Result& in, Bytes&& payload) {
 msg::Ping decode(const pb::Ping& in, Bytes&&) { return {in.clock_ns()}; }
 msg::Pong decode(const pb::Pong& in, Bytes&&) { return {in.echo_ns(), in.clock_ns()}; }
 msg::Goodbye decode(const pb::Goodbye& in, Bytes&&) { return {text("reason", in.reason())}; }
-msg::Edit decode(const pb::Edit& in, Bytes&&) { return {in.version(), fromWire(in), in.moving()}; }
+msg::Edit decode(const pb::Edit& in, Bytes&& payload) {
+  return {in.version(), fromWire(in, payload), in.moving(), in.more()};
+}
 
 msg::Steps decode(const pb::Steps& in, Bytes&&) {
   msg::Steps m;

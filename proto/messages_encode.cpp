@@ -167,8 +167,9 @@ pb::Edit header(const msg::Edit& m) {
   NINEFOLD_CHECK(m.edit.objects.size() <= kMaxEdits);
   NINEFOLD_CHECK(m.edit.lights.size() <= kMaxEdits);
   NINEFOLD_CHECK(m.edit.materials.size() <= kMaxEdits);
+  NINEFOLD_CHECK(m.edit.shapes.size() <= kMaxShapePieces);
   pb::Edit out;
-  out.set_version(m.version), out.set_moving(m.moving);
+  out.set_version(m.version), out.set_moving(m.moving), out.set_more(m.more);
   toWire(m.edit, out);
   return out;
 }
@@ -236,6 +237,7 @@ pb::StateOffer header(const msg::StateOffer& m) {
 
 Bytes payload(msg::BlobChunk& m) { return std::move(m.bytes); }
 Bytes payload(msg::Result& m) { return std::move(m.encoded); }
+Bytes payload(msg::Edit& m) { return shapeBytes(m.edit.shapes); }
 Bytes payload(msg::Stepped& m) { return std::move(m.deltas); }
 Bytes payload(msg::StateDelta& m) { return std::move(m.deltas); }
 template <typename T>

@@ -70,7 +70,8 @@ class WriteArchive {
   }
   template <typename T>
   void put(const SharedList<T>& list) {
-    put(static_cast<const std::vector<T>&>(list));
+    out_.number(uint64_t{list.size()});
+    for (const T& element : list) put(element);
   }
   template <typename List>
   void putAll(const List& list) {
@@ -116,7 +117,9 @@ class ReadArchive {
   }
   template <typename T>
   void get(SharedList<T>& list) {
-    get(list.own());
+    std::vector<T> elements;
+    get(elements);
+    list = std::move(elements);
   }
   template <typename List>
   void getAll(List& list) {

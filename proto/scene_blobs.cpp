@@ -25,7 +25,7 @@ size_t sizeOf(const Mesh& mesh) {
          mesh.triangles.size() * 12 + 128;
 }
 
-void packMeshes(const std::vector<Mesh>& meshes, std::vector<Blob>& blobs) {
+void packMeshes(const SharedList<Mesh>& meshes, std::vector<Blob>& blobs) {
   Bytes raw;
   WriteArchive archive(raw);
   for (size_t i = 0; i < meshes.size(); ++i) {

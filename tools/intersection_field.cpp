@@ -10,6 +10,7 @@
 #include "common/base/program.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
+#include "common/gi/intersection_field/field_size.h"
 #include "common/gi/intersection_field/intersection_field.h"
 #include "common/scene/methods.h"
 #include "common/scene/reader.h"
@@ -64,14 +65,14 @@ struct Parts {
   double fieldSeconds = 0, elementSeconds = 0, nodeSeconds = 0, lampSeconds = 0;
 
   Parts(const Transport& t, const Parts* before) {
-    field = timed(fieldSeconds, [&] {
-      return std::make_unique<LineField>(t.scene, t.settings,
-                                         before == nullptr ? nullptr : before->field.get());
-    });
     elements = timed(elementSeconds, [&] {
       return std::make_unique<SceneElements>(t.tracer, t.settings.elementSize * t.radius,
                                              before == nullptr ? nullptr : before->elements.get());
     });
+    const LineGrid grid(t.scene.bounds, t.settings.fieldDirections, t.settings.fieldDistances);
+    const LineField* known = before == nullptr ? nullptr : before->field.get();
+    checkFieldSize(grid, {t.scene, *elements, areaLamps(t).size(), known}, t.settings);
+    field = timed(fieldSeconds, [&] { return std::make_unique<LineField>(grid, t.scene, known); });
     lines = timed(nodeSeconds, [&] {
       return before == nullptr
                  ? std::make_unique<SceneNodeLines>(*field, t.scene, *elements, nullptr, nullptr,
@@ -79,8 +80,10 @@ struct Parts {
                  : std::make_unique<SceneNodeLines>(*field, t.scene, *elements, before->field.get(),
                                                     before->elements.get(), before->lines.get());
     });
-    lamps =
-        timed(lampSeconds, [&] { return std::make_unique<LampVisibility>(t, *field, *elements); });
+    lamps = timed(lampSeconds, [&] {
+      return std::make_unique<LampVisibility>(t, *field, *elements,
+                                              before == nullptr ? nullptr : before->lamps.get());
+    });
   }
   Json json() const {
     return {{"field_seconds", fieldSeconds},
@@ -99,6 +102,7 @@ Json sizesOf(const Scene& scene, const Parts& parts) {
   }
   return {{"instances", scene.instances.size()},
           {"triangles", triangles},
+          {"lamps", parts.lamps->lamps().size()},
           {"surface", surfaceOf(scene)},
           {"radius", scene.bounds.radius()},
           {"lines", parts.field->grid().lines()},
@@ -106,7 +110,8 @@ Json sizesOf(const Scene& scene, const Parts& parts) {
           {"runs", runs},
           {"field_bytes", parts.field->bytes()},
           {"nodes", nodes},
-          {"node_bytes", parts.lines->bytes()}};
+          {"node_bytes", parts.lines->bytes()},
+          {"lamp_bytes", parts.lamps->bytes()}};
 }
 
 // The state of one frame at rest.

@@ -166,7 +166,7 @@ TaskAgain fromRecording(const CommandLine& line, const TaskPlace& place) {
   for (const msg::Edit& edit : found.edits) {
     checkEdit(*scene->asFetched, edit.edit);
     merge(all, edit.edit);
-    scene = TracedScene::after(scene, all, edit.moving);
+    if (!edit.more) scene = TracedScene::after(scene, all, edit.moving);
   }
   return {scene,      found.job.settings,          found.job.delivery, found.order.frame,
           found.item, found.order.neighbourWeight, found.result,       found.state};

@@ -17,7 +17,8 @@ namespace ninefold {
 namespace {
 
 // method: of those that the switch below knows.
-std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const GiMethod* begun) {
+std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const GiMethod* begun,
+                                     const GiMethod* before) {
   switch (method) {
     case Method::instantRadiosity:
       return std::make_unique<const Radiosity>(t, dynamic_cast<const Radiosity*>(begun));
@@ -31,12 +32,13 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
       return std::make_unique<const Selective>(t, dynamic_cast<const Selective*>(begun));
     case Method::intersectionField:
       return std::make_unique<const IntersectionField>(
-          t, dynamic_cast<const IntersectionField*>(begun));
+          t, dynamic_cast<const IntersectionField*>(begun),
+          dynamic_cast<const IntersectionField*>(before));
     case Method::automatic: {
-      const auto* before = dynamic_cast<const Automatic*>(begun);
+      const auto* known = dynamic_cast<const Automatic*>(begun);
       Automatic::Tried tried;
       for (size_t i = 0; i < tried.size(); ++i)
-        tried[i] = make(kTried[i], t, before != nullptr ? before->tried(i) : nullptr);
+        tried[i] = make(kTried[i], t, known != nullptr ? known->tried(i) : nullptr, nullptr);
       return std::make_unique<const Automatic>(t, std::move(tried));
     }
 #ifdef NINEFOLD_TEST_METHODS
@@ -49,8 +51,9 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
 
 }  // namespace
 
-std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* begun) {
-  return make(t.settings.method, t, begun);
+std::unique_ptr<const GiMethod> makeMethod(const Transport& t, const GiMethod* begun,
+                                           const GiMethod* before) {
+  return make(t.settings.method, t, begun, before);
 }
 
 }  // namespace ninefold

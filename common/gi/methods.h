@@ -8,7 +8,8 @@
 namespace ninefold {
 
 // The method of transport.settings.method. `begun`: the same method in the scene that a gesture
-// began with; null at rest.
-std::unique_ptr<const GiMethod> makeMethod(const Transport& transport, const GiMethod* begun);
+// began with; null at rest. `before`: a method in an earlier scene, or null: it may save work.
+std::unique_ptr<const GiMethod> makeMethod(const Transport& transport, const GiMethod* begun,
+                                           const GiMethod* before = nullptr);
 
 }  // namespace ninefold

@@ -11,9 +11,10 @@ struct Renderer::Impl {
     Transport transport;
     std::unique_ptr<const GiMethod> method;
 
-    Light(const Tracer& tracer, const Settings& settings, const Light* begun)
+    Light(const Tracer& tracer, const Settings& settings, const Light* begun, const Light* before)
         : transport(tracer, settings, begun != nullptr ? &begun->transport : nullptr),
-          method(makeMethod(transport, begun != nullptr ? begun->method.get() : nullptr)) {}
+          method(makeMethod(transport, begun != nullptr ? begun->method.get() : nullptr,
+                            before != nullptr ? before->method.get() : nullptr)) {}
   };
   std::shared_ptr<const Light> light;
   View view;
@@ -40,10 +41,12 @@ struct Renderer::Impl {
   }
 };
 
-Renderer::Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun)
+Renderer::Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun,
+                   const Renderer* before)
     : impl_(std::make_unique<Impl>(
           std::make_shared<const Impl::Light>(
-              tracer, settings, begun != nullptr ? begun->impl_->light.get() : nullptr),
+              tracer, settings, begun != nullptr ? begun->impl_->light.get() : nullptr,
+              before != nullptr ? before->impl_->light.get() : nullptr),
           settings)) {}
 
 Renderer::Renderer(const Renderer& lit, const Settings& settings)

@@ -21,7 +21,10 @@ class Renderer {
  public:
   // `begun`: of the scene that a gesture began with, under the same settings; null at rest. Counts,
   // shares, b and the photons' radii stay as they are in `begun` (transport.h).
-  Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun = nullptr);
+  // `before`: of the same scene before an edit, under any settings; null: none. It may save work;
+  // nothing else depends on it.
+  Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun = nullptr,
+           const Renderer* before = nullptr);
   // The light of `lit` seen by the camera, and in the size, of `settings`. The rest of `settings`
   // must be that of `lit`. Bit for bit what a new Renderer would be.
   Renderer(const Renderer& lit, const Settings& settings);

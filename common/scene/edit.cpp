@@ -74,6 +74,7 @@ void merge(SceneEdit& into, const SceneEdit& later) {
   mergeList(into.objects, later.objects, &ObjectEdit::node);
   mergeList(into.lights, later.lights, &LightEdit::light);
   mergeList(into.materials, later.materials, &MaterialEdit::material);
+  mergeList(into.shapes, later.shapes, &ShapeEdit::where);
 }
 
 void EditsSoFar::add(const SceneEdit& edit, bool isMoving) {
@@ -109,18 +110,24 @@ void checkEdit(const Scene& scene, const SceneEdit& edit) {
     checkNumber("transmission", m.transmission, 0, 1);
     checkNumber("the index of refraction", m.ior, 1, 10);
   }
+  checkShapes(scene, edit.shapes);
 }
 
 std::vector<bool> movedInstances(const Scene& scene, const SceneEdit& all) {
   std::vector<bool> moved(scene.instances.size(), false);
-  for (size_t i = 0; i < moved.size(); ++i)
+  for (size_t i = 0; i < moved.size(); ++i) {
+    const Instance& instance = scene.instances[i];
     for (const ObjectEdit& object : all.objects)
-      if (scene.instances[i].node == object.node) moved[i] = true;
+      if (instance.node == object.node) moved[i] = true;
+    for (const ShapeEdit& shape : all.shapes)
+      if (static_cast<uint32_t>(instance.mesh) == shape.where.mesh) moved[i] = true;
+  }
   return moved;
 }
 
-Scene edited(const Scene& asRead, const SceneEdit& all) {
+Scene edited(const Scene& asRead, const SceneEdit& all, const Scene* before) {
   Scene scene = asRead;
+  reshape(scene, all.shapes, before);
   for (const LightEdit& e : all.lights) {
     PunctualLight& light = scene.lights[e.light];
     light.position = e.position, light.direction = e.direction, light.intensity = e.intensity;
@@ -132,12 +139,15 @@ Scene edited(const Scene& asRead, const SceneEdit& all) {
     m.transmission = e.transmission, m.ior = e.ior, m.emission = e.emission;
   }
   for (const ObjectEdit& e : all.objects)
-    for (Instance& instance : scene.instances) {
-      if (instance.node != e.node) continue;
-      instance.toWorld = e.motion * instance.toWorld;
-      for (const Vec3& p : asRead.meshes[static_cast<size_t>(instance.mesh)].positions)
-        growTo(scene.bounds, worldPoint(instance.toWorld, p));
-    }
+    for (Instance& instance : scene.instances)
+      if (instance.node == e.node) instance.toWorld = e.motion * instance.toWorld;
+  const std::vector<bool> moved = movedInstances(asRead, all);
+  for (size_t i = 0; i < moved.size(); ++i) {
+    if (!moved[i]) continue;
+    const Instance& instance = scene.instances[i];
+    for (const Vec3& p : std::as_const(scene).meshes[static_cast<size_t>(instance.mesh)].positions)
+      growTo(scene.bounds, worldPoint(instance.toWorld, p));
+  }
   return scene;
 }
 

@@ -5,6 +5,7 @@
 //   objects    toWorld = motion * toWorld as read, for all instances of a node
 //   lights     punctual ones: place, direction, how they are turned about it, intensity (off = 0)
 //   materials  the numbers that a person turns; maps stay
+//   shapes     vertices of a mesh, in pieces (shape_edit.h); its triangles stay
 //
 // The scene's bounds, and with them b and r, stay while things move inside of them. When something
 // leaves them, they grow by quarters.
@@ -18,6 +19,7 @@
 #include <vector>
 
 #include "common/scene/scene.h"
+#include "common/scene/shape_edit.h"
 
 namespace ninefold {
 
@@ -50,8 +52,11 @@ struct SceneEdit {
   std::vector<ObjectEdit> objects;
   std::vector<LightEdit> lights;
   std::vector<MaterialEdit> materials;
+  std::vector<ShapeEdit> shapes;
   bool operator==(const SceneEdit&) const = default;
-  bool empty() const { return objects.empty() && lights.empty() && materials.empty(); }
+  bool empty() const {
+    return objects.empty() && lights.empty() && materials.empty() && shapes.empty();
+  }
 };
 
 // The state of a light or material now, as an edit.
@@ -73,10 +78,12 @@ struct EditsSoFar {
 // Throws Error unless everything that `edit` names exists in `scene` and every number is in range.
 void checkEdit(const Scene& scene, const SceneEdit& edit);
 
-// The scene that was read with all edits so far. Shares images and meshes with it.
-Scene edited(const Scene& asRead, const SceneEdit& all);
+// The scene that was read with all edits so far. Shares images with it, and meshes that have their
+// shape. `before`: an earlier state, or null: shapes that stayed are shared with it, too.
+Scene edited(const Scene& asRead, const SceneEdit& all, const Scene* before = nullptr);
 
-// By instance: true if the edit moves its node. Tracing keeps these apart from the rest.
+// By instance: true if the edit moves its node or names its shape. Tracing keeps these apart from
+// the rest.
 std::vector<bool> movedInstances(const Scene& scene, const SceneEdit& all);
 
 }  // namespace ninefold

@@ -23,7 +23,7 @@ class GltfMaterials {
       : model_(file.model.get()),
         badImages_(&file.badImages),
         scene_(&scene),
-        images_(scene.images.own()) {}
+        images_(scene.images) {}
 
   // Index into scene.materials of the file's material; -1 asks for glTF's default one.
   int use(int material);

@@ -20,7 +20,7 @@ struct ImageSource {
 
 class ImageLibrary {
  public:
-  explicit ImageLibrary(std::vector<TextureImage>& images) : images_(&images) {}
+  explicit ImageLibrary(SharedList<TextureImage>& images) : images_(&images) {}
 
   int add(const ImageSource& source, bool srgb);
 
@@ -34,7 +34,7 @@ class ImageLibrary {
   TextureImage decode(const ImageSource& source) const;
   int append(TextureImage image);
 
-  std::vector<TextureImage>* images_;
+  SharedList<TextureImage>* images_;
   std::map<std::pair<std::string, bool>, int> known_;
   uint64_t texelsLeft_ = kMaxTexels;
 };

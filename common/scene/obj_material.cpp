@@ -17,7 +17,7 @@ std::string withoutComment(const std::string& name) { return name.substr(0, name
 }  // namespace
 
 ObjMaterials::ObjMaterials(const SceneFolder& folder, Scene& scene)
-    : folder_(&folder), scene_(&scene), textures_(folder, scene.images.own()) {}
+    : folder_(&folder), scene_(&scene), textures_(folder, scene.images) {}
 
 // False if there is no such file.
 bool ObjMaterials::addLibrary(const std::string& name) {

@@ -118,7 +118,7 @@ void ObjBuilder::finishPart(const std::string& material, Part& part) {
 void ObjBuilder::giveMaterials() {
   size_t unmapped = 0;
   for (size_t i = 0; i < uses_.size(); ++i) {
-    Mesh& mesh = draft_.scene.meshes.own()[i];
+    Mesh& mesh = draft_.scene.meshes[i];
     mesh.material = materials_.use(uses_[i].material, !mesh.colors.empty());
     const bool mapped = isMapped(draft_.scene.materials[static_cast<size_t>(mesh.material)]);
     if (mapped) unmapped += uses_[i].facesWithoutCoordinates;

@@ -26,7 +26,7 @@ namespace ninefold {
 
 class ObjTextures {
  public:
-  ObjTextures(const SceneFolder& folder, std::vector<TextureImage>& images)
+  ObjTextures(const SceneFolder& folder, SharedList<TextureImage>& images)
       : folder_(&folder), images_(images) {}
 
   // Adds the maps of `from` to its translation `m`. `beside`: the folder of its library.

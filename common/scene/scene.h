@@ -97,6 +97,7 @@ struct Mesh {
   std::vector<Vec4> colors;  // empty or one per vertex, linear, in [0, 1]: times colour and opacity
   std::vector<Triangle> triangles;
   int material = 0;
+  uint64_t shape = 0;  // 0 as read; else a number of the shape that an edit gave it
 };
 
 // Colour at barycentrics (u, v) of a triangle; exact where its corners have the same.

@@ -33,6 +33,7 @@ enum class MapIndex : uint8_t { grid, tree };
 enum class MapDirect : uint8_t { off, on };
 enum class ElementRule : uint8_t { linear, buckets };  // elements/element_light.h
 enum class FieldDirect : uint8_t { vpls, field };      // intersection_field/intersection_field.h
+enum class FieldWeights : uint8_t { measure, alike };  // intersection_field/lamp_visibility.h
 enum class MapEstimate : uint8_t { pixels, vertices };
 
 struct Settings {
@@ -62,9 +63,10 @@ struct Settings {
   int fieldDirections = 19;  // N: slopes of lines, horizontal and vertical (line_grid.h)
   int fieldDistances = 32;   // M: lines of each slope side by side
   int fieldPhotons = 65536;  // photons along lines whose light mesh elements keep
-  FieldDirect fieldDirect = FieldDirect::vpls;    // who brings light straight from area lamps
-  int maxFieldMemory = 1024;                      // [MiB]
-  MapEstimate mapEstimate = MapEstimate::pixels;  // where photons tell the light
+  FieldDirect fieldDirect = FieldDirect::vpls;        // who brings light straight from area lamps
+  FieldWeights fieldWeights = FieldWeights::measure;  // of pairs that tell how much one sees
+  int maxFieldMemory = 1024;                          // [MiB]
+  MapEstimate mapEstimate = MapEstimate::pixels;      // where photons tell the light
   int mapSubdivision = 3;      // levels of the mesh whose vertices they tell it at
   int pathLength = 0;          // D vertices of a whole path, x included; 0 = no limit (roulette)
   int specularDepth = 32;      // S vertices in a row

@@ -67,6 +67,11 @@ std::span<const char* const> namesOf(FieldDirect) {
   return kNames;
 }
 
+std::span<const char* const> namesOf(FieldWeights) {
+  static constexpr std::array kNames{"measure", "alike"};
+  return kNames;
+}
+
 std::span<const char* const> namesOf(PartitionRule) {
   static constexpr std::array kNames{"balance", "equal"};
   return kNames;

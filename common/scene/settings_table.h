@@ -250,6 +250,12 @@ inline constexpr std::tuple kSettings{
                                  "field's lines, as published",
                          .parts = kFieldPhotons,
                          .slider = {"direct light"}},
+    Setting<FieldWeights>{.name = "field-weights",
+                          .member = &Settings::fieldWeights,
+                          .value = "measure|alike",
+                          .help = "what a line counts that joins a point and a lamp: as much light "
+                                  "as it stands for, or the same as any other, as published",
+                          .parts = kFieldPhotons},
     Setting<int>{.name = "max-field-memory",
                  .member = &Settings::maxFieldMemory,
                  .low = 1,
@@ -366,6 +372,7 @@ std::span<const char* const> namesOf(Method);
 std::span<const char* const> namesOf(Caustics);
 std::span<const char* const> namesOf(ElementRule);
 std::span<const char* const> namesOf(FieldDirect);
+std::span<const char* const> namesOf(FieldWeights);
 std::span<const char* const> namesOf(PartitionRule);
 std::span<const char* const> namesOf(MapDistribution);
 std::span<const char* const> namesOf(MapIndex);

@@ -59,7 +59,7 @@ UvGradient uvGradient(const std::vector<Vec2>& uv, const Triangle& t, const Trac
 }  // namespace
 
 InstanceGeometry::InstanceGeometry(const Scene& scene, const Instance& instance)
-    : mesh_(&scene.meshes[static_cast<size_t>(instance.mesh)]),
+    : mesh_(scene.meshes.share(static_cast<size_t>(instance.mesh))),
       tangents_(scene.materials[static_cast<size_t>(mesh_->material)].normalMap) {
   flatten(instance);
   const DMat3 linear(instance.toWorld);

@@ -2,10 +2,11 @@
 // triangles. Knows nothing of Embree. Corners keep the mesh's order, so that barycentrics mean the
 // same everywhere.
 //
-// Owner:   world-space vertices; refers to the Scene.
+// Owner:   world-space vertices; shares the mesh.
 // Threads: const after construction.   Errors: none for valid scenes.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "common/scene/scene.h"
@@ -50,7 +51,7 @@ class InstanceGeometry {
   void setTangent(const Triangle& t, const Tracer::Corners& at, const Vec3& weights,
                   SurfacePoint& p) const;
 
-  const Mesh* mesh_;
+  std::shared_ptr<const Mesh> mesh_;
   bool tangents_ = false;  // whether anything reads them: a normal map
   Bounds bounds_;
   std::vector<Vec3> vertices_;

@@ -55,9 +55,12 @@ struct Tracer::Impl {
         isaName(before.isaName),
         wide(before.wide),
         geometries(before.geometries) {
-    for (size_t i = 0; i < scene.instances.size(); ++i)
-      if (scene.instances[i].toWorld != before.scene.instances[i].toWorld)
-        geometries[i] = std::make_shared<const InstanceGeometry>(scene, scene.instances[i]);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+      const Instance& instance = scene.instances[i];
+      if (instance.toWorld != before.scene.instances[i].toWorld ||
+          &scene.meshes[static_cast<size_t>(instance.mesh)] != &geometries[i]->mesh())
+        geometries[i] = std::make_shared<const InstanceGeometry>(scene, instance);
+    }
     build(&before, moved);
   }
 

@@ -51,9 +51,10 @@ struct RayLog;  // ray_log.h
 class Tracer {
  public:
   Tracer(const Scene& scene, Isa isa);
-  // Of `scene` after an edit: instances have other places or materials than in `before`. `moved`,
-  // by instance: true for all that are elsewhere than in the scene that was read, and at least for
-  // those of `before`. The scene of the first Tracer must outlive all that come from it.
+  // Of `scene` after an edit: instances have other places, shapes or materials than in `before`.
+  // `moved`, by instance: true for all that are elsewhere, or of another shape, than in the scene
+  // that was read, and at least for those of `before`. The scene of the first Tracer must outlive
+  // all that come from it.
   Tracer(const Tracer& before, const Scene& scene, const std::vector<bool>& moved);
   ~Tracer();
   Tracer(const Tracer&) = delete;

@@ -27,6 +27,10 @@ SceneEdit EditHistory::valuesNow(const SceneEdit& like) const {
     const MaterialEdit* known = find(all_.materials, &MaterialEdit::material, e.material);
     now.materials.push_back(known != nullptr ? *known : editOfMaterial(*asRead_, e.material));
   }
+  for (const ShapeEdit& e : like.shapes) {
+    const ShapeEdit* known = find(all_.shapes, &ShapeEdit::where, e.where);
+    now.shapes.push_back(known != nullptr ? *known : editOfShape(*asRead_, e.where));
+  }
   return now;
 }
 

@@ -49,7 +49,8 @@ constexpr Flag kPicture[] = {
 constexpr Flag kPreset{
     "preset", "NAME",
     "interactive, final (more of everything), paper (the paper's numbers, sampling and filter), "
-    "segovia or dmitriev (bidirectional instant radiosity and selective photons as published); "
+    "segovia, dmitriev or ren (bidirectional instant radiosity, selective photons and intersection "
+    "fields as published); "
     "flags given beside it win (default interactive)"};
 constexpr Flag kFilter{
     "filter", "surface|paper|none",

@@ -27,6 +27,11 @@ Settings settingsOf(Preset preset) {
     s.photonPool = 1152000, s.photonGroups = 288, s.pilotRatio = 16;
     s.elementRule = ElementRule::buckets;
   }
+  if (preset == Preset::ren) {
+    s.method = Method::intersectionField;
+    s.fieldDirections = 76, s.fieldDistances = 127;
+    s.fieldDirect = FieldDirect::field, s.fieldWeights = FieldWeights::alike;
+  }
   return s;
 }
 

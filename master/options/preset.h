@@ -9,6 +9,9 @@
 //                 are ours: the published form has none of the last three.
 //   dmitriev      Dmitriev et al. 2002: 1,152,000 photons, bucketed in mesh elements. Pilots, order
 //                 and direct light are ours.
+//   ren           Ren et al. 2005: 76 slopes and 127 distances, direct light of area lamps by the
+//                 lines, all of which count alike. Light lies in mesh elements, not in Gaussians of
+//                 a texture, and lines near the vertical are there: those are ours.
 //
 // Threads: pure functions.
 #pragma once
@@ -20,8 +23,9 @@
 
 namespace ninefold {
 
-enum class Preset : uint8_t { interactive, final, paper, segovia, dmitriev };
-inline constexpr std::array kPresetNames{"interactive", "final", "paper", "segovia", "dmitriev"};
+enum class Preset : uint8_t { interactive, final, paper, segovia, dmitriev, ren };
+inline constexpr std::array kPresetNames{"interactive", "final",    "paper",
+                                         "segovia",     "dmitriev", "ren"};
 
 inline const char* nameOf(Preset preset) { return kPresetNames[static_cast<size_t>(preset)]; }
 

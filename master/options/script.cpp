@@ -1,9 +1,12 @@
 #include "master/options/script.h"
 
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "common/base/error.h"
 #include "common/scene/animation.h"
+#include "common/scene/twist.h"
 #include "master/interaction/drag.h"
 
 namespace ninefold {
@@ -55,6 +58,22 @@ DMat4 motionOf(const SceneEdit& edit, int node) {
   return DMat4(1);
 }
 
+// Each mesh once, in the place as read of the first object that has it.
+std::vector<ShapeEdit> twistedBy(const Script::Event& event, double s, const Scene& scene,
+                                 const SceneEdit& before) {
+  const Scene now = edited(scene, before);
+  std::vector<ShapeEdit> shapes;
+  std::set<int> done;
+  for (const Instance& instance : scene.instances) {
+    if (std::ranges::find(event.nodes, instance.node) == event.nodes.end()) continue;
+    if (!done.insert(instance.mesh).second) continue;
+    const Twist twist{event.centre, event.low, event.high, s * event.twist};
+    std::ranges::copy(twisted(now, static_cast<uint32_t>(instance.mesh), instance.toWorld, twist),
+                      std::back_inserter(shapes));
+  }
+  return shapes;
+}
+
 }  // namespace
 
 int Script::pictures() const {
@@ -77,6 +96,7 @@ ScriptState Script::at(double time, const Scene& scene, const Camera& start) con
           step.objects.push_back(
               {node, shift(s * event.by) * turnAbout(event.centre, s * event.turn) *
                          motionOf(state.edit, node)});
+        if (event.twist != 0) step.shapes = twistedBy(event, s, scene, state.edit);
         break;
       case Event::Kind::light: {
         const Scene now = edited(scene, state.edit);

@@ -33,6 +33,8 @@ class Script {
     std::vector<int> nodes;    // object
     DVec3 centre{0}, by{0};    // object: turned about the vertical through centre, then shifted [m]
     double turn = 0;           // object [rad]
+    double twist = 0;          // object: turned at its top against its foot [rad]
+    double low = 0, high = 0;  // object: its foot and top as read [m]
     LightEdit light;           // at the end
     MaterialEdit material;     // at the end
     double playedFrom = 0, playedTo = 0;  // animation: times of the file [s]

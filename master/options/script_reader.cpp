@@ -155,6 +155,10 @@ class Reader {
     e.centre = DVec3(bounds.centre());
     if (fields.has("by")) e.by = fields.vector("by");
     e.turn = fields.numberOr("turn", 0, -1e6, 1e6) * std::numbers::pi / 180;
+    e.twist = fields.numberOr("twist", 0, -1e6, 1e6) * std::numbers::pi / 180;
+    e.low = double{bounds.low.y}, e.high = double{bounds.high.y};
+    if (e.twist != 0 && !(e.high > e.low))
+      fail("{}: '{}' is flat: it has no top to be twisted", fields.where(), wanted);
   }
 
   void light(Fields& fields, Script::Event& e) {

@@ -14,7 +14,8 @@ template <typename T>
 std::string defaultOf(const Setting<T>& row) {
   const T usual = Settings{}.*row.member;
   std::string text = "default " + textOf(usual);
-  for (const Preset preset : {Preset::final, Preset::paper, Preset::segovia, Preset::dmitriev})
+  for (const Preset preset :
+       {Preset::final, Preset::paper, Preset::segovia, Preset::dmitriev, Preset::ren})
     if (const T value = settingsOf(preset).*row.member; value != usual)
       text += fmt::format("; {} {}", nameOf(preset), textOf(value));
   return "(" + text + ")";

@@ -108,6 +108,7 @@ void LiveRun::wantPicks(bool on) {
 
 void LiveRun::edit(const SceneEdit& edit) {
   const std::lock_guard editing(editing_);
+  tellOfShapes(edit);
   merge(all_, edit);
   std::optional<Needs> needs;  // found before others have to wait
   if (!edit.materials.empty()) needs = needsOf(edited(*job_.scene, all_), settings().environment);
@@ -116,6 +117,18 @@ void LiveRun::edit(const SceneEdit& edit) {
     ++edits_;
     if (needs) needs_ = *needs;
   });
+}
+
+// Needs editing_. Once for each mesh: an animation changes it with every picture.
+void LiveRun::tellOfShapes(const SceneEdit& edit) const {
+  for (const ShapeEdit& shape : edit.shapes) {
+    const auto isOf = [&](const ShapeEdit& e) { return e.where.mesh == shape.where.mesh; };
+    if (shape.where.piece > 0 || std::ranges::any_of(all_.shapes, isOf)) continue;
+    const Mesh& mesh = job_.scene->meshes[shape.where.mesh];
+    log("the shape of '{}' changes: what clients keep of its {} triangles (ray hierarchy, mesh "
+        "elements, lines) is made anew each time",
+        mesh.name, mesh.triangles.size());
+  }
 }
 
 void LiveRun::setTarget(Duration target) {

@@ -94,6 +94,7 @@ class LiveRun {
   void finishTile(int worker, const GatheredFrame& frame, int tile);
   void gatherFrames();
   void change(const std::function<void()>& apply);
+  void tellOfShapes(const SceneEdit& edit) const;
   LiveState newest() const;
   LiveLook lookAt(const LiveFrame& frame) const;
   Delivery delivery(bool summedUp) const;

@@ -29,7 +29,8 @@ ScriptPlayer::Step ScriptPlayer::moveTo(double time) {
   keepNew(before.edit.objects, now.objects, &ObjectEdit::node, step.edit.objects);
   keepNew(before.edit.lights, now.lights, &LightEdit::light, step.edit.lights);
   keepNew(before.edit.materials, now.materials, &MaterialEdit::material, step.edit.materials);
-  checkEdit(*scene_, step.edit);
+  keepNew(before.edit.shapes, now.shapes, &ShapeEdit::where, step.edit.shapes);
+  checkEdit(*scene_, now);
   return step;
 }
 

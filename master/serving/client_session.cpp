@@ -125,9 +125,9 @@ void ClientSession::tick(Time now) {
   send(msg::Ping{nanoseconds(now)});
 }
 
-void ClientSession::jobChanged(const msg::Edit* edit) {
+void ClientSession::jobChanged(const std::vector<msg::Edit>& edits) {
   if (!isInside() || visits()) return;
-  if (edit != nullptr) send(*edit);
+  for (const msg::Edit& edit : edits) send(edit);
   send(offer_.configure());
 }
 

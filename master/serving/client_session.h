@@ -73,8 +73,8 @@ class ClientSession {
 
   void received(Message&& message, Time now);
   void tick(Time now);
-  // The offer has a new job, and, if `edit` is not null, another scene.
-  void jobChanged(const msg::Edit* edit);
+  // The offer has a new job, and by `edits`, if there are any, another scene.
+  void jobChanged(const std::vector<msg::Edit>& edits);
   // The method's state has a new version.
   void stateChanged(const std::vector<msg::StateDelta>& messages);
   // What it sent was malformed: it is told so and must not come back.

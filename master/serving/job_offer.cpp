@@ -1,8 +1,10 @@
 #include "master/serving/job_offer.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/base/error.h"
+#include "proto/edit_messages.h"
 
 namespace ninefold {
 
@@ -18,17 +20,18 @@ void JobOffer::setJob(uint32_t version, const Settings& settings, const Delivery
   delivery_ = delivery;
 }
 
-msg::Edit JobOffer::setEdit(uint32_t version, const SceneEdit& edit, bool moving) {
+std::vector<msg::Edit> JobOffer::setEdit(uint32_t version, const SceneEdit& edit, bool moving) {
   NINEFOLD_CHECK(version > version_);
   version_ = version;
   edits_.add(edit, moving);
-  return {version, edit, moving};
+  return editMessages(version, edit, moving);
 }
 
 std::vector<msg::Edit> JobOffer::allEdits() const {
   std::vector<msg::Edit> edits;
-  if (!edits_.settled.empty()) edits.push_back({version_, edits_.settled, false});
-  if (!edits_.moving.empty()) edits.push_back({version_, edits_.moving, true});
+  if (!edits_.settled.empty()) edits = editMessages(version_, edits_.settled, false);
+  if (!edits_.moving.empty())
+    std::ranges::copy(editMessages(version_, edits_.moving, true), std::back_inserter(edits));
   return edits;
 }
 

@@ -25,9 +25,9 @@ class JobOffer {
   uint32_t job() const { return job_; }
   // The job has changed: `version` is larger than before.
   void setJob(uint32_t version, const Settings& settings, const Delivery& delivery);
-  // The scene has changed: `version` is larger than before. Gives the message for clients that have
-  // all edits before it. allEdits: for clients that come later; empty without edits.
-  msg::Edit setEdit(uint32_t version, const SceneEdit& edit, bool moving);
+  // The scene has changed: `version` is larger than before. Gives the messages for clients that
+  // have all edits before it. allEdits: for clients that come later; empty without edits.
+  std::vector<msg::Edit> setEdit(uint32_t version, const SceneEdit& edit, bool moving);
   std::vector<msg::Edit> allEdits() const;
   uint32_t edits() const { return version_; }
   // The piece that was asked for. Error: no such blob or place.

@@ -136,11 +136,11 @@ void Server::forgetStates() {
 }
 
 void Server::announce(const JobOrder& order) {
-  std::optional<msg::Edit> edit;
-  if (order.scene != offer_.edits()) edit = offer_.setEdit(order.scene, order.edit, order.moving);
+  std::vector<msg::Edit> edits;
+  if (order.scene != offer_.edits()) edits = offer_.setEdit(order.scene, order.edit, order.moving);
   offer_.setJob(order.job, order.settings, order.delivery);
   for (Handle& peer : peers_) {
-    peer.second.session->jobChanged(edit ? &*edit : nullptr);
+    peer.second.session->jobChanged(edits);
     carryOut(peer, Clock::now());
   }
 }

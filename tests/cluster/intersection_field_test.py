@@ -3,6 +3,7 @@ the pictures are those of a run in peace.
 """
 import unittest
 
+from programs import BIN, SCENES
 from state_test import State
 
 
@@ -26,6 +27,13 @@ class IntersectionField(State):
         self.assertEqual(master.ends(), 1, master.text)
         self.assertRegex(master.text, "the intersection field would take \\d+ MiB, --max-field-memory is 1: raise it, or use "
                                       "--field-directions \\d+ --field-distances \\d+")
+
+    def test_so_it_is_in_a_session_in_real_time(self):
+        (self.folder / "s.json").write_text('{"seconds": 1, "events": []}')
+        master = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--size", self.SIZE, "--script", "s.json", *self.METHOD,
+                            "--max-field-memory", 1, "--local-clients", 1, "--output", "a.exr")
+        self.assertEqual(master.ends(), 1, master.text)
+        self.assertRegex(master.text, "the intersection field would take \\d+ MiB, --max-field-memory is 1")
 
 
 del State  # its own tests run elsewhere

@@ -49,6 +49,31 @@ class Animation(Pictures):
         self.assertRegex(program.lines[-1], r"^ninefold-master: --animate: nothing is animated")
 
 
+class Deformation(Pictures):
+    EVENT = {"object": "tall block", "twist": 60}
+
+    def script(self, name, *events):
+        return self.write(name, json.dumps({"seconds": 1, "rate": 2, "frames": 2, "events": list(events)}))
+
+    def test_a_twisted_thing_is_the_same_picture_whoever_dies_and_joins(self):
+        cornell = SCENES / "cornell.glb"
+        self.run_master(cornell, "--script", self.script("s.json", {"from": 0, "to": 1, **self.EVENT}), "--output", "a.#.png")
+        twisted = self.pictures("a.*.png")
+        self.assertEqual(len(set(twisted)), 3)
+        master = self.start(BIN / "ninefold-master", cornell, "--size", self.SIZE, "--local-clients", 2, "--wait-clients", 2,
+                            "--script", "s.json", "--output", "b.#.png")
+        master.waits_for("the shape of '.*' changes")
+        self.send(master.children()[0], signal.SIGKILL)
+        self.assertEqual(master.ends(), 0, master.text)
+        self.assertTrue(self.pictures("b.*.png") == twisted)
+
+    def test_what_has_no_top_is_refused_in_one_line(self):
+        self.script("s.json", {"at": 0, "object": "lamp", "twist": 60})
+        program = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--script", "s.json", "--output", "a.#.png")
+        self.assertEqual(program.ends(), 1)
+        self.assertRegex(program.lines[-1], r"s.json: event 0: 'lamp' is flat: it has no top to be twisted")
+
+
 class Shots(Pictures):
     """What is on the screen of a session in real time."""
     SCRIPT = {"seconds": 1, "shots": 5, "events": [

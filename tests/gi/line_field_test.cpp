@@ -6,8 +6,6 @@
 #include <map>
 #include <set>
 
-#include "common/base/error.h"
-#include "common/gi/intersection_field/field_size.h"
 #include "common/sampling/sampler.h"
 #include "common/tracing/tracer.h"
 #include "tests/gi/make_scene.h"
@@ -18,12 +16,6 @@ namespace ninefold {
 namespace {
 
 using testing::SceneBuilder;
-
-Settings linesOf(int directions, int distances) {
-  Settings s = testing::small(Method::intersectionField);
-  s.fieldDirections = directions, s.fieldDistances = distances;
-  return s;
-}
 
 // A room with a ball, and a box that is turned, moved and mirrored.
 Scene roomOf(DVec3 boxAt = DVec3(0.3, -0.6, 0.2)) {
@@ -56,7 +48,7 @@ TEST(LineField, HasTheHitsThatRaysFind) {
   constexpr float kNear = 2e-4f;
   const Scene scene = roomOf();
   const Tracer tracer(scene, Isa::automatic);
-  const LineField field(scene, linesOf(9, 16), nullptr);
+  const LineField field(LineGrid(scene.bounds, 9, 16), scene, nullptr);
   const LineGrid& grid = field.grid();
   std::vector<LineHit> hits;
   size_t all = 0, unlike = 0;
@@ -85,7 +77,7 @@ TEST(LineField, HasTheHitsThatRaysFind) {
 TEST(LineField, HasNoGapsAndNoDoubles) {
   const Scene scene = roomOf();
   const Tracer tracer(scene, Isa::automatic);
-  const LineField field(scene, linesOf(13, 24), nullptr);
+  const LineField field(LineGrid(scene.bounds, 13, 24), scene, nullptr);
   const LineGrid& grid = field.grid();
   std::vector<LineHit> hits;
   for (uint32_t number = 0; number < grid.lines(); ++number) {
@@ -150,7 +142,7 @@ TEST(LineField, RunsHoldWhatTheyAreMadeOf) {
 
 TEST(LineField, TellsTheNextHitOnALine) {
   const Scene scene = roomOf();
-  const LineField field(scene, linesOf(9, 16), nullptr);
+  const LineField field(LineGrid(scene.bounds, 9, 16), scene, nullptr);
   std::vector<LineHit> hits;
   for (uint32_t number = 0; number < field.grid().lines(); number += 11) {
     const GridLine line = field.grid().lineOf(number);
@@ -174,9 +166,9 @@ TEST(LineField, IsAfterAnEditWhatItIsAfresh) {
     scene.instances[2].toWorld[3] = DVec4(-0.4, 0.5, -0.3, 1);
     return scene;
   }();
-  const Settings settings = linesOf(9, 16);
-  const LineField first(before, settings, nullptr);
-  const LineField edited(after, settings, &first), fresh(after, settings, nullptr);
+  const LineGrid grid(before.bounds, 9, 16);
+  const LineField first(grid, before, nullptr);
+  const LineField edited(grid, after, &first), fresh(grid, after, nullptr);
   EXPECT_TRUE(edited.isShared(first, 0));
   EXPECT_TRUE(edited.isShared(first, 1));
   EXPECT_FALSE(edited.isShared(first, 2));
@@ -200,7 +192,7 @@ TEST(LineField, PassesHolesAndDoubledTriangles) {
   Scene scene = b.build();
   Mesh& mesh = scene.meshes[1];
   mesh.triangles.push_back(mesh.triangles[0]), mesh.triangles.push_back(mesh.triangles[1]);
-  const LineField field(scene, linesOf(9, 16), nullptr);
+  const LineField field(LineGrid(scene.bounds, 9, 16), scene, nullptr);
   std::vector<LineHit> hits;
   size_t all = 0;
   for (uint32_t number = 0; number < field.grid().lines(); ++number) {
@@ -212,38 +204,6 @@ TEST(LineField, PassesHolesAndDoubledTriangles) {
     }
   }
   EXPECT_GT(all, 1000u);
-}
-
-TEST(LineField, IsAsLargeAsWasToldBefore) {
-  const Scene scene = roomOf();
-  for (const auto& [directions, distances] : {std::pair(9, 16), std::pair(19, 32)}) {
-    size_t bytes = 0;
-    const LineField field(scene, linesOf(directions, distances), nullptr);
-    for (size_t i = 0; i < field.instances(); ++i) bytes += field.local(i).bytes();
-    EXPECT_NEAR(fieldBytes(scene, directions, distances), static_cast<double>(bytes),
-                0.1 * static_cast<double>(bytes));
-  }
-}
-
-TEST(LineField, RefusesWhatIsTooLargeAndTellsWhatFits) {
-  const Scene scene = roomOf();
-  Settings s = linesOf(40, 63);
-  s.maxFieldMemory = 4;
-  std::string said;
-  try {
-    const LineField field(scene, s, nullptr);
-  } catch (const Error& error) {
-    said = error.what();
-  }
-  int directions = 0, distances = 0;
-  const size_t at = said.find("use --field-directions");
-  ASSERT_NE(at, std::string::npos) << said;
-  ASSERT_EQ(std::sscanf(said.c_str() + at, "use --field-directions %d --field-distances %d",
-                        &directions, &distances),
-            2);
-  s.fieldDirections = directions, s.fieldDistances = distances;
-  EXPECT_GT(directions, 10);
-  EXPECT_LT(LineField(scene, s, nullptr).bytes(), size_t{5} << 20);
 }
 
 }  // namespace

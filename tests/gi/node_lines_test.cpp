@@ -48,7 +48,8 @@ struct Made {
 
   Made(const Scene& s, const Settings& settings, Metres size)
       : scene(s),
-        field(scene, settings, nullptr),
+        field(LineGrid(scene.bounds, settings.fieldDirections, settings.fieldDistances), scene,
+              nullptr),
         block(scene, std::as_const(scene).meshes[1], DMat3(scene.instances[1].toWorld), size),
         lines(field, scene, 1, block) {}
 };

@@ -175,7 +175,7 @@ TEST_F(ClientSessionTest, AVisitorIsToldOfTheRunAndChangesNothing) {
   EXPECT_TRUE(sent<msg::Configure>(actions).empty()) << "it gets no job";
   EXPECT_TRUE(take<todo::Warn>(actions).empty());
   EXPECT_TRUE(admission.reproducible());
-  visitor.jobChanged(nullptr);
+  visitor.jobChanged({});
   EXPECT_TRUE(visitor.takeActions().empty());
   visitor.received(msg::Ready{JobOffer::kScene, kJob}, now);
   EXPECT_TRUE(visitor.over()) << "it cannot become a client";

@@ -114,6 +114,31 @@ TEST(EditHistory, WhatChangesByAnUndoIsJustWhatTheActionTouched) {
   EXPECT_TRUE(back->objects.empty() && back->lights.empty());
 }
 
+TEST(EditHistory, AShapeIsTakenBackAndDoneAgain) {
+  auto scene = std::make_shared<Scene>(*someScene());
+  scene->meshes = {Mesh()};
+  scene->meshes[0].positions = {Vec3(0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+  const std::vector<Vec3> read = std::as_const(*scene).meshes[0].positions;
+  EditHistory history(scene);
+  const auto shape = [&] { return edited(*scene, history.all()).meshes.share(0)->positions; };
+  std::vector<std::vector<Vec3>> shapes{read};
+  for (uint64_t action = 1; action <= 3; ++action) {
+    shapes.push_back(read);
+    shapes.back()[1].z = static_cast<float>(action);
+    SceneEdit edit;
+    edit.shapes = shapeEdits(0, shapes.back(), {});
+    history.apply(edit, action);
+  }
+  for (size_t at = 3; at > 0; --at) {
+    ASSERT_TRUE(history.undo());
+    EXPECT_EQ(shape(), shapes[at - 1]) << at;
+  }
+  for (size_t at = 1; at <= 3; ++at) {
+    ASSERT_TRUE(history.redo());
+    EXPECT_EQ(shape(), shapes[at]) << at;
+  }
+}
+
 // The number of the last action: undo brings back the one before, and another way on has another.
 TEST(EditHistory, TheRevisionTellsWhatIsSaved) {
   auto scene = std::make_shared<Scene>();

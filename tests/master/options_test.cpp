@@ -219,6 +219,11 @@ TEST(Options, PresetsSetDefaultsThatFlagsOverride) {
   EXPECT_EQ(dmitriev.settings.method, Method::selective);
   EXPECT_EQ(dmitriev.settings.photonPool, 1152000);
   EXPECT_EQ(dmitriev.settings.elementRule, ElementRule::buckets);
+  const Options ren = parse("room.glb --preset ren --field-directions 19");
+  EXPECT_EQ(ren.settings.method, Method::intersectionField);
+  EXPECT_EQ(ren.settings.fieldDirections, 19);
+  EXPECT_EQ(ren.settings.fieldDistances, 127);
+  EXPECT_EQ(ren.settings.fieldWeights, FieldWeights::alike);
   const Options mixed = parse("room.glb --preset paper --filter surface --randomization owen");
   EXPECT_EQ(mixed.surfaceTest, SurfaceTest::surface);
   EXPECT_EQ(mixed.settings.randomization, Randomization::owen);

@@ -56,6 +56,43 @@ TEST(Script, ThingsMoveEvenlyAndStayWhereTheyWerePut) {
   EXPECT_NEAR(glm::length(placeAt(4) - DVec3(2, 1, 0)), 0, 1e-12);
 }
 
+// A mesh of several objects changes once; what comes later goes on from there.
+TEST(Script, ThingsAreTwistedAtTheTopAgainstTheFoot) {
+  const Scene scene = someScene();
+  const Script script = parseScript(R"({"seconds": 4, "events": [
+      {"from": 0, "to": 2, "object": "ball", "twist": 90, "by": [1, 0, 0]},
+      {"at": 3, "object": "ball", "twist": 90}]})",
+                                    "s.json", scene);
+  const auto topAt = [&](double time) {
+    const SceneEdit edit = script.at(time, scene, {}).edit;
+    EXPECT_EQ(edit.shapes.size(), 1u);
+    EXPECT_EQ(edit.shapes[0].vertices->positions[0], Vec3(-1, 0, -1)) << "the foot stays";
+    return edit.shapes[0].vertices->positions[2];
+  };
+  const auto expectAt = [&](double time, Vec3 top) {
+    EXPECT_NEAR(glm::length(topAt(time) - top), 0, 1e-5f) << time;
+  };
+  expectAt(1, Vec3(std::sqrt(2.0f), 2, 0));
+  expectAt(2, Vec3(1, 2, -1));
+  expectAt(3, Vec3(-1, 2, -1));
+  EXPECT_EQ(script.at(1, scene, {}).edit.objects.size(), 2u);
+}
+
+TEST(Script, AScriptPlayerSendsShapesOnceAndTakesThemBack) {
+  const auto scene = std::make_shared<const Scene>(someScene());
+  ScriptPlayer player(parseScript(R"({"seconds": 9, "events": [
+      {"from": 1, "to": 2, "object": "ball", "twist": 90}]})",
+                                  "s.json", *scene),
+                      scene, {});
+  EXPECT_TRUE(player.moveTo(0.5).edit.shapes.empty());
+  EXPECT_EQ(player.moveTo(1.5).edit.shapes.size(), 1u);
+  EXPECT_EQ(player.moveTo(2).edit.shapes.size(), 1u);
+  EXPECT_TRUE(player.moveTo(3).edit.shapes.empty()) << "nothing has changed since";
+  const SceneEdit back = player.moveTo(0.5).edit;
+  ASSERT_EQ(back.shapes.size(), 1u);
+  EXPECT_EQ(back.shapes[0], editOfShape(*scene, {0, 0})) << "as it was read";
+}
+
 TEST(Script, ObjectsTurnAboutTheirMiddle) {
   const Scene scene = someScene();
   const Script script = parseScript(

@@ -162,9 +162,12 @@ class LateClient : public ::testing::TestWithParam<MethodFacts> {
   // What the master does with an edit: into the offer, and to those who are there.
   void edits(int count, bool moving, const std::vector<Client*>& there) {
     for (int i = 0; i < count; ++i) {
-      const msg::Edit edit = offer_.setEdit(offer_.edits() + 1, random_.next(), moving);
+      const auto messages = offer_.setEdit(offer_.edits() + 1, random_.next(), moving);
       offer_.setJob(offer_.job() + 1, settings(), {});
-      for (Client* client : there) client->tell(edit), client->tell(offer_.configure());
+      for (Client* client : there) {
+        for (const msg::Edit& edit : messages) client->tell(edit);
+        client->tell(offer_.configure());
+      }
     }
   }
   // By somebody who is told of all edits, but not that they are a gesture.

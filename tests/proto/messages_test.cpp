@@ -6,6 +6,7 @@
 #include <random>
 
 #include "common/scene/settings_table.h"
+#include "proto/edit_messages.h"
 #include "proto/messages.pb.h"
 #include "proto/scene_blobs.h"
 #include "proto/state_wire.h"
@@ -37,7 +38,8 @@ Settings oddSettings() {
   s.elementSize = 1.5f;
   s.elementRule = ElementRule::buckets;
   s.fieldDirections = 76, s.fieldDistances = 127, s.fieldPhotons = 4194304;
-  s.fieldDirect = FieldDirect::field, s.maxFieldMemory = 1048576;
+  s.fieldDirect = FieldDirect::field, s.fieldWeights = FieldWeights::alike;
+  s.maxFieldMemory = 1048576;
   s.pathLength = 4, s.specularDepth = 1;
   s.bound = 1e-3f, s.photonRadius = 0.5f, s.vplRoulette = 0.25f;
   s.caustics = Caustics::direct;
@@ -56,6 +58,9 @@ SceneEdit oddEdit() {
   edit.objects.push_back(object);
   edit.lights.push_back({2, Vec3(1, 2, 3), Vec3(0, -1, 0), Vec3(4, 5, 6), Vec3(0, 0, 1)});
   edit.materials.push_back({3, Vec3(0.1f, 0.2f, 0.3f), 0.4f, 0.5f, 0.6f, 1.7f, Vec3(8, 9, 10)});
+  const std::vector<Vec3> positions{Vec3(1, 2, 3), Vec3(-0.0f, 4, 5)};
+  edit.shapes = shapeEdits(6, positions, std::vector<Vec3>(2, Vec3(0, 1, 0)));
+  edit.shapes.push_back({{7, 3}, shapeEdits(7, positions, {})[0].vertices});
   return edit;
 }
 
@@ -89,7 +94,7 @@ std::vector<Message> oneOfEach() {
       msg::Ping{1},
       msg::Pong{1, 2},
       msg::Goodbye{"done"},
-      msg::Edit{9, oddEdit(), true},
+      msg::Edit{9, oddEdit(), true, true},
       msg::Steps{4, {21, 5, 7, 40, 3}, {40, ~0u}, milliseconds(1500)},
       msg::Stepped{4, 21, 41, 12345, ~0ull, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::CancelSteps{21},
@@ -170,6 +175,47 @@ TEST(Messages, AnEditIsAsLongAsWhatChanged) {
     edit.objects.push_back({i, DMat4(1)});
     EXPECT_LE(bytes(), 120u * static_cast<size_t>(i) + 16);
   }
+}
+
+// The payload holds just the vertices that the header names.
+TEST(Messages, AShapeHasAllItsVertices) {
+  const auto refused = [](const std::function<void(Frame&)>& spoil) {
+    Frame frame = encodeMessage(msg::Edit{1, oddEdit()});
+    spoil(frame);
+    try {
+      decodeMessage(std::move(frame), Peer::master);
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  EXPECT_EQ(refused([](Frame&) {}), "");
+  EXPECT_NE(refused([](Frame& f) { f.payload.pop_back(); }).find("shape"), std::string::npos);
+  EXPECT_NE(refused([](Frame& f) { f.payload.push_back({}); }).find("too many"), std::string::npos);
+  // Field 6 of Edit, ShapeEdits of no vertex and of too many.
+  for (const std::string& piece :
+       {std::string("\x32\x02\x18\x00", 4), std::string("\x32\x04\x18\x81\x80\x01", 6)}) {
+    EXPECT_NE(refused([&](Frame& f) { f.header = piece, f.payload.clear(); }), "");
+  }
+}
+
+// A mesh of many pieces travels in several messages; the last one makes the scene.
+TEST(Messages, ALongEditIsSeveralMessages) {
+  SceneEdit edit = oddEdit();
+  edit.shapes = shapeEdits(2, std::vector<Vec3>(12 * ShapePiece::kVertices + 1, Vec3(1)), {});
+  const std::vector<msg::Edit> messages = editMessages(5, edit, true);
+  ASSERT_EQ(messages.size(), 3u);
+  SceneEdit all;
+  for (size_t i = 0; i < messages.size(); ++i) {
+    EXPECT_EQ(messages[i].more, i < 2);
+    EXPECT_TRUE(messages[i].moving);
+    EXPECT_EQ(messages[i].version, 5u);
+    const Frame frame = encodeMessage(msg::Edit(messages[i]));
+    EXPECT_LE(frame.payload.size(), kMaxShapeBytes);
+    merge(all, std::get<msg::Edit>(decodeMessage(Frame(frame), Peer::master)).edit);
+  }
+  EXPECT_EQ(all, edit);
+  EXPECT_EQ(editMessages(5, {}, false).size(), 1u) << "what ends a gesture may hold nothing";
 }
 
 TEST(Messages, AMotionHasTwelveNumbers) {

@@ -1,13 +1,15 @@
-// random_edits.h: a session of somebody who moves and turns everything, except the room that all
-// the rest is in: a room that moves takes the view.
+// random_edits.h: a session of somebody who moves, turns and twists everything, except the room
+// that all the rest is in: a room that moves takes the view.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <set>
 #include <vector>
 
 #include "common/scene/edit.h"
+#include "common/scene/twist.h"
 #include "common/scene/world.h"
 
 namespace ninefold {
@@ -31,7 +33,8 @@ class RandomEdits {
     const int things = 1 + static_cast<int>(random_() % 2);
     for (int i = 0; i < things; ++i) {
       const auto dice = random_() % 10;
-      if (dice < 6) edit.objects.push_back(motion());
+      if (dice < 5) edit.objects.push_back(motion());
+      if (dice == 5) edit.shapes = shape();
       if (dice == 6 && !scene_.lights.empty()) edit.lights.push_back(light());
       if (dice > 6) edit.materials.push_back(material());
     }
@@ -52,6 +55,16 @@ class RandomEdits {
                         DVec4(real(-0.3, 0.3), real(0, 0.2), real(-0.3, 0.3), 1));
     if (random_() % 8 == 0) edit.motion = DMat4(1);  // back where it was
     return edit;
+  }
+  std::vector<ShapeEdit> shape() {
+    const int node = nodes_[random_() % nodes_.size()];
+    const auto found = std::ranges::find(scene_.instances, node, &Instance::node);
+    Bounds bounds;
+    for (const Vec3& p : scene_.meshes[static_cast<size_t>(found->mesh)].positions)
+      bounds.add(worldPoint(found->toWorld, p));
+    const Twist twist{DVec3(bounds.centre()), double{bounds.low.y}, double{bounds.high.y} + 0.01,
+                      random_() % 8 == 0 ? 0 : real(-1, 1)};
+    return twisted(scene_, static_cast<uint32_t>(found->mesh), found->toWorld, twist);
   }
   LightEdit light() {
     LightEdit edit = editOf(scene_, static_cast<uint32_t>(random_() % scene_.lights.size()));

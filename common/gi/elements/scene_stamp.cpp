@@ -26,7 +26,10 @@ class Stamp {
 
 uint64_t sceneStamp(const Transport& t, const MinorLamps& minor) {
   Stamp stamp;
-  for (const Instance& instance : t.scene.instances) stamp.add(instance.toWorld);
+  for (const Instance& instance : t.scene.instances) {
+    stamp.add(instance.toWorld);
+    stamp.add(t.scene.meshes[static_cast<size_t>(instance.mesh)].shape);
+  }
   for (const Material& m : t.scene.materials) {
     stamp.add(m.baseColor), stamp.add(m.emission);
     stamp.add(m.metallic), stamp.add(m.roughness), stamp.add(m.transmission), stamp.add(m.ior);

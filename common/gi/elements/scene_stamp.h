@@ -1,9 +1,9 @@
 // scene_stamp.h: a number that tells two states of a scene apart, as far as photons feel them.
 //
-//   where its instances are, what materials and punctual lights are like, which lamps there are,
-//   and which of them are minor (light/minor_lamps.h)
+//   where its instances are and what shapes they have, what materials and punctual lights are like,
+//   which lamps there are, and which of them are minor (light/minor_lamps.h)
 //
-// Meshes and images stay as they were read; edits cannot change them.
+// Images stay as they were read; edits cannot change them.
 //
 // Proved:  tests/gi/group_pages_test.cpp.   Threads: pure function.   Errors: none.
 #pragma once

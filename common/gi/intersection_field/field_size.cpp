@@ -3,66 +3,102 @@
 #include <numeric>
 
 #include "common/base/error.h"
-#include "common/gi/intersection_field/local_field.h"
+#include "common/gi/intersection_field/lamp_pairs.h"
+#include "common/gi/intersection_field/node_lines.h"
 
 namespace ninefold {
 namespace {
 
 constexpr int kEvery = 3;
+constexpr int kFewestDirections = 3, kFewestDistances = 2;
 
-uint64_t bytesOfSlope(const LineGrid& grid, int family, int i, const FamilyCorners& corners,
-                      const Mesh& mesh) {
+// Of one instance's lines.
+struct Size {
+  double bytes = 0, hits = 0;
+  Size& operator+=(const Size& other) { return bytes += other.bytes, hits += other.hits, *this; }
+};
+
+Size sizeOfSlope(const LineGrid& grid, int family, int i, const FamilyCorners& corners,
+                 const Mesh& mesh) {
   std::array<LineRun, 2 * LineGrid::kMostDirections> runs;
-  uint64_t count = 0;
+  uint64_t count = 0, hits = 0;
   int first = grid.distances(), end = 0;
   for (const Triangle& t : mesh.triangles) {
     const SlicedTriangle triangle(grid, family, i, corners.of(t));
     for (int j = triangle.first(grid); j < triangle.end(grid); ++j) {
       first = std::min(first, j), end = std::max(end, j + 1);
       runsOf(grid, family, segmentOf(triangle, j), 0, runs);
-      for (int k = 0; k < 2 * grid.directions(); ++k)
-        count += runs[static_cast<size_t>(k)].count > 0 ? 1 : 0;
+      for (int k = 0; k < 2 * grid.directions(); ++k) {
+        const uint16_t lines = runs[static_cast<size_t>(k)].count;
+        count += lines > 0 ? 1 : 0, hits += lines;
+      }
     }
   }
-  const auto pages = static_cast<uint64_t>(std::max(end - first, 0) * 2 * grid.directions());
-  return sizeof(LineRun) * count + sizeof(uint32_t) * pages;
+  const auto slices = static_cast<uint64_t>(std::max(end - first, 0));
+  const uint64_t pages = slices * static_cast<uint64_t>(2 * grid.directions());
+  return {static_cast<double>(sizeof(LineRun) * count + sizeof(uint32_t) * (pages + slices)),
+          static_cast<double>(hits)};
+}
+
+Size sizeOf(const LineGrid& grid, const Mesh& mesh, const DMat4& toWorld) {
+  Size size;
+  int counted = 0;
+  for (int family = 0; family < LineGrid::kFamilies; ++family) {
+    const FamilyCorners corners(grid, family, mesh, toWorld);
+    for (int i = (grid.directions() / 2) % kEvery; i < grid.directions(); i += kEvery, ++counted)
+      size += sizeOfSlope(grid, family, i, corners, mesh);
+  }
+  const double all = double{LineGrid::kFamilies} * grid.directions() / counted;
+  return {all * size.bytes, all * size.hits};
 }
 
 }  // namespace
 
-double fieldBytes(const Scene& scene, int directions, int distances) {
-  const LineGrid grid(scene.bounds, directions, distances);
-  uint64_t bytes = 0, counted = 0;
-  for (const Instance& instance : scene.instances) {
-    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    for (int family = 0; family < LineGrid::kFamilies; ++family) {
-      const FamilyCorners corners(grid, family, mesh, instance.toWorld);
-      for (int i = (directions / 2) % kEvery; i < directions; i += kEvery)
-        bytes += bytesOfSlope(grid, family, i, corners, mesh);
-    }
+double fieldBytes(const LineGrid& grid, const FieldPlan& plan) {
+  auto bytes = static_cast<double>(sizeof(uint32_t) * grid.slices());
+  for (size_t i = 0; i < plan.scene.instances.size(); ++i) {
+    const Instance& instance = plan.scene.instances[i];
+    const Mesh& mesh = plan.scene.meshes[static_cast<size_t>(instance.mesh)];
+    const bool isKnown = plan.before != nullptr && i < plan.before->instances();
+    const LocalField* known = isKnown ? &plan.before->local(i) : nullptr;
+    const Size size =
+        known != nullptr && known->isOf(grid, mesh, instance.toWorld)
+            ? Size{static_cast<double>(known->bytes()), static_cast<double>(known->hits())}
+            : sizeOf(grid, mesh, instance.toWorld);
+    const size_t nodes = plan.elements.block(i).nodes();
+    const size_t ofNodes = NodeLines::bytesOf(static_cast<uint64_t>(size.hits), nodes);
+    const size_t ofLamps = plan.lamps * nodes * LampPairs::kBytesPerNode;
+    bytes += size.bytes + static_cast<double>(ofNodes + ofLamps);
   }
-  for (int i = (directions / 2) % kEvery; i < directions; i += kEvery) ++counted;
-  return static_cast<double>(bytes) * directions / static_cast<double>(counted);
+  return bytes;
 }
 
-void checkFieldSize(const Scene& scene, const Settings& s) {
+void checkFieldSize(const LineGrid& grid, const FieldPlan& plan, const Settings& s) {
   const double most = s.maxFieldMemory * 0x1p20;
-  const double bytes = fieldBytes(scene, s.fieldDirections, s.fieldDistances);
+  const double bytes = fieldBytes(grid, plan);
   if (bytes <= most) return;
-  // Runs of large triangles go with N^2 M, of small ones with N^2 M^2.
+  // Runs of large triangles go with N^2 M, of small ones with N^2 M^2; what nodes keep, with none.
+  const FieldPlan fresh{plan.scene, plan.elements, plan.lamps};
+  const auto bytesAt = [&](int directions, int distances) {
+    return fieldBytes(LineGrid(plan.scene.bounds, directions, distances), fresh);
+  };
   int directions = s.fieldDirections, distances = s.fieldDistances;
-  double shrink = std::cbrt(most / bytes);
-  do {
-    directions = std::max(static_cast<int>(s.fieldDirections * shrink), 3);
-    distances = std::max(static_cast<int>(s.fieldDistances * shrink), 2);
+  double shrink = std::cbrt(most / bytes), fitting = bytes;
+  while (fitting > most && directions > kFewestDirections) {
+    directions = std::max(static_cast<int>(s.fieldDirections * shrink), kFewestDirections);
+    distances = std::max(static_cast<int>(s.fieldDistances * shrink), kFewestDistances);
     while (std::gcd(directions, distances) != 1) --distances;
-    if (distances < 2) directions = 3, distances = 2;
+    if (distances < kFewestDistances) directions = kFewestDirections, distances = kFewestDistances;
+    fitting = bytesAt(directions, distances);
     shrink *= 0.95;
-  } while (directions > 3 && fieldBytes(scene, directions, distances) > most);
+  }
+  const std::string remedy =
+      fitting > most
+          ? "--element-size larger, or another method"
+          : fmt::format("--field-directions {} --field-distances {}", directions, distances);
   fail(
-      "the intersection field would take {:.0f} MiB, --max-field-memory is {}: raise it, or use "
-      "--field-directions {} --field-distances {}",
-      std::ceil(bytes * 0x1p-20), s.maxFieldMemory, directions, distances);
+      "the intersection field would take {:.0f} MiB, --max-field-memory is {}: raise it, or use {}",
+      std::ceil(bytes * 0x1p-20), s.maxFieldMemory, remedy);
 }
 
 }  // namespace ninefold

@@ -1,25 +1,35 @@
 // field_size.h: how large an intersection field becomes, before it is made.
 //
-// Every third slope a is scan-converted and its runs are counted; the rest is taken to be like
-// them. Slopes near by have almost as many, so that it errs by a few percent.
+// Every third slope a is scan-converted and its runs and hits are counted; the rest is taken to be
+// like them. Slopes near by have almost as many, so that it errs by a few percent. Local fields
+// that are there already are as large as they are.
 //
-//   bytes = 16 runs + 4 pages           local_field.h
+//   bytes = 16 runs + 4 pages + 4 slices       of each instance: local_field.h, line_field.h
+//         + 12 lines that nodes keep + 16 nodes                  node_lines.h
+//         + 64 nodes, for each lamp that has maps                lamp_pairs.h, at most
 //
-// The lines of nodes come on top: 6 KiB a node or less (node_lines.h).
-//
-// Source:  made for this project.   Proved: tests/gi/line_field_test.cpp.
+// Source:  made for this project.   Proved: tests/gi/field_size_test.cpp.
 // Threads: pure functions.   Errors: checkFieldSize throws Error that says what would fit.
 #pragma once
 
-#include "common/scene/scene.h"
+#include "common/gi/elements/element_light.h"
+#include "common/gi/intersection_field/line_field.h"
 #include "common/scene/settings.h"
 
 namespace ninefold {
 
-// About how many bytes the local fields of a scene take.
-double fieldBytes(const Scene& scene, int directions, int distances);
+// What a field is made for.
+struct FieldPlan {
+  const Scene& scene;
+  const SceneElements& elements;
+  size_t lamps = 0;                   // that have maps
+  const LineField* before = nullptr;  // of the scene before an edit
+};
+
+// About how many bytes all parts of a field take together.
+double fieldBytes(const LineGrid& grid, const FieldPlan& plan);
 
 // Refuses what takes more than settings.maxFieldMemory.
-void checkFieldSize(const Scene& scene, const Settings& settings);
+void checkFieldSize(const LineGrid& grid, const FieldPlan& plan, const Settings& settings);
 
 }  // namespace ninefold

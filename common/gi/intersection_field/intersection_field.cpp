@@ -1,10 +1,10 @@
 #include "common/gi/intersection_field/intersection_field.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "common/gi/elements/photon_shooting.h"
 #include "common/gi/elements/scene_stamp.h"
+#include "common/gi/intersection_field/field_size.h"
 #include "common/gi/light_set/lamp_light.h"
 #include "common/scene/methods.h"
 
@@ -16,24 +16,53 @@ struct FieldLight final : LightSet {
   const ElementLight* elements = nullptr;  // null: no photon. The state outlives the light.
 };
 
+bool lightsDirectly(const Settings& settings) {
+  return settings.fieldDirect == FieldDirect::field && settings.directVpls > 0;
+}
+
+// The grid, once its lines are known to have room.
+LineGrid checked(const LineGrid& grid, const Transport& t, const SceneElements& elements,
+                 const LineField* before) {
+  const size_t lamps = lightsDirectly(t.settings) ? areaLamps(t).size() : 0;
+  checkFieldSize(grid, {t.scene, elements, lamps, before}, t.settings);
+  return grid;
+}
+
 }  // namespace
 
-IntersectionField::IntersectionField(const Transport& transport, const IntersectionField* begun)
+IntersectionField::IntersectionField(const Transport& transport, const IntersectionField* begun,
+                                     const IntersectionField* before)
+    : IntersectionField(transport,
+                        begun != nullptr
+                            ? begun->field_.grid()
+                            : LineGrid(transport.scene.bounds, transport.settings.fieldDirections,
+                                       transport.settings.fieldDistances),
+                        begun != nullptr ? begun : before) {}
+
+IntersectionField::IntersectionField(const Transport& transport, const LineGrid& grid,
+                                     const IntersectionField* known)
     : LayeredMethod(transport),
       rows_(fieldRows(transport.settings), kPhotonsOfRow),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
       stamp_(sceneStamp(transport, {})),
       lampFlux_(fluxOfLamps(transport.emitters)),
-      field_(transport.scene, transport.settings, begun == nullptr ? nullptr : &begun->field_),
+      order_(rows_, stamp_),
       elements_(sceneElements(transport.tracer, transport.settings.elementSize * transport.radius,
-                              begun == nullptr ? nullptr : begun->elements_)),
-      lines_(field_, transport.scene, *elements_, begun == nullptr ? nullptr : &begun->field_,
-             begun == nullptr ? nullptr : begun->elements_.get(),
-             begun == nullptr ? nullptr : &begun->lines_),
-      lamps_(transport.settings.fieldDirect == FieldDirect::field &&
-                     transport.settings.directVpls > 0
-                 ? std::make_unique<const LampVisibility>(transport, field_, *elements_)
-                 : nullptr) {}
+                              known == nullptr ? nullptr : known->elements_)),
+      field_(checked(grid, transport, *elements_, known == nullptr ? nullptr : &known->field_),
+             transport.scene, known == nullptr ? nullptr : &known->field_),
+      lines_(field_, transport.scene, *elements_, known == nullptr ? nullptr : &known->field_,
+             known == nullptr ? nullptr : known->elements_.get(),
+             known == nullptr ? nullptr : &known->lines_),
+      lamps_(
+          lightsDirectly(transport.settings)
+              ? std::make_unique<const LampVisibility>(
+                    transport, field_, *elements_, known == nullptr ? nullptr : known->lamps_.get())
+              : nullptr) {}
+
+size_t IntersectionField::bytes() const {
+  return field_.bytes() + lines_.bytes() + (lamps_ == nullptr ? 0 : lamps_->bytes());
+}
 
 std::shared_ptr<const FrameLight> IntersectionField::light(const FrameKey& frame, int set,
                                                            std::span<const View>,
@@ -49,20 +78,9 @@ std::unique_ptr<Scratch> IntersectionField::makeScratch() const {
   return std::make_unique<LampLightScratch>();
 }
 
-uint32_t IntersectionField::rowAt(const StatePages& pages, uint32_t rank) const {
-  std::vector<std::tuple<bool, uint32_t, uint32_t>> order;  // traced now, version, row
-  for (uint32_t r = 0; r < rows_.count(); ++r) {
-    const auto header = rows_.header(pages, r);
-    order.emplace_back(header && header->stamp == stamp_, header ? header->version : 0, r);
-  }
-  const auto place = order.begin() + static_cast<std::ptrdiff_t>(rank % order.size());
-  std::nth_element(order.begin(), place, order.end());
-  return std::get<2>(*place);
-}
-
 StepResult IntersectionField::step(const StatePages& pages, const StepKey& step, uint32_t unit,
                                    const View&) const {
-  const uint32_t row = rowAt(pages, unit - step.firstUnit);
+  const uint32_t row = order_.rowAt(pages, unit - step.firstUnit);
   const auto before = rows_.header(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;

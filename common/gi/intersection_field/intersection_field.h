@@ -8,10 +8,9 @@
 //   any other S lobe            caustic photons (caustic_photons.h)
 //
 //   field            line_field.h: made by each client from the scene. An edit makes those parts
-//                    anew that belong to what moved.
+//                    anew that belong to what moved or changed its shape, in a gesture and at rest.
 //   state            what the photons left, row by row (elements/photon_rows.h)
-//   unit of a step   one row of kPhotonsOfRow photons. Those go first that were traced in another
-//                    scene than the present one, the oldest first.
+//   unit of a step   one row of kPhotonsOfRow photons, in the order of row_order.h
 //   photon           leaves its lamp, mirrors and glass by a ray, matte surfaces by a line
 //                    (line_walk.h)
 //
@@ -33,14 +32,18 @@
 
 #include "common/gi/intersection_field/lamp_visibility.h"
 #include "common/gi/intersection_field/line_walk.h"
+#include "common/gi/intersection_field/row_order.h"
 #include "common/gi/light_set/light_set.h"
 
 namespace ninefold {
 
 class IntersectionField final : public LayeredMethod {
  public:
-  // `begun`: of the scene that a gesture began with, or null.
-  IntersectionField(const Transport& transport, const IntersectionField* begun);
+  // `begun`: of the scene that a gesture began with, or null: lines stay as they are there.
+  // `before`: of any earlier scene, or null: it saves work alone.
+  // Errors: throws Error if it would be larger than --max-field-memory.
+  IntersectionField(const Transport& transport, const IntersectionField* begun,
+                    const IntersectionField* before = nullptr);
 
   // `state` may be null: the empty state, without a photon.
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
@@ -54,6 +57,8 @@ class IntersectionField final : public LayeredMethod {
 
   const LineField& field() const { return field_; }
   const SceneNodeLines& nodeLines() const { return lines_; }
+  const LampVisibility* lamps() const { return lamps_.get(); }  // null: by VPLs
+  size_t bytes() const;  // of all that --max-field-memory bounds
 
  protected:
   void query(const FrameLight& light, const ReceiverSamples& samples, int pathVertices,
@@ -61,15 +66,18 @@ class IntersectionField final : public LayeredMethod {
              RayCounts& rays) const override;
 
  private:
-  uint32_t rowAt(const StatePages& pages, uint32_t rank) const;
+  // `known`: what it may use again.
+  IntersectionField(const Transport& transport, const LineGrid& grid,
+                    const IntersectionField* known);
   PhotonRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
 
   const PhotonRows rows_;
   const std::shared_ptr<const SurfaceNumbers> surfaces_;
   const uint64_t stamp_;
   const float lampFlux_;  // of all lamps as they are now, largest component [W]
-  const LineField field_;
+  const RowOrder order_;
   const std::shared_ptr<const SceneElements> elements_;
+  const LineField field_;
   const SceneNodeLines lines_;
   const std::unique_ptr<const LampVisibility> lamps_;  // null: direct light is by VPLs
 };

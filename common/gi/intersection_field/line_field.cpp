@@ -4,7 +4,6 @@
 #include <limits>
 #include <tuple>
 
-#include "common/gi/intersection_field/field_size.h"
 #include "common/scene/alpha_test.h"
 #include "common/scene/world.h"
 
@@ -17,17 +16,14 @@ const Mesh& meshOf(const Scene& scene, size_t instance) {
 
 }  // namespace
 
-LineField::LineField(const Scene& scene, const Settings& settings, const LineField* before)
-    : scene_(scene),
-      grid_(before != nullptr
-                ? before->grid_
-                : LineGrid(scene.bounds, settings.fieldDirections, settings.fieldDistances)) {
-  if (before == nullptr) checkFieldSize(scene, settings);
+LineField::LineField(const LineGrid& grid, const Scene& scene, const LineField* before)
+    : scene_(scene), grid_(grid) {
   const Scene& its = scene_;
   for (size_t i = 0; i < its.instances.size(); ++i) {
     const Mesh& mesh = meshOf(its, i);
     const DMat4& toWorld = its.instances[i].toWorld;
-    const bool isKept = before != nullptr && before->local(i).isOf(grid_, mesh, toWorld);
+    const bool isKept =
+        before != nullptr && i < before->instances() && before->local(i).isOf(grid_, mesh, toWorld);
     locals_.push_back(isKept ? before->locals_[i]
                              : std::make_shared<const LocalField>(grid_, mesh, toWorld));
   }

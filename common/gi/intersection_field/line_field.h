@@ -7,11 +7,11 @@
 // Hits nearer to that place than the grid's rounding count as being there: things that stand on
 // each other do not hide each other.
 //
-// After an edit instances that stayed keep their local fields.
+// Instances that stayed in an edit keep their local fields, as long as the grid is the same.
 //
 // Source:  Ren et al. 2005, 4.3 (global field).   Proved: tests/gi/line_field_test.cpp.
 // Threads: const after construction.   Owner: shares the scene's meshes.
-// Errors:  throws Error if it would be larger than --max-field-memory.
+// Errors:  none; field_size.h tells before how large it is.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "common/gi/intersection_field/local_field.h"
-#include "common/scene/settings.h"
 
 namespace ninefold {
 
@@ -33,7 +32,7 @@ struct LineHit {
 class LineField {
  public:
   // `before`: of the scene before an edit, or null: it saves work alone.
-  LineField(const Scene& scene, const Settings& settings, const LineField* before);
+  LineField(const LineGrid& grid, const Scene& scene, const LineField* before);
 
   const LineGrid& grid() const { return grid_; }
   size_t instances() const { return locals_.size(); }

@@ -63,6 +63,7 @@ LocalField::LocalField(const LineGrid& grid, const Mesh& mesh, const DMat4& toWo
                          [](const LineRun& a, const LineRun& b) { return a.first < b.first; });
     }
   }
+  for (const LineRun& run : runs_) hits_ += run.count;
 }
 
 std::span<const LineRun> LocalField::page(int family, int i, int j, int k) const {

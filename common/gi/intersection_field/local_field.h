@@ -43,6 +43,7 @@ class LocalField {
   // Runs of one (family, i, j, k); none if the slice does not meet it.
   std::span<const LineRun> page(int family, int i, int j, int k) const;
   const std::vector<LineRun>& runs() const { return runs_; }
+  uint64_t hits() const { return hits_; }  // of all lines
   // visit(line number but for m, run number) for all runs.
   template <typename Visit>
   void forEachRun(const Visit& visit) const;
@@ -60,6 +61,7 @@ class LocalField {
   std::vector<Slices> slices_;   // by family and i
   std::vector<uint32_t> pages_;  // where each page's runs begin, and the end
   std::vector<LineRun> runs_;
+  uint64_t hits_ = 0;
 };
 
 template <typename Visit>

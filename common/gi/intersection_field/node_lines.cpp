@@ -21,11 +21,9 @@ uint32_t nodeAt(const ElementPlace& place, float u) {
 }
 
 // Of how many lines of a run one is kept.
-uint32_t strideOf(const LocalField& local, const ElementBlock& block) {
-  uint64_t lines = 0;
-  for (const LineRun& run : local.runs()) lines += run.count;
-  const uint64_t wanted = NodeLines::kEach * std::max<uint64_t>(block.nodes(), 1);
-  return static_cast<uint32_t>(std::max<uint64_t>(lines / wanted, 1));
+uint32_t strideOf(uint64_t hits, size_t nodes) {
+  const uint64_t wanted = NodeLines::kEach * std::max<uint64_t>(nodes, 1);
+  return static_cast<uint32_t>(std::max<uint64_t>(hits / wanted, 1));
 }
 
 }  // namespace
@@ -41,7 +39,7 @@ NodeLines::NodeLines(const LineField& field, const Scene& scene, uint32_t instan
   const DMat4& toWorld = scene.instances[instance].toWorld;
   std::vector<Vec3> vertices;
   for (const Vec3& p : mesh.positions) vertices.push_back(worldPoint(toWorld, p));
-  const uint32_t stride = strideOf(local, block);
+  const uint32_t stride = strideOf(local.hits(), block.nodes());
 
   measures_.assign(block.nodes(), 0);
   std::vector<Entry> found;
@@ -86,6 +84,11 @@ NodeLines::NodeLines(const LineField& field, const Scene& scene, uint32_t instan
       cumulative_[e] = static_cast<float>(sum);
     }
   }
+}
+
+size_t NodeLines::bytesOf(uint64_t hits, size_t nodes) {
+  return (sizeof(Entry) + sizeof(float)) * (hits / strideOf(hits, nodes)) +
+         (sizeof(uint32_t) + sizeof(double) + sizeof(float)) * nodes;
 }
 
 std::optional<NodeLines::Start> NodeLines::choose(const LineField& field, uint32_t node,

@@ -13,7 +13,7 @@
 // kEach lines a node are enough. Where there are more, only every s-th of a run is kept; it stands
 // for all of them.
 //
-// Memory:  12 bytes a line that is kept.   Source: made for this project.
+// Memory:  12 bytes a line that is kept, 16 a node.   Source: made for this project.
 // Proved:  tests/gi/node_lines_test.cpp.
 // Threads: const after construction.   Errors: none.
 #pragma once
@@ -44,7 +44,12 @@ class NodeLines {
   // pi A / measure: how much more its lines would stand for if they lay evenly; within [1/4, 4], 1
   // for a node without lines.
   float gain(uint32_t node) const { return gains_[node]; }
-  size_t bytes() const { return (sizeof(Entry) + sizeof(float)) * entries_.size(); }
+  size_t bytes() const {
+    return (sizeof(Entry) + sizeof(float)) * entries_.size() +
+           (sizeof(uint32_t) + sizeof(double) + sizeof(float)) * gains_.size();
+  }
+  // About, of an instance with so many nodes that lines hit so often.
+  static size_t bytesOf(uint64_t hits, size_t nodes);
 
  private:
   struct Entry {
