@@ -162,6 +162,8 @@ void describe(A& a, Of<Material> auto& m) {
   a(m.emission, m.emissionMap, m.doubleSided, m.transmission, m.transmissionMap, m.ior);
   a(m.specular, m.specularMap, m.specularColor, m.specularColorMap);
   a(m.solid, m.attenuationColor, m.attenuationDistance);
+  a(m.sheenColor, m.sheenColorMap, m.sheenRoughness, m.sheenRoughnessMap);
+  a(m.coat, m.coatMap, m.coatRoughness, m.coatRoughnessMap);
 }
 
 template <typename A>
@@ -188,6 +190,7 @@ void describe(A& a, Of<EnvironmentPicture> auto& picture) {
 template <typename A>
 void describe(A& a, Of<Camera> auto& camera) {
   a(camera.name, camera.eye, camera.forward, camera.up, camera.verticalFov);
+  a(camera.orthographicHeight);
 }
 
 // Everything but images, meshes and the environment's picture.

@@ -20,6 +20,7 @@ void toWire(const Camera& camera, pb::Camera& out) {
   toWire(camera.forward, *out.mutable_forward());
   toWire(camera.up, *out.mutable_up());
   out.set_vertical_fov(camera.verticalFov);
+  out.set_orthographic_height(camera.orthographicHeight);
 }
 
 Camera fromWire(const pb::Camera& in) {
@@ -31,6 +32,7 @@ Camera fromWire(const pb::Camera& in) {
   camera.forward = fromWire(in.forward());
   camera.up = fromWire(in.up());
   camera.verticalFov = in.vertical_fov();
+  camera.orthographicHeight = in.orthographic_height();
   return camera;
 }
 

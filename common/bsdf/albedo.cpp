@@ -6,22 +6,23 @@
 //   B(cos_o, alpha) = the same with F = (1 - wo.m)^5
 //   albedo = f0 (A - B) + B
 // Rough dielectrics depend on eta as well: a mean over a few fixed samples, made when asked for.
-#include <array>
-
 #include "common/bsdf/ggx.h"
+#include "common/bsdf/layers.h"
 #include "common/bsdf/lobes.h"
+#include "common/bsdf/squares_table.h"
 
 namespace ninefold {
 
 namespace {
 
 struct Albedo {
-  float a, b;
+  float a = 0, b = 0;
+  Albedo operator+(Albedo o) const { return {a + o.a, b + o.b}; }
+  Albedo operator-(Albedo o) const { return {a - o.a, b - o.b}; }
+  friend Albedo operator*(float s, Albedo o) { return {s * o.a, s * o.b}; }
 };
 
-constexpr int kAngles = 32;  // cos_o = (i/31)^2: denser where grazing light rises steeply
-constexpr int kRoughs = 16;  // alpha = (j/15)^2
-using Table = std::array<std::array<Albedo, kAngles>, kRoughs>;
+constexpr int kAngles = 32, kRoughs = 16;  // nodes of the table, in cos_o and alpha
 
 constexpr float kLeastCosine = 1e-4f;
 
@@ -57,43 +58,11 @@ Albedo integrate(float cosThetaO, float alpha) {
   return {static_cast<float>(a / kAll), static_cast<float>(b / kAll)};
 }
 
-Table makeTable() {
-  Table table;
-  for (int j = 0; j < kRoughs; ++j) {
-    const float r = static_cast<float>(j) / (kRoughs - 1);
-    for (int i = 0; i < kAngles; ++i) {
-      const float c = static_cast<float>(i) / (kAngles - 1);
-      table[static_cast<size_t>(j)][static_cast<size_t>(i)] =
-          integrate(std::max(c * c, kLeastCosine), r * r);
-    }
-  }
-  return table;
-}
-
-struct Place {
-  size_t index;  // of the lower neighbour
-  float part;    // of the upper one
-};
-
-// `value` = (position/(nodes - 1))^2.
-Place place(float value, int nodes) {
-  const float x = std::sqrt(std::clamp(value, 0.0f, 1.0f)) * static_cast<float>(nodes - 1);
-  const int index = std::min(static_cast<int>(x), nodes - 2);
-  return {static_cast<size_t>(index), x - static_cast<float>(index)};
-}
-
-Albedo mix(Albedo x, Albedo y, float part) {
-  return {x.a + part * (y.a - x.a), x.b + part * (y.b - x.b)};
-}
-
 Albedo mirrorAlbedo(float cosThetaO, float alpha) {
   if (alpha < kSmoothAlpha) return integrate(cosThetaO, 0);
-  static const Table table = makeTable();
-  const Place c = place(cosThetaO, kAngles), r = place(alpha, kRoughs);
-  const auto& low = table[r.index];
-  const auto& high = table[r.index + 1];
-  return mix(mix(low[c.index], low[c.index + 1], c.part),
-             mix(high[c.index], high[c.index + 1], c.part), r.part);
+  static const SquaresTable<kAngles, kRoughs, Albedo> table(
+      [](float c, float roughness) { return integrate(std::max(c, kLeastCosine), roughness); });
+  return table(cosThetaO, alpha);
 }
 
 // Mean weight over a few fixed samples; the straight pass is added by itself.
@@ -111,6 +80,10 @@ Reflectance meanWeight(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
 
 }  // namespace
 
+Reflectance ggxAlbedo(const Bsdf& bsdf, float cosThetaO) {
+  return opaqueAlbedo(bsdf.f0, bsdf.f90, mirrorAlbedo(cosThetaO, bsdf.alpha));
+}
+
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
   const float c = std::clamp(cosThetaO, kLeastCosine, 1.0f);
   Reflectance albedo(0.0f);
@@ -123,7 +96,7 @@ Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO) {
   } else if (bsdf.reflects && bsdf.dielectric) {
     albedo = smoothReflection(bsdf) ? interfaceReflectance(bsdf, c) : meanWeight(bsdf, lobe, c);
   } else if (bsdf.reflects) {
-    albedo = opaqueAlbedo(bsdf.f0, bsdf.f90, mirrorAlbedo(c, bsdf.alpha));
+    albedo = bsdf.layered ? layersAlbedo(bsdf, c) : ggxAlbedo(bsdf, c);
   }
   return glm::clamp(albedo, 0.0f, 1.0f);
 }

@@ -1,6 +1,7 @@
 // bsdf.cpp: which lobe, and what its interface reflects and transmits.
 #include "common/bsdf/bsdf.h"
 
+#include "common/bsdf/layers.h"
 #include "common/bsdf/lobes.h"
 
 namespace ninefold {
@@ -33,13 +34,13 @@ Vec3 interfaceTransmittance(const Bsdf& bsdf, float cosine) {
 std::optional<LobeSample> sampleLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec2 u, float uLobe) {
   if (lobe == Lobe::transmission) return sampleTransmission(bsdf, wo, u, uLobe);
   if (!bsdf.reflects) return std::nullopt;
-  return sampleReflection(bsdf, wo, u);
+  return bsdf.layered ? sampleLayers(bsdf, wo, u, uLobe) : sampleReflection(bsdf, wo, u);
 }
 
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi) {
   if (lobe == Lobe::transmission) return evaluateTransmission(bsdf, wo, wi);
   if (!bsdf.reflects) return {};
-  return evaluateReflection(bsdf, wo, wi);
+  return bsdf.layered ? evaluateLayers(bsdf, wo, wi) : evaluateReflection(bsdf, wo, wi);
 }
 
 }  // namespace ninefold

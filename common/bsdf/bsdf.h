@@ -2,7 +2,7 @@
 //
 //   D             f = diffuse / pi; its weight does not depend on directions
 //   reflection    GGX with Smith's height-correlated masking (smooth when alpha = 0)
-//                 opaque: Schlick's Fresnel f0 + (f90-f0)(1-cos)^5
+//                 opaque: Schlick's Fresnel f0 + (f90-f0)(1-cos)^5; under sheen and coat: layers.h
 //                 dielectric: exact Fresnel of eta
 //   transmission  GGX refraction (Walter 2007), smooth when alpha = 0
 //                 thin-walled: straight on (rough: the mirror lobe, turned to the other side)
@@ -42,20 +42,30 @@ struct Bsdf {
   Vec3 reflectionTint{0};    // of the dielectric (KHR_materials_specular), usually 1
   Vec3 transmissionTint{0};  // base colour * transmission
   float passThrough = 0;     // 1 - opacity of alpha blending; the other parts are times opacity
+  bool layered = false;      // opaque, under sheen or a clear coat
+  float coat = 0, coatAlpha = 0;
+  Vec3 sheen{0};
+  float sheenAlpha = 1;  // >= kLeastSheenAlpha
 
+  // Whether nothing but a delta reflects.
+  bool isSmooth() const { return alpha == 0 && (!layered || (coatAlpha == 0 && isBlack(sheen))); }
   bool transmits() const { return passThrough > 0 || (dielectric && !isBlack(transmissionTint)); }
 };
 
 inline constexpr float kSmoothAlpha = 1e-3f;
+inline constexpr float kLeastSheenAlpha = 0.04f;
+inline constexpr float kCoatReflectance = 0.04f;  // at normal incidence: index 1.5
 
 struct LobeSample {
-  Vec3 wi;      // unit, local; wi.z < 0 when transmitted
-  Vec3 weight;  // f * |cos| / pdf, each in [0, 1] up to rounding
-  float pdf;    // per solid angle, given the lobe (uLobe's choice included); 0 if smooth (delta)
+  Vec3 wi;  // unit, local; wi.z < 0 when transmitted
+  Vec3
+      weight;  // f * |cos| / pdf, each in [0, 1] up to rounding; of layers below 8, and the mean is
+  float pdf;   // per solid angle, given the lobe (uLobe's choice included); 0 if smooth (delta)
   bool smooth;
 };
 
-// Samples one lobe. uLobe chooses between refraction and the straight pass inside `transmission`.
+// Samples one lobe. uLobe chooses between refraction and the straight pass inside `transmission`,
+// and among layers inside `reflection`.
 std::optional<LobeSample> sampleLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec2 u, float uLobe);
 
 // Share that passes straight on through a surface that bends nothing: through the holes of alpha
@@ -70,9 +80,12 @@ struct LobeValue {
 LobeValue evaluateLobe(const Bsdf& bsdf, Lobe lobe, Vec3 wo, Vec3 wi);
 
 // Directional albedo of a lobe, in [0, 1], for choosing among lobes and for albedo planes. Exact
-// for smooth lobes; a table within 0.04 for opaque ones; four samples within 0.1 for rough
-// dielectrics.
+// for smooth lobes; a table within 0.04 for opaque ones, layers within 0.1; four samples within 0.1
+// for rough dielectrics.
 Reflectance lobeAlbedo(const Bsdf& bsdf, Lobe lobe, float cosThetaO);
+
+// Mean albedo of sheen of colour 1, likewise.
+float meanSheen(float alpha);
 
 // Mean albedo of the opaque GGX lobe over the cosine-weighted hemisphere: what a lobe too rough to
 // be followed adds to rho when it is folded into D. 0 <= f0 <= 1.

@@ -29,10 +29,14 @@ struct TransmissionSplit {
 };
 TransmissionSplit splitTransmission(const Bsdf& bsdf, float cosThetaO);
 
+// Without layers over it.
 std::optional<LobeSample> sampleReflection(const Bsdf& bsdf, Vec3 wo, Vec2 u);
 LobeValue evaluateReflection(const Bsdf& bsdf, Vec3 wo, Vec3 wi);
 std::optional<LobeSample> sampleTransmission(const Bsdf& bsdf, Vec3 wo, Vec2 u, float uLobe);
 LobeValue evaluateTransmission(const Bsdf& bsdf, Vec3 wo, Vec3 wi);
+
+// Albedo of the opaque GGX lobe, without layers over it.
+Reflectance ggxAlbedo(const Bsdf& bsdf, float cosThetaO);
 
 // GGX mirror lobe of reflection, and of rough thin walls turned to this side. wo.z > 0, wi.z > 0.
 struct MirrorLobe {

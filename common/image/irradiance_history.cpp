@@ -39,7 +39,7 @@ IrradianceHistory::Past IrradianceHistory::pastOf(Vec3 x, Vec3 normal, Metres di
     if (i < 0 || j < 0 || i >= before_.width || j >= before_.height) continue;
     const Pixel& p = before_.pixels[before_.at(i, j)];
     const Vec3 n(p.normal[0], p.normal[1], p.normal[2]);
-    const Vec3 y = p.depth * before_.rays.onImagePlane(px + 0.5f, py + 0.5f);  // from the eye
+    const Vec3 y = before_.rays.atDepth(px + 0.5f, py + 0.5f, p.depth);  // from the eye
     if (p.depth == 0 || glm::dot(n, normal) < kSameNormal * kUnitNormal ||
         std::abs(glm::dot(normal, y) - planeAt) > tolerance)
       continue;
@@ -56,13 +56,12 @@ IrradianceHistory::Past IrradianceHistory::pastOf(Vec3 x, Vec3 normal, Metres di
 
 IrradianceHistory::Pixel IrradianceHistory::remembered(int x, int y, Vec3 fresh, Vec3 normal,
                                                        Metres distance, int most) const {
-  const Vec3 toFilm =
-      now_.rays.onImagePlane(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+  const float px = static_cast<float>(x) + 0.5f, py = static_cast<float>(y) + 0.5f;
   Pixel pixel;
-  pixel.depth = distance / glm::length(toFilm);
+  pixel.depth = now_.rays.depthOf(px, py, distance);
   Past past;
   if (!isStill_) {
-    past = pastOf(now_.camera.eye + pixel.depth * toFilm, normal, distance);
+    past = pastOf(now_.camera.eye + now_.rays.atDepth(px, py, pixel.depth), normal, distance);
   } else if (const Pixel& old = before_.pixels[before_.at(x, y)]; old.depth > 0) {
     past = {old.irradiance, static_cast<float>(old.frames)};
   }

@@ -33,22 +33,30 @@ Beside beside(Interleave pattern, int phase, int dx, int dy) {
           (py / pattern.m - 1) * Patch::kSide + px / pattern.n - 1};
 }
 
-// The camera as v(px, py) = corner + px stepX + py stepY, with depth 1 along the forward axis.
+// The camera's view rays v = corner + px turnX + py turnY, with depth 1 along the forward axis, and
+// its film. Parallel rays do not turn.
 struct ImagePlane {
-  Vec3 corner, stepX, stepY;
-  float footprint;  // side of a pixel at depth 1 [m]
+  bool isParallel;
+  Vec3 corner, turnX{0}, turnY{0};
+  Vec3 stepX, stepY;  // from pixel to pixel on the film [m], of a pinhole at depth 1
+  float footprint;    // side of a pixel there [m]
 
-  ImagePlane(const Camera& camera, int width, int height) {
+  ImagePlane(const Camera& camera, int width, int height) : isParallel(isOrthographic(camera)) {
     const CameraRays rays(camera, width, height);
     const float w = static_cast<float>(width), h = static_cast<float>(height);
-    const auto atDepth1 = [&](float px, float py) {
+    const auto onFilm = [&](float px, float py) {
+      if (isParallel) return rays.start(px, py);
       const Vec3 direction = rays.direction(px, py);
       return direction / glm::dot(direction, camera.forward);
     };
-    corner = atDepth1(0, 0);
-    stepX = (atDepth1(w, 0) - corner) / w;
-    stepY = (atDepth1(0, h) - corner) / h;
+    corner = onFilm(0, 0);
+    stepX = (onFilm(w, 0) - corner) / w;
+    stepY = (onFilm(0, h) - corner) / h;
     footprint = glm::length(stepY);
+    if (isParallel)
+      corner = camera.forward;
+    else
+      turnX = stepX, turnY = stepY;
   }
 };
 
@@ -57,10 +65,12 @@ SurfaceGuide guideOf(const ImagePlane& plane, Vec3 v, Vec3 n, float d) {
   const float length = std::sqrt(glm::dot(v, v));
   // No test of d itself: the compiler would make it a branch and not vectorise.
   const float inverse = length / std::max(d, 1e-30f);
-  const float u = inverse < 1e20f ? inverse : 0.0f;
-  const float slope = u / std::min(glm::dot(n, v), -kGrazingCosine * length);
+  const float far = inverse < 1e20f ? inverse : 0.0f;
+  const float u = plane.isParallel ? d : far, growth = plane.isParallel ? -1.0f : far;
+  const float slope = growth / std::min(glm::dot(n, v), -kGrazingCosine * length);
   const float gradX = slope * glm::dot(n, plane.stepX), gradY = slope * glm::dot(n, plane.stepY);
-  const float slack = std::abs(gradX) + std::abs(gradY) + kFootprints * plane.footprint * u;
+  const float footprint = plane.footprint * std::abs(growth);
+  const float slack = std::abs(gradX) + std::abs(gradY) + kFootprints * footprint;
   return {u, gradX, gradY, slack};
 }
 
@@ -135,7 +145,7 @@ void SurfaceLinks::connect(const Patch& patch, const Camera& camera) {
 void SurfaceLinks::guide(const Patch& patch, const Camera& camera) {
   const TileGrid& grid = patch.grid();
   const ImagePlane plane(camera, grid.width(), grid.height());
-  const Vec3 step = static_cast<float>(grid.interleave().n) * plane.stepX;
+  const Vec3 step = static_cast<float>(grid.interleave().n) * plane.turnX;
   guides_.resize(static_cast<size_t>(patch.phases()));
   for (int phase = 0; phase < patch.phases(); ++phase) {
     GuidePlanes& guides = guides_[static_cast<size_t>(phase)];
@@ -145,7 +155,7 @@ void SurfaceLinks::guide(const Patch& patch, const Camera& camera) {
     for (int j = 0; j < inner.height + 2; ++j) {
       const float px = static_cast<float>(grid.pixelX(phase, 0)) + 0.5f;
       const float py = static_cast<float>(grid.pixelY(phase, inner.j0 - 1 + j)) + 0.5f;
-      const Vec3 v0 = plane.corner + px * plane.stepX + py * plane.stepY;
+      const Vec3 v0 = plane.corner + px * plane.turnX + py * plane.turnY;
       const int first = j * Patch::kSide, i0 = inner.i0 - 1;
       const Row row(layer, first);
       float *u = guides.u.data() + first, *gradX = guides.gradX.data() + first,

@@ -12,9 +12,11 @@
 //
 //   u(q) = u_p + grad_p . (q-p)        grad_p = u_p (n_p . step)/(n_p . v_p)
 //
-// v is the pixel's ray direction scaled to depth 1, step its change from pixel to pixel. Projection
-// keeps convexity. So on any convex or concave surface the true difference lies between the
-// predictions of the two ends; across a step in depth it does not:
+// v is the pixel's ray direction scaled to depth 1, step its change from pixel to pixel. With
+// parallel rays the depth itself is linear: u = z, grad_p = -(n_p . step)/(n_p . v), and step goes
+// from one ray's start to the next one's. Projection keeps convexity. So on any convex or concave
+// surface the true difference lies between the predictions of the two ends; across a step in depth
+// it does not:
 //
 //   min(a, b) - s <= u_q - u_p <= max(a, b) + s        a = grad_p . (q-p), b = grad_q . (q-p)
 //
@@ -45,9 +47,9 @@ inline constexpr float kGrazingCosine = 0.02f;
 
 // What the surface test needs of a pixel besides its normal: u = 0 where there is no x.
 struct SurfaceGuide {
-  float u = 0;                 // inverse depth [1/m]
-  float gradX = 0, gradY = 0;  // its change per pixel on the tangent plane [1/m]
-  float slack = 0;             // [1/m]
+  float u = 0;                 // inverse depth [1/m], or depth [m] of parallel rays
+  float gradX = 0, gradY = 0;  // its change per pixel on the tangent plane
+  float slack = 0;
 };
 
 // These functions avoid short-circuit evaluation on purpose: they stand in vectorised loops.

@@ -86,15 +86,43 @@ DMat4 motionOf(const AnimatedNode& node, const DMat4& world, DVec3 origin) {
   return motion;
 }
 
+// The skin acts on what the weights have made.
+std::vector<ShapeEdit> shapeAt(const Scene& scene, const AnimatedShape& shape,
+                               std::span<const DMat4> worlds, double time) {
+  std::vector<double> weights;
+  for (const AnimationTrack& track : shape.weights) weights.push_back(valueAt(track, time).x);
+  std::vector<Vec3> positions = shape.positions, normals = shape.normals;
+  addMorphs(shape.targets, weights, positions, normals);
+  const bool isHeld = shape.skin >= 0;
+  const std::vector<DMat4> joints =
+      isHeld ? jointMatrices(scene.skins[static_cast<size_t>(shape.skin)], worlds)
+             : std::vector<DMat4>();
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const DMat4 m = isHeld ? shape.holds.matrixOf(i, joints) : DMat4(1);
+    if (isHeld) positions[i] = Vec3(DVec3(m * DVec4(DVec3(positions[i]), 1)));
+    if (!normals.empty())
+      normals[i] = unitOr(normalMatrix(DMat3(m)) * DVec3(normals[i]), Vec3(0, 1, 0));
+  }
+  return shapeEdits(static_cast<uint32_t>(shape.mesh), positions, normals);
+}
+
 }  // namespace
 
 std::string whyNotPlayed(const Scene& scene) {
-  if (!scene.deformed.empty())
+  if (!scene.unplayable.empty())
     return fmt::format(
-        "the animation changes the shape of '{}' (skin or morph weights), which cannot be played: "
+        "the animation moves '{}', of which only a part hangs on joints, and that cannot be "
+        "played: leave it out to see the rest pose",
+        scene.unplayable);
+  size_t vertices = 0;
+  for (const AnimatedShape& shape : scene.shapes) vertices += shape.positions.size();
+  if (vertices > kMaxShapeVertices)
+    return fmt::format(
+        "the animation deforms meshes of {} vertices, at most {} can be played: simplify them, or "
         "leave it out to see the rest pose",
-        scene.deformed);
-  return scene.animated.empty() ? "nothing is animated in the scene" : "";
+        vertices, kMaxShapeVertices);
+  if (scene.animated.empty() && scene.shapes.empty()) return "nothing is animated in the scene";
+  return {};
 }
 
 SceneEdit animationAt(const Scene& scene, double time) {
@@ -113,6 +141,9 @@ SceneEdit animationAt(const Scene& scene, double time) {
       moved.lights.push_back(light);
     }
   }
+  for (const AnimatedShape& shape : scene.shapes)
+    for (ShapeEdit& piece : shapeAt(scene, shape, worlds, time))
+      moved.shapes.push_back(std::move(piece));
   SceneEdit ordered;
   merge(ordered, moved);
   return ordered;
@@ -139,6 +170,8 @@ double animationEnd(const Scene& scene) {
   for (const AnimatedNode& node : scene.animated)
     for (const AnimationTrack* track : {&node.translation, &node.rotation, &node.scale})
       if (!track->times.empty()) end = std::max(end, track->times.back());
+  for (const AnimatedShape& shape : scene.shapes)
+    for (const AnimationTrack& track : shape.weights) end = std::max(end, track.times.back());
   return double(end);
 }
 

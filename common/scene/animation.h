@@ -13,7 +13,10 @@
 // in_i, out_i: tangents of key i. Before the first and after the last key the value stays. A scale
 // of 0 becomes almost 0, since a motion must be invertible (gltf_transform.h).
 //
-// Source:  glTF 2.0 specification, 3.11 and appendix C.   Proved: tests/scene/animation_test.cpp.
+// Shapes that morph or hang on joints follow by deformation.h, as edits of their meshes.
+//
+// Source:  glTF 2.0 specification, 3.11 and appendix C.   Proved: tests/scene/animation_test.cpp,
+//          tests/scene/gltf_deform_test.cpp.
 // Threads: pure functions of plain data.   Errors: none.
 #pragma once
 
@@ -24,11 +27,11 @@
 
 namespace ninefold {
 
-// Why the scene has nothing that can be played, or not all of it: joints of skins and morph weights
-// change shapes, and shapes are not played. Empty if all is well.
+// Why the scene has nothing that can be played, or not all of it. Empty if all is well.
 std::string whyNotPlayed(const Scene& scene);
 
-// Places at `time` [s] of all that moves: objects and punctual lights. Intensities are as read.
+// Places at `time` [s] of all that moves, objects and punctual lights, and shapes of what is
+// deformed. Intensities are as read.
 SceneEdit animationAt(const Scene& scene, double time);
 
 // `camera` at `time` [s]: moved if it is one of the scene's own that moves; else as it is.

@@ -37,8 +37,11 @@ std::optional<DVec3> parsePoint(std::string_view text) {
 std::optional<Camera> parseSpec(const Scene& scene, std::string_view spec) {
   const auto eye = parsePoint(cut(spec, ':'));
   const auto target = parsePoint(cut(spec, ':'));
-  const auto fov = parse<double>(spec);
-  if (!eye || !target || !fov || !(*fov > 0 && *fov < 180)) return {};
+  const bool isHeight = spec.ends_with('m');
+  if (isHeight) spec.remove_suffix(1);
+  const auto size = parse<double>(spec);
+  const double most = isHeight ? double{kLargestFilm} : std::nextafter(180.0, 0.0);
+  if (!eye || !target || !size || !(*size > 0 && *size <= most)) return {};
   const DVec3 view = *target - *eye;
   const double distance = glm::length(view);
   if (!(distance > 0) || !std::isfinite(distance)) return {};
@@ -48,7 +51,10 @@ std::optional<Camera> parseSpec(const Scene& scene, std::string_view spec) {
   camera.forward = Vec3(view / distance);
   const bool upright = std::hypot(camera.forward.x, camera.forward.z) > 1e-4f;
   camera.up = upright ? Vec3(0, 1, 0) : Vec3(0, 0, 1);
-  camera.verticalFov = static_cast<float>(*fov) * kPi / 180;
+  if (isHeight)
+    camera.orthographicHeight = static_cast<float>(*size);
+  else
+    camera.verticalFov = static_cast<float>(*size) * kPi / 180;
   return camera;
 }
 
@@ -68,14 +74,19 @@ Camera chooseCamera(const Scene& scene, std::string_view spec) {
   const auto index = parse<size_t>(spec);
   if (index && *index < scene.cameras.size()) return scene.cameras[*index];
   if (const auto camera = parseSpec(scene, spec)) return *camera;
-  fail("no camera '{}': the scene has {}; or give eye:target:fov as x,y,z:x,y,z:degrees", spec,
-       listOf(scene.cameras));
+  fail(
+      "no camera '{}': the scene has {}; or give eye:target:fov as x,y,z:x,y,z:degrees (or :5m, "
+      "orthographic, 5 m high)",
+      spec, listOf(scene.cameras));
 }
 
 std::string specOf(const Scene& scene, const Camera& camera) {
   const DVec3 eye = DVec3(camera.eye) + scene.origin, target = eye + DVec3(camera.forward);
-  return fmt::format("{:.9g},{:.9g},{:.9g}:{:.9g},{:.9g},{:.9g}:{:.6g}", eye.x, eye.y, eye.z,
-                     target.x, target.y, target.z, camera.verticalFov * 180 / kPi);
+  const std::string size = isOrthographic(camera)
+                               ? fmt::format("{:.6g}m", camera.orthographicHeight)
+                               : fmt::format("{:.6g}", camera.verticalFov * 180 / kPi);
+  return fmt::format("{:.9g},{:.9g},{:.9g}:{:.9g},{:.9g},{:.9g}:{}", eye.x, eye.y, eye.z, target.x,
+                     target.y, target.z, size);
 }
 
 }  // namespace ninefold

@@ -31,7 +31,8 @@ inline constexpr float kBrightestTexel = 1e12f;
 
 // What travels.
 struct EnvironmentPicture {
-  std::string name;           // the flag that asks for it again, FILE standing for a file
+  std::string
+      name;  // the flag that asks for it again, FILE standing for a file; or empty: the scene's
   int width = 0, height = 0;  // width = 2 height
   std::vector<Vec3> texels;   // rows from the top; linear Rec. 709, times strength the radiance
   float rotation = 0;         // [rad]

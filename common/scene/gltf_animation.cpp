@@ -21,16 +21,15 @@ Kind kindNamed(const std::string& name) {
   fail("the interpolation '{}' is unknown", name);
 }
 
+size_t valuesOfAKey(Kind kind) { return kind == Kind::cubic ? 3 : 1; }
+
 // At most `most` keys. Times must ascend, so a file's claim costs no more than what it holds.
-AnimationTrack readTrack(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
-                         int components, size_t most) {
+AnimationTrack readTimes(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                         size_t most) {
   AnimationTrack track;
   track.kind = kindNamed(sampler.interpolation);
   const GltfAccessor times(model, sampler.input, 1, "input");
-  const GltfAccessor values(model, sampler.output, components, "output");
-  const size_t each = track.kind == Kind::cubic ? 3 : 1;
-  if (times.count() == 0 || values.count() != each * times.count())
-    fail("{} times and {} values do not go together", times.count(), values.count());
+  if (times.count() == 0) fail("it has no times");
   if (times.count() > most) fail("more than {} keys in the file: export fewer", kMaxKeys);
   for (size_t i = 0; i < times.count(); ++i) {
     const float time = times.element(i).x;
@@ -38,6 +37,18 @@ AnimationTrack readTrack(const tinygltf::Model& model, const tinygltf::Animation
     const bool ascends = track.times.empty() ? time >= least : time > least;
     if (!ascends || !std::isfinite(time)) fail("time {} is {} after {}", i, time, least);
     track.times.push_back(time);
+  }
+  return track;
+}
+
+AnimationTrack readTrack(const tinygltf::Model& model, const tinygltf::AnimationSampler& sampler,
+                         int components, size_t most) {
+  AnimationTrack track = readTimes(model, sampler, most);
+  const GltfAccessor values(model, sampler.output, components, "output");
+  const size_t each = valuesOfAKey(track.kind), keys = track.times.size();
+  if (values.count() != each * keys)
+    fail("{} times and {} values do not go together", keys, values.count());
+  for (size_t i = 0; i < keys; ++i) {
     for (size_t part = 0; part < each; ++part) {
       const Vec4 value = values.element(each * i + part);
       if (!isFinite(Vec3(value)) || !std::isfinite(value.w)) fail("value {} is not finite", i);
@@ -116,25 +127,54 @@ GltfAnimations::GltfAnimations(const tinygltf::Model& model, const std::optional
 
 void GltfAnimations::read(const tinygltf::Animation& animation,
                           const tinygltf::AnimationChannel& channel) {
-  if (channel.target_path == "weights") morphed_.insert(channel.target_node);
+  const bool morphs = channel.target_path == "weights";
   const bool rotates = channel.target_path == "rotation", scales = channel.target_path == "scale";
-  const bool known = rotates || scales || channel.target_path == "translation";
+  const bool known = morphs || rotates || scales || channel.target_path == "translation";
   const int node = channel.target_node;
   if (node < 0 || !known) return;  // to be left out, as glTF says
   if (static_cast<size_t>(node) >= model_->nodes.size()) fail("node {} does not exist", node);
-  if (!model_->nodes[static_cast<size_t>(node)].matrix.empty())
+  if (!morphs && !model_->nodes[static_cast<size_t>(node)].matrix.empty())
     fail(
         "node {} has a matrix and cannot be animated: export it with translation, rotation and "
         "scale",
         node);
   if (channel.sampler < 0 || static_cast<size_t>(channel.sampler) >= animation.samplers.size())
     fail("sampler {} does not exist", channel.sampler);
+  if (morphs) return readWeights(animation.samplers[static_cast<size_t>(channel.sampler)], node);
   Tracks& tracks = tracks_[node];
   AnimationTrack& track = rotates ? tracks.rotation : scales ? tracks.scale : tracks.translation;
   if (!track.times.empty()) return;
   track = readTrack(*model_, animation.samplers[static_cast<size_t>(channel.sampler)],
                     rotates ? 4 : 3, kMaxKeys - keys_);
   keys_ += track.times.size();
+}
+
+// The values of a key stand together, for cubic tracks after those of its in-tangent.
+void GltfAnimations::readWeights(const tinygltf::AnimationSampler& sampler, int node) {
+  if (weights_.contains(node)) return;
+  const AnimationTrack times = readTimes(*model_, sampler, kMaxKeys - keys_);
+  const GltfAccessor values(*model_, sampler.output, 1, "output");
+  const size_t each = valuesOfAKey(times.kind) * times.times.size();
+  const size_t targets = values.count() / each;
+  if (targets == 0 || values.count() != targets * each)
+    fail("{} times and {} weights do not go together", times.times.size(), values.count());
+  if (values.count() > kMaxKeys - keys_)
+    fail("more than {} keys in the file: export fewer", kMaxKeys);
+  keys_ += values.count();
+  std::vector<AnimationTrack> tracks(targets, times);
+  for (size_t i = 0; i < values.count(); ++i) {
+    const float value = values.element(i).x;
+    if (!std::isfinite(value)) fail("weight {} is not finite", i);
+    tracks[i % targets].values.emplace_back(value, 0, 0, 0);
+  }
+  weights_[node] = std::move(tracks);
+}
+
+const std::vector<AnimationTrack>& GltfAnimations::weightsOf(int node, size_t targets) const {
+  const std::vector<AnimationTrack>& tracks = weights_.at(node);
+  if (tracks.size() != targets)
+    fail("its animation has weights of {} morph targets, its mesh has {}", tracks.size(), targets);
+  return tracks;
 }
 
 double GltfAnimations::largestScale(int index) const {

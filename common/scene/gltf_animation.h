@@ -1,6 +1,5 @@
 // gltf_animation.h: one animation (clip) of a glTF file: which nodes it moves, and how. The other
-// clips do nothing. Of two channels that move the same property of a node the first counts. Of
-// morph weights it only knows that they change.
+// clips do nothing. Of two channels that move the same property of a node the first counts.
 //
 // Owner: refers to the model.   Threads: one owner.
 // Errors: throws Error that names animation and channel.
@@ -8,7 +7,6 @@
 
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -18,6 +16,7 @@ namespace tinygltf {
 class Model;
 struct Animation;
 struct AnimationChannel;
+struct AnimationSampler;
 }  // namespace tinygltf
 
 namespace ninefold {
@@ -34,8 +33,12 @@ class GltfAnimations {
   // Takes a node that the scene reaches, parents first. Returns its place in the list of those that
   // move, or -1. `parent`: the place of the node above.
   int enter(int node, int parent, const DMat4& above, const DMat4& toWorld);
+  // Whether nothing moves.
+  bool empty() const { return tracks_.empty() && weights_.empty(); }
   // Whether the weights of a node's morph targets change.
-  bool morphs(int node) const { return morphed_.contains(node); }
+  bool morphs(int node) const { return weights_.contains(node); }
+  // How, target by target. Throws Error unless they are of `targets`.
+  const std::vector<AnimationTrack>& weightsOf(int node, size_t targets) const;
   AnimatedNode& operator[](int place) { return nodes_[static_cast<size_t>(place)]; }
   std::vector<AnimatedNode> take() { return std::move(nodes_); }
 
@@ -45,11 +48,12 @@ class GltfAnimations {
   };
   double largestScale(int node) const;
   void read(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel);
+  void readWeights(const tinygltf::AnimationSampler& sampler, int node);
 
   const tinygltf::Model* model_;
-  std::map<int, Tracks> tracks_;  // by node; empty ones are not animated
-  size_t keys_ = 0;               // of all tracks
-  std::set<int> morphed_;         // nodes
+  std::map<int, Tracks> tracks_;                        // by node; empty ones are not animated
+  size_t keys_ = 0;                                     // of all tracks
+  std::map<int, std::vector<AnimationTrack>> weights_;  // by node and morph target
   std::vector<AnimatedNode> nodes_;
 };
 

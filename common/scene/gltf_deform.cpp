@@ -11,66 +11,47 @@ namespace {
 
 using Target = std::map<std::string, int>;
 
+// What a target says of an attribute, if it says anything.
+std::optional<GltfAccessor> deltaOf(const GltfVertices& vertices, const Target& target,
+                                    const char* name, int components) {
+  const auto found = target.find(name);
+  if (found == target.end()) return std::nullopt;
+  return vertices.open(found->second, components, std::string("target ") + name);
+}
+
+std::vector<Vec3> vectorsOf(const GltfVertices& vertices, const Target& target, const char* name) {
+  std::vector<Vec3> values;
+  if (const auto delta = deltaOf(vertices, target, name, 3))
+    for (const uint32_t i : vertices.kept) values.emplace_back(delta->element(i));
+  return values;
+}
+
 // Adds weight times a target's attribute to the mesh's, where both have it.
 template <typename V>
 void add(const GltfVertices& vertices, const Target& target, const char* name, int components,
          float weight, std::vector<V>& to) {
-  const auto found = target.find(name);
-  if (found == target.end() || to.empty()) return;
-  const GltfAccessor delta =
-      vertices.open(found->second, components, std::string("target ") + name);
-  for (size_t i = 0; i < to.size(); ++i) to[i] += weight * V(delta.element(vertices.kept[i]));
+  if (to.empty()) return;
+  const auto delta = deltaOf(vertices, target, name, components);
+  for (size_t i = 0; delta && i < to.size(); ++i)
+    to[i] += weight * V(delta->element(vertices.kept[i]));
 }
 
-// The joints of all vertices and how much each counts.
-class Joints {
- public:
-  Joints(const GltfVertices& vertices, const tinygltf::Primitive& from, const SkinPose& pose)
-      : pose_(&pose), what_(&vertices.what) {
-    for (int set = 0;; ++set) {
-      const auto joints = from.attributes.find("JOINTS_" + std::to_string(set));
-      const auto weights = from.attributes.find("WEIGHTS_" + std::to_string(set));
-      if (joints == from.attributes.end() || weights == from.attributes.end()) break;
-      joints_.push_back(vertices.open(joints->second, 4, joints->first));
-      weights_.push_back(vertices.open(weights->second, 4, weights->first));
-      weights_.back().takeAsNormalized();
-      if (!joints_.back().isUnsignedInteger())
-        fail("{}: its {} are not unsigned integers", vertices.what, joints->first);
-    }
-  }
-
-  DMat4 matrixOf(uint32_t vertex) const {
-    DMat4 sum(0);
-    double total = 0;
-    for (size_t set = 0; set < joints_.size(); ++set) {
-      const Vec4 joints = joints_[set].element(vertex), weights = weights_[set].element(vertex);
-      for (int i = 0; i < 4; ++i) {
-        if (!std::isfinite(weights[i])) fail("{}: a weight is not a finite number", *what_);
-        if (!(weights[i] > 0)) continue;
-        sum += double(weights[i]) * joint(joints[i]);
-        total += double(weights[i]);
-      }
-    }
-    return total > 0 ? sum / total : joint(joints_[0].element(vertex).x);
-  }
-
- private:
-  const DMat4& joint(float index) const {
-    const size_t count = pose_->joints.size();
-    if (!(double(index) < double(count)))
-      fail("{}: joint {} does not exist, its skin has {}", *what_, index, count);
-    return pose_->joints[static_cast<size_t>(index)];
-  }
-
-  const SkinPose* pose_;
-  const std::string* what_;
-  std::vector<GltfAccessor> joints_, weights_;  // by set
+// The attributes of one set: four joints for each vertex, and how much each counts.
+struct JointSet {
+  GltfAccessor joints, weights;
 };
-
-// The inverse transpose times the determinant's size, which flat matrices have too.
-DMat3 normalMatrix(const DMat3& m, bool mirrors) {
-  const DMat3 cofactors(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
-  return mirrors ? -cofactors : cofactors;
+std::vector<JointSet> jointSets(const GltfVertices& vertices, const tinygltf::Primitive& from) {
+  std::vector<JointSet> sets;
+  for (int set = 0;; ++set) {
+    const auto joints = from.attributes.find("JOINTS_" + std::to_string(set));
+    const auto weights = from.attributes.find("WEIGHTS_" + std::to_string(set));
+    if (joints == from.attributes.end() || weights == from.attributes.end()) return sets;
+    sets.push_back({vertices.open(joints->second, 4, joints->first),
+                    vertices.open(weights->second, 4, weights->first)});
+    sets.back().weights.takeAsNormalized();
+    if (!sets.back().joints.isUnsignedInteger())
+      fail("{}: its {} are not unsigned integers", vertices.what, joints->first);
+  }
 }
 
 }  // namespace
@@ -82,15 +63,24 @@ GltfAccessor GltfVertices::open(int accessor, int components, const std::string&
   return opened;
 }
 
-void addMorphs(const GltfVertices& vertices, const tinygltf::Primitive& from,
-               const std::vector<double>& weights, Mesh& mesh) {
+std::vector<MorphTarget> readTargets(const GltfVertices& vertices, const tinygltf::Primitive& from,
+                                     const std::vector<double>* weights) {
+  std::vector<MorphTarget> targets(from.targets.size());
+  for (size_t k = 0; k < targets.size(); ++k) {
+    if (weights != nullptr && (k >= weights->size() || (*weights)[k] == 0)) continue;
+    targets[k].positions = vectorsOf(vertices, from.targets[k], "POSITION");
+    targets[k].normals = vectorsOf(vertices, from.targets[k], "NORMAL");
+  }
+  return targets;
+}
+
+void addOtherMorphs(const GltfVertices& vertices, const tinygltf::Primitive& from,
+                    const std::vector<double>& weights, Mesh& mesh) {
   std::vector<Vec3> tangents(mesh.tangents.begin(), mesh.tangents.end());
   for (size_t k = 0; k < from.targets.size() && k < weights.size(); ++k) {
     const auto weight = static_cast<float>(weights[k]);
     if (weight == 0) continue;
     const Target& target = from.targets[k];
-    add(vertices, target, "POSITION", 3, weight, mesh.positions);
-    add(vertices, target, "NORMAL", 3, weight, mesh.normals);
     add(vertices, target, "TANGENT", 3, weight, tangents);
     add(vertices, target, "TEXCOORD_0", 2, weight, mesh.uv0);
     add(vertices, target, "TEXCOORD_1", 2, weight, mesh.uv1);
@@ -104,17 +94,38 @@ bool isSkinned(const tinygltf::Primitive& primitive) {
   return primitive.attributes.contains("JOINTS_0") && primitive.attributes.contains("WEIGHTS_0");
 }
 
-void applySkin(const GltfVertices& vertices, const tinygltf::Primitive& from, const SkinPose& pose,
-               Mesh& mesh) {
-  const Joints joints(vertices, from, pose);
+Holds readHolds(const GltfVertices& vertices, const tinygltf::Primitive& from, size_t joints) {
+  const std::vector<JointSet> sets = jointSets(vertices, from);
+  Holds read;
+  const auto hold = [&](float joint, float weight) {
+    if (!(double(joint) < double(joints)))
+      fail("{}: joint {} does not exist, its skin has {}", vertices.what, joint, joints);
+    read.holds.push_back({static_cast<uint32_t>(joint), weight});
+  };
+  for (const uint32_t vertex : vertices.kept) {
+    const size_t before = read.holds.size();
+    for (const JointSet& set : sets) {
+      const Vec4 joint = set.joints.element(vertex), weights = set.weights.element(vertex);
+      for (int i = 0; i < 4; ++i) {
+        if (!std::isfinite(weights[i])) fail("{}: a weight is not a finite number", vertices.what);
+        if (weights[i] > 0) hold(joint[i], weights[i]);
+      }
+    }
+    if (read.holds.size() == before) hold(sets[0].joints.element(vertex).x, 1);
+    read.ends.push_back(read.holds.size());
+  }
+  return read;
+}
+
+void applySkin(const Holds& holds, std::span<const DMat4> joints, Mesh& mesh) {
   std::vector<char> mirrored(mesh.positions.size());
   for (size_t i = 0; i < mesh.positions.size(); ++i) {
-    const DMat4 m = joints.matrixOf(vertices.kept[i]);
+    const DMat4 m = holds.matrixOf(i, joints);
     const DMat3 linear(m);
     mirrored[i] = glm::determinant(linear) < 0;
     mesh.positions[i] = Vec3(DVec3(m * DVec4(DVec3(mesh.positions[i]), 1)));
     if (!mesh.normals.empty())
-      mesh.normals[i] = unitOr(normalMatrix(linear, mirrored[i]) * DVec3(mesh.normals[i]), Vec3(0));
+      mesh.normals[i] = unitOr(normalMatrix(linear) * DVec3(mesh.normals[i]), Vec3(0));
     if (!mesh.tangents.empty())
       mesh.tangents[i] = Vec4(unitOr(linear * DVec3(mesh.tangents[i]), Vec3(0)),
                               mirrored[i] ? -mesh.tangents[i].w : mesh.tangents[i].w);

@@ -1,26 +1,25 @@
-// gltf_deform.h: the shape of a glTF primitive after its morph targets and its skin, in this order.
+// gltf_deform.h: morph targets and joints of a glTF primitive, and its shape in the rest pose
+// (deformation.h).
 //
-//   a' = a + sum_k weight_k target_k                                   of every attribute a
-//   p' = M p,  n' = normalize(M^-T n),  t' = normalize(M t)
-//   M  = sum_i w_i M_i / sum_i w_i                                     over the joints of a vertex
-//
-// A vertex without any weight hangs on its first joint, as in other programs. Where a skin mirrors,
-// its triangles are turned round, so that their front stays in front.
+// Tangents, texture coordinates and colours morph alike. A vertex without any weight hangs on its
+// first joint, as in other programs. Where a skin mirrors, its triangles are turned round, so that
+// their front stays in front.
 //
 // Source:  glTF 2.0 specification, 3.7.2.2 and 3.7.3.
 // Proved:  tests/scene/gltf_deform_test.cpp.
 // Threads: pure functions.   Errors: throws Error, naming the attribute.
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
-#include "common/scene/gltf_skin.h"
 #include "common/scene/scene.h"
 
 namespace tinygltf {
+class Model;
 struct Primitive;
-}
+}  // namespace tinygltf
 
 namespace ninefold {
 
@@ -37,14 +36,20 @@ struct GltfVertices {
   GltfAccessor open(int accessor, int components, const std::string& name) const;
 };
 
-// Adds the morph targets of `from` to the mesh. Missing weights are 0.
-void addMorphs(const GltfVertices& vertices, const tinygltf::Primitive& from,
-               const std::vector<double>& weights, Mesh& mesh);
+// `weights`: a target whose weight is missing or 0 stays empty; null: all are read.
+std::vector<MorphTarget> readTargets(const GltfVertices& vertices, const tinygltf::Primitive& from,
+                                     const std::vector<double>* weights);
+
+// Adds what targets say of other attributes than positions and normals. Missing weights are 0.
+void addOtherMorphs(const GltfVertices& vertices, const tinygltf::Primitive& from,
+                    const std::vector<double>& weights, Mesh& mesh);
 
 bool isSkinned(const tinygltf::Primitive& primitive);
 
-// The mesh then stands at pose.place, without any turn.
-void applySkin(const GltfVertices& vertices, const tinygltf::Primitive& from, const SkinPose& pose,
-               Mesh& mesh);
+// The joints of all vertices; `joints`: how many the skin has.
+Holds readHolds(const GltfVertices& vertices, const tinygltf::Primitive& from, size_t joints);
+
+// The mesh then stands at the skin's place.
+void applySkin(const Holds& holds, std::span<const DMat4> joints, Mesh& mesh);
 
 }  // namespace ninefold

@@ -1,5 +1,6 @@
 #include "common/scene/gltf_material.h"
 
+#include "common/base/log.h"
 #include "common/scene/gltf_accessor.h"
 #include "common/scene/gltf_value.h"
 #include "common/scene/material_check.h"
@@ -115,6 +116,27 @@ void GltfMaterials::readExtensions(const tinygltf::Material& from, Material& m) 
     m.specularColor = vectorOr(*e, "specularColorFactor", Vec3(1));
     m.specularColorMap = texture(*e, "specularColorTexture", true);
   }
+  readLayers(from, m);
+}
+
+void GltfMaterials::readLayers(const tinygltf::Material& from, Material& m) {
+  if (const auto* e = extensionOf(from, "KHR_materials_sheen")) {
+    m.sheenColor = vectorOr(*e, "sheenColorFactor", Vec3(0));
+    m.sheenColorMap = texture(*e, "sheenColorTexture", true);
+    m.sheenRoughness = numberIn(*e, "sheenRoughnessFactor", 0);
+    m.sheenRoughnessMap = texture(*e, "sheenRoughnessTexture", false);
+  }
+  if (const auto* e = extensionOf(from, "KHR_materials_clearcoat")) {
+    m.coat = numberIn(*e, "clearcoatFactor", 0);
+    m.coatMap = texture(*e, "clearcoatTexture", false);
+    m.coatRoughness = numberIn(*e, "clearcoatRoughnessFactor", 0);
+    m.coatRoughnessMap = texture(*e, "clearcoatRoughnessTexture", false);
+    if (m.coat > 0 && m.normalMap && !e->Has("clearcoatNormalTexture"))
+      warn("material '{}': its coat follows the bumps below it; glTF means a smooth one",
+           from.name);
+  }
+  if (!transmits(m) || (m.coat == 0 && isBlack(m.sheenColor))) return;
+  warn("material '{}': coat and sheen are left out, as light passes through it", from.name);
 }
 
 template <typename Info>

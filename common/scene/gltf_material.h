@@ -32,6 +32,7 @@ class GltfMaterials {
   Material read(int index);
   void readCore(const tinygltf::Material& from, Material& m);
   void readExtensions(const tinygltf::Material& from, Material& m);
+  void readLayers(const tinygltf::Material& from, Material& m);
   template <typename Info>
   TextureUse texture(const Info& info, bool srgb);
   TextureUse texture(const tinygltf::Value& extension, const char* key, bool srgb);

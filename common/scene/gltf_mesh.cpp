@@ -58,35 +58,39 @@ std::vector<Vec4> colorsOf(const GltfVertices& vertices, const tinygltf::Primiti
   return colors;
 }
 
+constexpr uint64_t kMaxTargetVertices = 20'000'000;  // of a file
+
 }  // namespace
 
 // Leaves out what does not matter, so that nodes share what is the same.
-GltfMeshes::Use GltfMeshes::useOf(const tinygltf::Node& node) const {
+GltfMeshes::Use GltfMeshes::useOf(int index) const {
+  const tinygltf::Node& node = model_->nodes[static_cast<size_t>(index)];
   if (node.mesh < 0 || static_cast<size_t>(node.mesh) >= model_->meshes.size())
     fail("mesh {} does not exist", node.mesh);
   const tinygltf::Mesh& mesh = model_->meshes[static_cast<size_t>(node.mesh)];
-  Use use{node.mesh, node.skin, node.weights.empty() ? mesh.weights : node.weights};
+  Use use{node.mesh, node.skin, node.weights.empty() ? mesh.weights : node.weights,
+          animations_->morphs(index) ? index : -1};
   if (std::ranges::none_of(mesh.primitives, isSkinned)) use.skin = -1;
   while (!use.weights.empty() && use.weights.back() == 0) use.weights.pop_back();
   return use;
 }
 
-const std::vector<GltfShape>& GltfMeshes::use(const tinygltf::Node& node) {
+const std::vector<GltfShape>& GltfMeshes::use(int node) {
   const auto [entry, isNew] = known_.try_emplace(useOf(node));
   if (!isNew) return entry->second;
-  const tinygltf::Mesh& from = model_->meshes[static_cast<size_t>(node.mesh)];
+  const tinygltf::Mesh& from = model_->meshes[static_cast<size_t>(entry->first.mesh)];
   for (size_t i = 0; i < from.primitives.size(); ++i) {
     const tinygltf::Primitive& primitive = from.primitives[i];
     if (!hasTriangles(primitive)) {
       ++skippedPrimitives_;
       continue;
     }
-    const std::string what =
-        "mesh " + std::to_string(node.mesh) + " '" + from.name + "' primitive " + std::to_string(i);
+    const std::string what = "mesh " + std::to_string(entry->first.mesh) + " '" + from.name +
+                             "' primitive " + std::to_string(i);
     Mesh read;
     read.name = from.name;
     GltfShape shape;
-    readPrimitive(primitive, entry->first, what, shape, read);
+    readPrimitive(primitive, entry->first, node, what, shape, read);
     if (read.triangles.empty()) continue;
     shape.mesh = static_cast<int>(scene_->meshes.size());
     entry->second.push_back(shape);
@@ -95,7 +99,7 @@ const std::vector<GltfShape>& GltfMeshes::use(const tinygltf::Node& node) {
   return entry->second;
 }
 
-void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const Use& use,
+void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const Use& use, int node,
                                const std::string& what, GltfShape& shape, Mesh& mesh) {
   const auto position = from.attributes.find("POSITION");
   if (position == from.attributes.end()) fail("{}: has no POSITION", what);
@@ -109,20 +113,57 @@ void GltfMeshes::readPrimitive(const tinygltf::Primitive& from, const Use& use,
   mesh.uv1 = attribute<Vec2>(vertices, from, "TEXCOORD_1");
   mesh.tangents = attribute<Vec4>(vertices, from, "TANGENT");
   mesh.colors = colorsOf(vertices, from);
-  deform(from, use, vertices, shape, mesh);
-  flatTriangles_ += cleanMesh(mesh, what);
+  std::optional<AnimatedShape> animated = deform(from, use, vertices, shape, mesh);
+  std::vector<uint32_t> kept;
+  const size_t flat = cleanMesh(mesh, what, &kept);
+  flatTriangles_ += flat;
+  if (animated) keep(std::move(*animated), node, flat, kept);
   if (mesh.triangles.empty()) return;
   mesh.material = materials_.use(from.material);
   if (lacksCoordinates(mesh)) ++withoutCoordinates_;
 }
 
-void GltfMeshes::deform(const tinygltf::Primitive& from, const Use& use,
-                        const GltfVertices& vertices, GltfShape& shape, Mesh& mesh) {
-  addMorphs(vertices, from, use.weights, mesh);
-  if (use.skin < 0 || !isSkinned(from)) return;
-  const SkinPose& pose = skins_.pose(use.skin);
-  applySkin(vertices, from, pose, mesh);
-  shape.place = pose.place;
+std::optional<AnimatedShape> GltfMeshes::deform(const tinygltf::Primitive& from, const Use& use,
+                                                const GltfVertices& vertices, GltfShape& shape,
+                                                Mesh& mesh) {
+  const bool isHeld = use.skin >= 0 && isSkinned(from);
+  const bool morphs = use.morphedBy >= 0 && !from.targets.empty();
+  targetVertices_ += from.targets.size() * vertices.kept.size();
+  if (targetVertices_ > kMaxTargetVertices)
+    fail("{}: more than {} vertices in morph targets: simplify the scene", vertices.what,
+         kMaxTargetVertices);
+  std::vector<MorphTarget> targets = readTargets(vertices, from, morphs ? nullptr : &use.weights);
+  AnimatedShape animated;
+  if (morphs) animated.positions = mesh.positions, animated.normals = mesh.normals;
+  addMorphs(targets, use.weights, mesh.positions, mesh.normals);
+  addOtherMorphs(vertices, from, use.weights, mesh);
+  if (morphs) {
+    animated.targets = std::move(targets);
+    animated.weights = animations_->weightsOf(use.morphedBy, from.targets.size());
+  } else {
+    animated.positions = mesh.positions, animated.normals = mesh.normals;
+  }
+  if (isHeld) {
+    animated.skin = skins_.use(use.skin);
+    const Skin& skin = std::as_const(*scene_).skins[static_cast<size_t>(animated.skin)];
+    animated.holds = readHolds(vertices, from, skin.joints.size());
+    applySkin(animated.holds, jointMatrices(skin), mesh);
+    shape.place = skin.place;
+  }
+  if (!morphs && (!isHeld || animations_->empty())) return std::nullopt;
+  return animated;
+}
+
+// `kept`: the vertices that cleaning left.
+void GltfMeshes::keep(AnimatedShape shape, int node, size_t flat,
+                      const std::vector<uint32_t>& kept) {
+  keepOnly(shape.positions, kept), keepOnly(shape.normals, kept);
+  for (MorphTarget& target : shape.targets)
+    keepOnly(target.positions, kept), keepOnly(target.normals, kept);
+  shape.holds = shape.holds.of(kept);
+  shape.mesh = kept.empty() ? -1 : static_cast<int>(scene_->meshes.size());
+  shape.node = node, shape.flat = flat;
+  scene_->shapes.push_back(std::move(shape));
 }
 
 std::vector<Triangle> GltfMeshes::trianglesOf(const tinygltf::Primitive& from, size_t vertices,
@@ -151,9 +192,7 @@ std::vector<Triangle> GltfMeshes::trianglesOf(const tinygltf::Primitive& from, s
 
 bool GltfMeshes::lacksCoordinates(const Mesh& mesh) const {
   const Material& m = scene_->materials[static_cast<size_t>(mesh.material)];
-  for (const TextureUse* use :
-       {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissionMap, &m.transmissionMap,
-        &m.specularMap, &m.specularColorMap})
+  for (const TextureUse* use : mapsOf(m))
     if (*use && (use->uvSet == 0 ? mesh.uv0 : mesh.uv1).empty()) return true;
   return false;
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "common/base/log.h"
 #include "common/image/tone_map.h"
@@ -11,8 +10,9 @@
 #include "common/scene/gltf_accessor.h"
 #include "common/scene/gltf_animation.h"
 #include "common/scene/gltf_file.h"
+#include "common/scene/gltf_image_light.h"
+#include "common/scene/gltf_lights.h"
 #include "common/scene/gltf_mesh.h"
-#include "common/scene/gltf_profiles.h"
 #include "common/scene/gltf_transform.h"
 #include "common/scene/gltf_value.h"
 #include "common/scene/reader.h"
@@ -20,21 +20,6 @@
 
 namespace ninefold {
 namespace {
-
-// Angles out of order or range become the nearest ones that make sense.
-void setCone(const tinygltf::Light& from, PunctualLight& light) {
-  constexpr float kRounding = 1e-4f;
-  const auto outer = static_cast<float>(from.spot.outerConeAngle),
-             inner = static_cast<float>(from.spot.innerConeAngle);
-  if (!std::isfinite(outer) || !std::isfinite(inner))
-    fail("light '{}': its cone is not a finite number", light.name);
-  light.outerCone = std::clamp(outer, 0.0f, 0.5f * kPi);
-  light.innerCone = std::clamp(inner, 0.0f, light.outerCone);
-  if (std::abs(light.outerCone - outer) > kRounding ||
-      std::abs(light.innerCone - inner) > kRounding)
-    warn("light '{}': cone angles {:.4g} and {:.4g} are read as {:.4g} and {:.4g}", light.name,
-         inner, outer, light.innerCone, light.outerCone);
-}
 
 // Flattened to a line or a point: no triangle has any area.
 bool isNothing(const DMat4& m) {
@@ -44,9 +29,12 @@ bool isNothing(const DMat4& m) {
   return glm::dot(a, a) + glm::dot(b, b) + glm::dot(c, c) <= 1e-24 * lengths * lengths;
 }
 
-bool hasTargets(const tinygltf::Mesh& mesh) {
-  return std::ranges::any_of(mesh.primitives,
-                             [](const auto& primitive) { return !primitive.targets.empty(); });
+// A picture shows 2 ymag of height, and of width what its shape says. Mirrored ones are not meant.
+float heightOf(const tinygltf::OrthographicCamera& camera, const std::string& name) {
+  const auto height = static_cast<float>(2 * std::abs(camera.ymag));
+  if (!(height > 0 && height <= kLargestFilm))
+    fail("camera '{}': its ymag is {}, and must be above 0", name, camera.ymag);
+  return height;
 }
 
 DMat4 translation(DVec3 by) {
@@ -59,9 +47,9 @@ class SceneBuilder {
  public:
   SceneBuilder(const GltfFile& file, const SceneFolder& folder, const ReadOptions& options)
       : model_(file.model.get()),
-        meshes_(file, draft_.scene),
-        profiles_(file, folder, draft_.scene),
         animations_(*model_, options.clip),
+        meshes_(file, animations_, draft_.scene),
+        lights_(file, folder, draft_),
         lightUnits_(options.lightUnits),
         seen_(model_->nodes.size(), 0) {}
 
@@ -73,31 +61,24 @@ class SceneBuilder {
     DMat4 parent, exactParent;  // world matrices; the first can be inverted, see gltf_transform.h
     int mover = -1;             // the nearest node above in animations_
   };
-  struct Skinned {
-    int skin, node;
-    bool isCarried;  // in part: some of its primitives have no joints
-  };
   std::vector<int> roots() const;
   std::optional<float> exposure() const;
   void enter(int node);
   void visit(const Visit& visit, std::vector<Visit>& open);
   bool addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld, bool nothing);
-  void findDeformed();
-  void noteDeformed(int node);
+  void findMovingShapes();
+  bool bends(int skin) const;
+  std::string nameOf(int node) const;
   void addCamera(const tinygltf::Node& node, const DMat4& toWorld);
-  void addLight(const tinygltf::Node& node, int index, const DMat4& toWorld);
-  void addProfiled(const tinygltf::Node& node, const tinygltf::Value& use, const DMat4& toWorld);
-  void keepLight(PunctualLight light, const DMat4& toWorld);
-  void applyLightUnits();
 
   const tinygltf::Model* model_;
   SceneDraft draft_;
-  GltfMeshes meshes_;
-  GltfProfiles profiles_;
   GltfAnimations animations_;
+  GltfMeshes meshes_;
+  GltfLights lights_;
   const LightUnits lightUnits_;
   std::vector<char> seen_;
-  std::vector<Skinned> skinned_;
+  std::vector<int> partlyCarried_;  // nodes: some primitives of their meshes have no joints
 };
 
 std::vector<int> SceneBuilder::roots() const {
@@ -157,20 +138,17 @@ SceneDraft SceneBuilder::build() {
     }
   }
   meshes_.warnOfLosses();
-  applyLightUnits();
-  if (model_->extensions.contains("EXT_lights_image_based"))
-    warn(
-        "EXT_lights_image_based is not read: its light from outside is missing; give a picture "
-        "with --environment FILE.hdr or .exr");
+  lights_.applyUnits(lightUnits_);
   draft_.scene.exposure = exposure();
   draft_.scene.animated = animations_.take();
-  findDeformed();
-  if (!draft_.scene.deformed.empty())
-    log("'{}' is shown in its rest pose: --animate cannot play skins or morph weights",
-        draft_.scene.deformed);
-  else if (!draft_.scene.animated.empty())
-    log("{} node(s) move for {:.4g} s: --animate plays it", draft_.scene.animated.size(),
-        animationEnd(draft_.scene));
+  findMovingShapes();
+  const Scene& scene = draft_.scene;
+  if (const std::string why = whyNotPlayed(scene); why.empty())
+    log("{} node(s) move{} for {:.4g} s: --animate plays it", scene.animated.size(),
+        scene.shapes.empty() ? "" : fmt::format(" and {} mesh(es) deform", scene.shapes.size()),
+        animationEnd(scene));
+  else if (!animations_.empty())
+    log("{}", why);
   return std::move(draft_);
 }
 
@@ -184,9 +162,7 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
   bool isCarried = false;  // its mesh, by the node
   if (node.mesh >= 0) isCarried = addMesh(node, visit.node, toWorld, mover < 0 && isNothing(exact));
   if (node.camera >= 0) addCamera(node, toWorld);
-  if (const auto* e = extensionOf(node, "KHR_lights_punctual"))
-    addLight(node, integerOr(*e, "light", -1), toWorld);
-  if (const auto* e = extensionOf(node, "EXT_lights_ies")) addProfiled(node, *e, toWorld);
+  lights_.add(node, toWorld);
   if (mover >= 0) {
     AnimatedNode& moved = animations_[mover];
     moved.hasInstances = isCarried && draft_.scene.instances.size() > instances;
@@ -201,12 +177,11 @@ void SceneBuilder::visit(const Visit& visit, std::vector<Visit>& open) {
 // Whether the mesh stands where the node says; a skin puts it elsewhere.
 bool SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& toWorld,
                            bool nothing) {
-  const std::vector<GltfShape>& shapes = meshes_.use(node);
+  const std::vector<GltfShape>& shapes = meshes_.use(index);
   const tinygltf::Mesh& mesh = model_->meshes[static_cast<size_t>(node.mesh)];
   const bool isCarried = node.skin < 0 || std::ranges::none_of(mesh.primitives, isSkinned);
-  if (!isCarried)
-    skinned_.push_back({node.skin, index, !std::ranges::all_of(mesh.primitives, isSkinned)});
-  if (animations_.morphs(index) && hasTargets(mesh)) noteDeformed(index);
+  if (!isCarried && !std::ranges::all_of(mesh.primitives, isSkinned))
+    partlyCarried_.push_back(index);
   const std::string& name = node.name.empty() ? mesh.name : node.name;
   const auto add = [&](const DMat4& copy) {
     if (nothing && isCarried) ++draft_.flatInstances;
@@ -225,100 +200,54 @@ bool SceneBuilder::addMesh(const tinygltf::Node& node, int index, const DMat4& t
   return isCarried;
 }
 
-// Joints that move deform a mesh; so does its own node if only a part of the mesh is skinned.
-void SceneBuilder::findDeformed() {
-  std::set<int> moving;
-  for (const AnimatedNode& node : draft_.scene.animated) moving.insert(node.node);
-  std::map<int, bool> bends;  // by skin
-  const auto moves = [&](int node) { return moving.contains(node); };
-  for (const Skinned& object : skinned_) {
-    const auto [entry, isNew] = bends.try_emplace(object.skin);
-    const auto skin = static_cast<size_t>(object.skin);
-    if (isNew && skin < model_->skins.size())
-      entry->second = std::ranges::any_of(model_->skins[skin].joints, moves);
-    if (entry->second || (object.isCarried && moves(object.node))) noteDeformed(object.node);
+// Joints and weights that move deform a mesh: only such shapes stay.
+void SceneBuilder::findMovingShapes() {
+  Scene& scene = draft_.scene;
+  std::map<int, int> movers;  // by node of the file
+  for (const AnimatedNode& node : scene.animated)
+    movers.emplace(node.node, static_cast<int>(movers.size()));
+  for (Skin& skin : scene.skins)
+    for (Joint& joint : skin.joints)
+      if (const auto mover = movers.find(joint.node); mover != movers.end())
+        joint.mover = mover->second;
+  std::vector<AnimatedShape> moving;
+  for (AnimatedShape& shape : scene.shapes) {
+    if (shape.weights.empty() && !bends(shape.skin)) continue;
+    if (shape.flat > 0)
+      warn("'{}': {} triangles without area in the rest pose stay away while it plays",
+           nameOf(shape.node), shape.flat);
+    if (shape.mesh >= 0) moving.push_back(std::move(shape));
   }
+  scene.shapes = std::move(moving);
+  for (const int node : partlyCarried_)
+    if (movers.contains(node) && scene.unplayable.empty()) scene.unplayable = nameOf(node);
 }
 
-// Keeps the first one: it stands for all.
-void SceneBuilder::noteDeformed(int node) {
-  std::string& name = draft_.scene.deformed;
-  if (name.empty()) name = model_->nodes[static_cast<size_t>(node)].name;
-  if (name.empty()) name = "node " + std::to_string(node);
+bool SceneBuilder::bends(int skin) const {
+  if (skin < 0) return false;
+  const auto moves = [](const Joint& joint) { return joint.mover >= 0; };
+  return std::ranges::any_of(draft_.scene.skins[static_cast<size_t>(skin)].joints, moves);
+}
+
+std::string SceneBuilder::nameOf(int node) const {
+  const std::string& name = model_->nodes[static_cast<size_t>(node)].name;
+  return name.empty() ? "node " + std::to_string(node) : name;
 }
 
 void SceneBuilder::addCamera(const tinygltf::Node& node, const DMat4& toWorld) {
   if (static_cast<size_t>(node.camera) >= model_->cameras.size())
     fail("camera {} does not exist", node.camera);
   const tinygltf::Camera& from = model_->cameras[static_cast<size_t>(node.camera)];
-  if (from.type != "perspective") {
-    warn(
-        "camera '{}' is not perspective: left out; one that is far away and has a narrow angle "
-        "looks nearly the same",
-        node.name);
-    return;
-  }
   Camera camera;
   camera.name = node.name.empty() ? from.name : node.name;
   camera.forward = unitOr(-DVec3(toWorld[2]), Vec3(0, 0, -1));
   camera.up = unitOr(DVec3(toWorld[1]), Vec3(0, 1, 0));
-  camera.verticalFov = static_cast<float>(from.perspective.yfov);
+  if (from.type == "orthographic")
+    camera.orthographicHeight = heightOf(from.orthographic, camera.name);
+  else
+    camera.verticalFov = static_cast<float>(from.perspective.yfov);
   draft_.scene.cameras.push_back(camera);
   draft_.eyes.emplace_back(toWorld[3]);
-}
-
-void SceneBuilder::addLight(const tinygltf::Node& node, int index, const DMat4& toWorld) {
-  if (index < 0 || static_cast<size_t>(index) >= model_->lights.size())
-    fail("light {} does not exist", index);
-  const tinygltf::Light& from = model_->lights[static_cast<size_t>(index)];
-  PunctualLight light;
-  light.name = node.name.empty() ? from.name : node.name;
-  if (from.type == "spot")
-    light.kind = LightKind::spot;
-  else if (from.type == "directional")
-    light.kind = LightKind::directional;
-  else if (from.type != "point")
-    fail("light {} is of the unknown type '{}'", index, from.type);
-  const auto strength = static_cast<float>(from.intensity);
-  light.intensity = Vec3(strength);
-  for (int c = 0; c < 3 && from.color.size() == 3; ++c)
-    light.intensity[c] *= static_cast<float>(from.color[static_cast<size_t>(c)]);
-  if (light.kind == LightKind::spot) setCone(from, light);
-  keepLight(std::move(light), toWorld);
-}
-
-// The matrix turns it, and mirrors what it sends if the matrix mirrors; its size is of no account.
-void SceneBuilder::addProfiled(const tinygltf::Node& node, const tinygltf::Value& use,
-                               const DMat4& toWorld) {
-  const GltfProfiles::Light from = profiles_.use(use, mirrors(toWorld));
-  PunctualLight light;
-  light.name =
-      node.name.empty() ? draft_.scene.profiles[static_cast<size_t>(from.profile)].name : node.name;
-  light.kind = LightKind::goniometric;
-  light.profile = from.profile, light.intensity = from.intensity;
-  keepLight(std::move(light), toWorld);
-  PunctualLight& kept = draft_.scene.lights.back();
-  kept.across = acrossAxis(kept.direction, unitOr(DVec3(toWorld[0]), kept.across));
-}
-
-void SceneBuilder::keepLight(PunctualLight light, const DMat4& toWorld) {
-  light.direction = unitOr(-DVec3(toWorld[2]), Vec3(0, 0, -1));
-  draft_.scene.lights.push_back(std::move(light));
-  draft_.lightPositions.emplace_back(toWorld[3]);
-}
-
-// All lamps together, as one file has one unit.
-void SceneBuilder::applyLightUnits() {
-  std::vector<PunctualLight>& lights = draft_.scene.lights;
-  if (lights.empty()) return;
-  float brightest = 0;
-  for (const PunctualLight& light : lights)
-    brightest = std::max(brightest, maxComponent(light.intensity));
-  const LightReading reading =
-      readingOf(lightUnits_, model_->asset.generator, static_cast<double>(brightest));
-  reading.isDoubtful ? warn("{}", reading.line) : log("{}", reading.line);
-  if (!reading.isPhotometric) return;
-  for (PunctualLight& light : lights) light.intensity /= static_cast<float>(kLumensPerWatt);
 }
 
 }  // namespace
@@ -326,7 +255,12 @@ void SceneBuilder::applyLightUnits() {
 SceneDraft readGltf(std::span<const unsigned char> file, const SceneFolder& folder,
                     const ReadOptions& options) {
   const GltfFile parsed = parseGltf(file, folder);
-  return SceneBuilder(parsed, folder, options).build();
+  SceneDraft draft = SceneBuilder(parsed, folder, options).build();
+  if (options.isLitFromOutside()) return draft;
+  const ImageLight light = readImageLight(parsed);
+  draft.scene.environmentMap = light.map;
+  if (light.map) draft.scene.environment = Radiance(light.intensity);
+  return draft;
 }
 
 }  // namespace ninefold

@@ -8,26 +8,30 @@
 
 namespace ninefold {
 
-GltfSkins::GltfSkins(const tinygltf::Model& model)
-    : model_(&model), parents_(model.nodes.size(), -1), worlds_(model.nodes.size()) {
+GltfSkins::GltfSkins(const tinygltf::Model& model, Scene& scene)
+    : model_(&model),
+      scene_(&scene),
+      parents_(model.nodes.size(), -1),
+      worlds_(model.nodes.size()) {
   for (size_t i = 0; i < model.nodes.size(); ++i)
     for (const int child : model.nodes[i].children)
       if (child >= 0 && static_cast<size_t>(child) < parents_.size())
         parents_[static_cast<size_t>(child)] = static_cast<int>(i);
 }
 
-const SkinPose& GltfSkins::pose(int skin) {
-  if (const auto known = poses_.find(skin); known != poses_.end()) return known->second;
+int GltfSkins::use(int skin) {
+  if (const auto known = known_.find(skin); known != known_.end()) return known->second;
   if (skin < 0 || static_cast<size_t>(skin) >= model_->skins.size())
     fail("skin {} does not exist", skin);
   try {
-    return poses_[skin] = read(skin);
+    scene_->skins.push_back(read(skin));
+    return known_[skin] = static_cast<int>(scene_->skins.size()) - 1;
   } catch (const Error& e) {
     fail("skin {} '{}': {}", skin, model_->skins[static_cast<size_t>(skin)].name, e.what());
   }
 }
 
-SkinPose GltfSkins::read(int skin) {
+Skin GltfSkins::read(int skin) {
   const tinygltf::Skin& from = model_->skins[static_cast<size_t>(skin)];
   if (from.joints.empty()) fail("it has no joints");
   std::optional<GltfAccessor> inverseBind;
@@ -35,14 +39,12 @@ SkinPose GltfSkins::read(int skin) {
     inverseBind.emplace(*model_, from.inverseBindMatrices, 16, "inverseBindMatrices");
   if (inverseBind && inverseBind->count() < from.joints.size())
     fail("{} inverseBindMatrices for {} joints", inverseBind->count(), from.joints.size());
-  SkinPose pose;
-  pose.place = DVec3(worldOf(from.joints[0])[3]);
-  for (size_t i = 0; i < from.joints.size(); ++i) {
-    DMat4 world = worldOf(from.joints[i]);
-    world[3] -= DVec4(pose.place, 0);
-    pose.joints.push_back(inverseBind ? world * inverseBind->matrix(i) : world);
-  }
-  return pose;
+  Skin read;
+  read.place = DVec3(worldOf(from.joints[0])[3]);
+  for (size_t i = 0; i < from.joints.size(); ++i)
+    read.joints.push_back({from.joints[i], -1, worldOf(from.joints[i]),
+                           inverseBind ? inverseBind->matrix(i) : DMat4(1)});
+  return read;
 }
 
 // Climbs to the nearest node whose world matrix is known, or to a root, and comes down again.

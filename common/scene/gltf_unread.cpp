@@ -8,116 +8,13 @@
 #include <set>
 #include <vector>
 
+#include "common/scene/gltf_known_names.h"
+
 namespace ninefold {
 namespace {
 
 using Json = nlohmann::json;
 
-// What is read of attributes, materials and extensions, as paths of member names, arrays left out.
-// '#' stands for a number, '@' for all of kTextureUse.
-constexpr const char* kRead[] = {
-    "extensions.KHR_lights_punctual.lights.name",
-    "extensions.KHR_lights_punctual.lights.type",
-    "extensions.KHR_lights_punctual.lights.color",
-    "extensions.KHR_lights_punctual.lights.intensity",
-    "extensions.KHR_lights_punctual.lights.spot.innerConeAngle",
-    "extensions.KHR_lights_punctual.lights.spot.outerConeAngle",
-    "nodes.extensions.KHR_lights_punctual.light",
-    "extensions.EXT_lights_ies.lights.name",
-    "extensions.EXT_lights_ies.lights.uri",
-    "extensions.EXT_lights_ies.lights.bufferView",
-    "extensions.EXT_lights_ies.lights.mimeType",
-    "nodes.extensions.EXT_lights_ies.light",
-    "nodes.extensions.EXT_lights_ies.multiplier",
-    "nodes.extensions.EXT_lights_ies.color",
-    "nodes.extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION",
-    "nodes.extensions.EXT_mesh_gpu_instancing.attributes.ROTATION",
-    "nodes.extensions.EXT_mesh_gpu_instancing.attributes.SCALE",
-    "buffers.extensions.EXT_meshopt_compression.fallback",
-    "buffers.extensions.KHR_meshopt_compression.fallback",
-    "bufferViews.extensions.EXT_meshopt_compression.buffer",
-    "bufferViews.extensions.EXT_meshopt_compression.byteOffset",
-    "bufferViews.extensions.EXT_meshopt_compression.byteLength",
-    "bufferViews.extensions.EXT_meshopt_compression.byteStride",
-    "bufferViews.extensions.EXT_meshopt_compression.count",
-    "bufferViews.extensions.EXT_meshopt_compression.mode",
-    "bufferViews.extensions.EXT_meshopt_compression.filter",
-    "bufferViews.extensions.KHR_meshopt_compression.buffer",
-    "bufferViews.extensions.KHR_meshopt_compression.byteOffset",
-    "bufferViews.extensions.KHR_meshopt_compression.byteLength",
-    "bufferViews.extensions.KHR_meshopt_compression.byteStride",
-    "bufferViews.extensions.KHR_meshopt_compression.count",
-    "bufferViews.extensions.KHR_meshopt_compression.mode",
-    "bufferViews.extensions.KHR_meshopt_compression.filter",
-    "meshes.primitives.extensions.KHR_draco_mesh_compression.bufferView",
-    "meshes.primitives.extensions.KHR_draco_mesh_compression.attributes",
-    "meshes.primitives.attributes.POSITION",
-    "meshes.primitives.attributes.NORMAL",
-    "meshes.primitives.attributes.TANGENT",
-    "meshes.primitives.attributes.TEXCOORD_0",
-    "meshes.primitives.attributes.TEXCOORD_1",
-    "meshes.primitives.attributes.COLOR_0",
-    "meshes.primitives.attributes.JOINTS_#",
-    "meshes.primitives.attributes.WEIGHTS_#",
-    "meshes.primitives.targets.POSITION",
-    "meshes.primitives.targets.NORMAL",
-    "meshes.primitives.targets.TANGENT",
-    "meshes.primitives.targets.TEXCOORD_0",
-    "meshes.primitives.targets.TEXCOORD_1",
-    "meshes.primitives.targets.COLOR_0",
-    "materials.name",
-    "materials.alphaMode",
-    "materials.alphaCutoff",
-    "materials.doubleSided",
-    "materials.emissiveFactor",
-    "materials.emissiveTexture@",
-    "materials.normalTexture@",
-    "materials.normalTexture.scale",
-    "materials.pbrMetallicRoughness.baseColorFactor",
-    "materials.pbrMetallicRoughness.baseColorTexture@",
-    "materials.pbrMetallicRoughness.metallicFactor",
-    "materials.pbrMetallicRoughness.roughnessFactor",
-    "materials.pbrMetallicRoughness.metallicRoughnessTexture@",
-    "materials.extensions.KHR_materials_emissive_strength.emissiveStrength",
-    "materials.extensions.KHR_materials_ior.ior",
-    "materials.extensions.KHR_materials_specular.specularFactor",
-    "materials.extensions.KHR_materials_specular.specularTexture@",
-    "materials.extensions.KHR_materials_specular.specularColorFactor",
-    "materials.extensions.KHR_materials_specular.specularColorTexture@",
-    "materials.extensions.KHR_materials_transmission.transmissionFactor",
-    "materials.extensions.KHR_materials_transmission.transmissionTexture@",
-    "materials.extensions.KHR_materials_volume.thicknessFactor",
-    "materials.extensions.KHR_materials_volume.attenuationColor",
-    "materials.extensions.KHR_materials_volume.attenuationDistance",
-};
-constexpr const char* kTextureUse[] = {
-    ".index",
-    ".texCoord",
-    ".extensions.KHR_texture_transform.offset",
-    ".extensions.KHR_texture_transform.rotation",
-    ".extensions.KHR_texture_transform.scale",
-    ".extensions.KHR_texture_transform.texCoord",
-};
-// A promise about the types of attributes; no object of the file has it as a member.
-constexpr std::string_view kOnlyNamed = "KHR_mesh_quantization";
-
-// What the picture shows instead.
-constexpr std::pair<std::string_view, const char*> kInstead[] = {
-    {"KHR_materials_anisotropy", "highlights are round"},
-    {"KHR_materials_clearcoat", "without the coat and its reflection"},
-    {"KHR_materials_diffuse_transmission", "no light comes through diffusely"},
-    {"KHR_materials_dispersion", "all colours refract alike"},
-    {"KHR_materials_iridescence", "without colours of thin films"},
-    {"KHR_materials_pbrSpecularGlossiness", "as the metallic-roughness values beside it say"},
-    {"KHR_materials_sheen", "cloth lacks its bright rim"},
-    {"KHR_materials_unlit", "lit like other surfaces"},
-    {"KHR_materials_variants", "as by default"},
-    {"KHR_materials_volume.thicknessTexture", "as thick as the mesh is"},
-    {"KHR_node_visibility", "hidden objects show"},
-    {"KHR_texture_basisu", "the PNG or JPEG beside it"},
-    {"EXT_texture_webp", "the PNG or JPEG beside it"},
-    {"occlusionTexture", "light is computed"},
-};
 constexpr size_t kMostNames = 30, kLongestName = 60;  // of a message
 
 // Members of an object that are read. One without any is a value, or an object that may hold

@@ -129,8 +129,25 @@ class Writer {
       put(s, "specularTexture", m.specularMap);
       put(s, "specularColorTexture", m.specularColorMap);
     }
+    addLayers(m, e);
     for (const auto& item : e.items()) uses(item.key().c_str());
     return out;
+  }
+
+  void addLayers(const Material& m, Json& extensions) {
+    if (!isBlack(m.sheenColor)) {
+      Json& sheen = extensions["KHR_materials_sheen"];
+      sheen = {{"sheenColorFactor", listOf(m.sheenColor)},
+               {"sheenRoughnessFactor", m.sheenRoughness}};
+      put(sheen, "sheenColorTexture", m.sheenColorMap);
+      put(sheen, "sheenRoughnessTexture", m.sheenRoughnessMap);
+    }
+    if (m.coat > 0) {
+      Json& coat = extensions["KHR_materials_clearcoat"];
+      coat = {{"clearcoatFactor", m.coat}, {"clearcoatRoughnessFactor", m.coatRoughness}};
+      put(coat, "clearcoatTexture", m.coatMap);
+      put(coat, "clearcoatRoughnessTexture", m.coatRoughnessMap);
+    }
   }
 
   static void addVolume(const Material& m, Json& extensions) {
@@ -194,9 +211,15 @@ class Writer {
   }
 
   void addCamera(const Camera& camera) {
-    json_["cameras"].push_back({{"name", camera.name},
-                                {"type", "perspective"},
-                                {"perspective", {{"yfov", camera.verticalFov}, {"znear", 0.01}}}});
+    const float half = 0.5f * camera.orthographicHeight;
+    Json out{{"name", camera.name}};
+    if (isOrthographic(camera))
+      out["type"] = "orthographic",
+      out["orthographic"] = {{"xmag", half}, {"ymag", half}, {"znear", 0}, {"zfar", 1e6}};
+    else
+      out["type"] = "perspective",
+      out["perspective"] = {{"yfov", camera.verticalFov}, {"znear", 0.01}};
+    json_["cameras"].push_back(std::move(out));
     addNode({{"name", camera.name}, {"camera", json_["cameras"].size() - 1}},
             lookingAlong(camera.eye, camera.forward, camera.up));
   }

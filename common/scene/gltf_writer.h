@@ -2,8 +2,7 @@
 // it back gives the same values, coordinates to an ulp.
 //
 // Instances of one node become one node with a mesh of several primitives; copies of
-// EXT_mesh_gpu_instancing become nodes. Left out: a constant environment, which has no place in
-// glTF, and animations.
+// EXT_mesh_gpu_instancing become nodes. Left out: light from outside, and animations.
 //
 // Proved:  tests/scene/gltf_writer_test.cpp.
 // Threads: pure, but for the file.   Errors: throws Error that names the file.

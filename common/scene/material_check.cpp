@@ -39,6 +39,10 @@ void checkMaps(const Scene& scene, const Material& m, const std::string& what) {
   checkUse(scene, m.transmissionMap, false, what, "transmission");
   checkUse(scene, m.specularMap, false, what, "specular");
   checkUse(scene, m.specularColorMap, true, what, "specular colour");
+  checkUse(scene, m.sheenColorMap, true, what, "sheen");
+  checkUse(scene, m.sheenRoughnessMap, false, what, "sheen roughness");
+  checkUse(scene, m.coatMap, false, what, "clear coat");
+  checkUse(scene, m.coatRoughnessMap, false, what, "clear coat's roughness");
 }
 
 // Leaves NaN as it is: the check tells it.
@@ -68,6 +72,10 @@ void clampFactors(Material& m, const std::string& what) {
   clampFactor(m.specular, 1, what, "specular factor");
   clampColour(m.specularColor, kAny, what, "specular colour");
   clampColour(m.attenuationColor, 1, what, "attenuation colour");
+  clampColour(m.sheenColor, 1, what, "sheen");
+  clampFactor(m.sheenRoughness, 1, what, "sheen roughness");
+  clampFactor(m.coat, 1, what, "clear coat");
+  clampFactor(m.coatRoughness, 1, what, "clear coat's roughness");
 }
 
 void checkMaterial(const Scene& scene, const Material& m, const std::string& what) {
@@ -85,6 +93,10 @@ void checkMaterial(const Scene& scene, const Material& m, const std::string& wha
   checkRange(m.specular, 0, 1, what, "specular factor");
   checkColour(m.specularColor, kAny, what, "specular colour");
   checkColour(m.attenuationColor, 1, what, "attenuation colour");
+  checkColour(m.sheenColor, 1, what, "sheen");
+  checkRange(m.sheenRoughness, 0, 1, what, "sheen roughness");
+  checkRange(m.coat, 0, 1, what, "clear coat");
+  checkRange(m.coatRoughness, 0, 1, what, "clear coat's roughness");
   if (!(m.attenuationDistance > 0)) fail("{}: its attenuation distance must be above 0", what);
   checkMaps(scene, m, what);
 }

@@ -17,13 +17,6 @@ void checkFinite(const std::vector<V>& values, const std::string& what, const ch
       fail("{}: {} {} is not a finite number: export the scene again", what, name, i);
 }
 
-template <typename V>
-void keepOnly(std::vector<V>& values, const std::vector<uint32_t>& kept) {
-  if (values.empty()) return;
-  for (size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
-  values.resize(kept.size());
-}
-
 DVec3 twiceArea(const Mesh& mesh, const Triangle& t) {
   return exactNormal(mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]);
 }
@@ -90,7 +83,7 @@ std::vector<uint32_t> compactVertices(std::vector<Triangle>& triangles) {
   return used;
 }
 
-size_t cleanMesh(Mesh& mesh, const std::string& what) {
+size_t cleanMesh(Mesh& mesh, const std::string& what, std::vector<uint32_t>* keptVertices) {
   checkFinite(mesh.positions, what, "position");
   checkFinite(mesh.normals, what, "normal");
   checkFinite(mesh.uv0, what, "texture coordinate");
@@ -108,6 +101,7 @@ size_t cleanMesh(Mesh& mesh, const std::string& what) {
   for (Vec4& color : mesh.colors) color = glm::clamp(color, 0.0f, 1.0f);
   cleanNormals(mesh);
   cleanTangents(mesh);
+  if (keptVertices != nullptr) *keptVertices = kept;
   return dropped;
 }
 

@@ -14,7 +14,16 @@ std::vector<uint32_t> compactVertices(std::vector<Triangle>& triangles);
 
 // Drops triangles of zero area and vertices that no triangle uses. Makes normals and tangents unit
 // and zero normals geometric, forgets unusable tangents, and clamps colours to [0, 1]. Returns how
-// many triangles were dropped. Throws Error, naming `what`, for a number that is not finite.
-size_t cleanMesh(Mesh& mesh, const std::string& what);
+// many triangles were dropped; `kept`: the old numbers of the vertices that are left. Throws Error,
+// naming `what`, for a number that is not finite.
+size_t cleanMesh(Mesh& mesh, const std::string& what, std::vector<uint32_t>* kept = nullptr);
+
+// The values of these vertices alone; no values stay none.
+template <typename V>
+void keepOnly(std::vector<V>& values, const std::vector<uint32_t>& kept) {
+  if (values.empty()) return;
+  for (size_t i = 0; i < kept.size(); ++i) values[i] = values[kept[i]];
+  values.resize(kept.size());
+}
 
 }  // namespace ninefold

@@ -41,13 +41,23 @@ bool blendsByVertex(const Scene& scene, const Mesh& mesh) {
 }
 
 bool isTextured(const Material& m) {
-  return m.baseColorMap || m.metallicRoughnessMap || m.normalMap || m.emissionMap ||
-         m.transmissionMap || m.specularMap || m.specularColorMap;
+  return std::ranges::any_of(mapsOf(m), [](const TextureUse* use) { return bool(*use); });
+}
+
+// GGX alpha = roughness^2; below this it counts as smooth, as in bsdf/bsdf.h.
+constexpr float kSmallestAlpha = 1e-3f;
+
+void addLayers(const Scene& scene, const Material& m, Needs& needs) {
+  if (hasSheen(m)) needs.reflection = needs.roughSpecular = needs.glossy = true;
+  if (!hasCoat(m)) return;
+  const Range texels = channelRange(scene, m.coatRoughnessMap, 1);
+  const float smoothest = m.coatRoughness * texels.low, roughest = m.coatRoughness * texels.high;
+  needs.reflection = true;
+  needs.roughSpecular |= roughest * roughest >= kSmallestAlpha;
+  needs.smoothSpecular |= smoothest * smoothest < kSmallestAlpha;
 }
 
 void addMaterial(const Scene& scene, const Material& m, Needs& needs) {
-  // GGX alpha = roughness^2; below this it counts as smooth, as in bsdf/bsdf.h.
-  constexpr float kSmallestAlpha = 1e-3f;
   const bool glass = transmits(m);
   const bool lobe = glass || !foldsIntoDiffuse(scene, m);
   const auto [smoothest, roughest] = roughness(scene, m);
@@ -56,6 +66,7 @@ void addMaterial(const Scene& scene, const Material& m, Needs& needs) {
   needs.roughSpecular |= lobe && roughest * roughest >= kSmallestAlpha;
   needs.smoothSpecular |= (lobe && smoothest * smoothest < kSmallestAlpha) || blends(scene, m);
   needs.glossy |= lobe && !glass && roughest >= kGlossyRoughness;
+  addLayers(scene, m, needs);
   needs.caustics |= focusesLight(scene, m);
   needs.textures |= isTextured(m);
   needs.alphaMask |= m.alphaMode == AlphaMode::mask;
@@ -81,7 +92,7 @@ bool letsPassStraight(const Scene& scene, const Material& m) {
 }
 
 bool focusesLight(const Scene& scene, const Material& m) {
-  if (transmits(m)) return true;
+  if (transmits(m) || hasCoat(m)) return true;
   return !foldsIntoDiffuse(scene, m) && roughness(scene, m).low < kGlossyRoughness;
 }
 

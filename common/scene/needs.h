@@ -6,6 +6,7 @@
 //            foldsIntoDiffuse
 //   glossy   less rough, but rough enough for VPLs to stand on it, see kGlossyRoughness
 //   the rest is the caustic photons' work
+// Sheen is glossy, and what lies under a clear coat is the photons' work together with the coat.
 // Threads: pure functions.
 #pragma once
 
@@ -47,8 +48,8 @@ bool foldsIntoDiffuse(const Scene& scene, const Material& material);
 // True if light passes straight through the material between equal media: blended, or a thin wall.
 bool letsPassStraight(const Scene& scene, const Material& material);
 
-// True if the material has an S lobe that is neither folded nor glossy everywhere. Passing straight
-// on is not focusing.
+// True if the material has an S lobe that is neither folded nor glossy everywhere, or a coat.
+// Passing straight on is not focusing.
 bool focusesLight(const Scene& scene, const Material& material);
 
 // `environment`: the radiance that is rendered with, instead of the scene's own.

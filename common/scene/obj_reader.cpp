@@ -28,8 +28,7 @@ struct CornerHash {
 constexpr Vec2 kNoCoordinate{0, 1};
 
 bool isMapped(const Material& m) {
-  return m.baseColorMap || m.metallicRoughnessMap || m.normalMap || m.emissionMap ||
-         m.specularColorMap;
+  return std::ranges::any_of(mapsOf(m), [](const TextureUse* use) { return bool(*use); });
 }
 
 // Takes the parser's events. Each group of faces makes one mesh for every material in it.

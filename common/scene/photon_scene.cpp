@@ -12,8 +12,7 @@ void addPhotonScene(Scene& scene, const Scene& simple) {
   for (const TextureImage& image : simple.images) scene.images.push_back(image);
   for (Material m : simple.materials) {
     m.emission = Vec3(0);
-    for (TextureUse* use : {&m.baseColorMap, &m.metallicRoughnessMap, &m.normalMap, &m.emissionMap,
-                            &m.transmissionMap, &m.specularMap, &m.specularColorMap})
+    for (TextureUse* use : mapsOf(m))
       if (*use) use->image += images;
     scene.materials.push_back(std::move(m));
   }

@@ -41,14 +41,15 @@ std::string oneLine(std::string text) {
 
 // Its messages name the picture's file.
 void addEnvironment(const EnvironmentSource& source, Scene& scene) {
-  scene.environmentMap = readEnvironment(source);
-  if (scene.environmentMap) scene.environment = Radiance(strengthOf(source));
+  const auto map = readEnvironment(source);
+  if (!map) return;
+  scene.environmentMap = map;
+  scene.environment = Radiance(strengthOf(source));
 }
 
 Scene readFile(const std::filesystem::path& file, const ReadOptions& options) try {
   SceneDraft draft = readDraft(file, options);
-  const bool isLit = !std::holds_alternative<std::monostate>(options.environment);
-  Scene scene = finishScene(std::move(draft), isLit);
+  Scene scene = finishScene(std::move(draft), options.isLitFromOutside());
   scene.name = file.stem().string();
   return scene;
 } catch (const Error& e) {

@@ -33,6 +33,11 @@ struct ReadOptions {
   std::optional<std::string> clip = {};  // which of its animations plays; nothing: the first
   LightUnits lightUnits = LightUnits::automatic;
   EnvironmentSource environment = {};  // instead of the scene's own
+  bool hasColorOutside = false;        // a constant replaces the scene's own environment, also 0
+
+  bool isLitFromOutside() const {
+    return hasColorOutside || !std::holds_alternative<std::monostate>(environment);
+  }
 };
 
 Scene readScene(const std::filesystem::path& file, const ReadOptions& options = {});

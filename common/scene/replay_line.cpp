@@ -19,7 +19,10 @@ std::string flagOf(const Scene&, const Setting<T>& row, const T& value) {
 std::string flagOf(const Scene&, const Setting<Camera>&, const Camera&) { return ""; }
 
 std::string flagOf(const Scene& scene, const Setting<Radiance>& row, const Radiance& value) {
-  if (scene.environmentMap) return " " + scene.environmentMap->picture().name;
+  if (scene.environmentMap) {
+    const std::string& name = scene.environmentMap->picture().name;
+    return name.empty() ? "" : " " + name;
+  }
   return fmt::format(" --{} {}", row.name, textOf(value));
 }
 

@@ -22,6 +22,7 @@
 #include "common/math/camera.h"
 #include "common/math/units.h"
 #include "common/scene/animated_node.h"
+#include "common/scene/deformation.h"
 #include "common/scene/environment_map.h"
 #include "common/scene/light_profile.h"
 
@@ -83,10 +84,31 @@ struct Material {
   bool solid = false;           // transmits as a solid (refracts, attenuates); else thin-walled
   Vec3 attenuationColor{1};
   float attenuationDistance = std::numeric_limits<float>::infinity();  // [m]
+  // Layers over it, where it does not transmit: KHR_materials_sheen, and a coat over all.
+  Vec3 sheenColor{0};
+  TextureUse sheenColorMap;  // sRGB
+  float sheenRoughness = 0;
+  TextureUse sheenRoughnessMap;  // A
+  float coat = 0;                // KHR_materials_clearcoat
+  TextureUse coatMap;            // R
+  float coatRoughness = 0;
+  TextureUse coatRoughnessMap;  // G
 };
+
+// All maps of a material, const or not.
+template <typename M>
+auto mapsOf(M& m) {
+  return std::array{&m.baseColorMap,     &m.metallicRoughnessMap, &m.normalMap,
+                    &m.emissionMap,      &m.transmissionMap,      &m.specularMap,
+                    &m.specularColorMap, &m.sheenColorMap,        &m.sheenRoughnessMap,
+                    &m.coatMap,          &m.coatRoughnessMap};
+}
 
 // Whether light passes through: metals do not transmit.
 inline bool transmits(const Material& m) { return m.transmission > 0 && m.metallic < 1; }
+
+inline bool hasCoat(const Material& m) { return m.coat > 0 && !transmits(m); }
+inline bool hasSheen(const Material& m) { return !isBlack(m.sheenColor) && !transmits(m); }
 
 struct Mesh {
   std::string name;
@@ -139,10 +161,13 @@ struct Scene {
   std::vector<Instance> photonInstances;  // what photons of a pool meet, see photon_scene.h
   std::vector<PunctualLight> lights;
   SharedList<LightProfile> profiles;
-  std::vector<Camera> cameras;        // at least one after reading
-  SharedList<AnimatedNode> animated;  // see animation.h; the wire does not carry it
-  std::string deformed;               // the first object whose shape the animation changes
-  Radiance environment{0};            // from outside; times the map's values, if there is one
+  std::vector<Camera> cameras;  // at least one after reading
+  // What an animation moves and deforms, see animation.h; the wire does not carry them.
+  SharedList<AnimatedNode> animated;
+  SharedList<AnimatedShape> shapes;
+  SharedList<Skin> skins;
+  std::string unplayable;   // an object whose movement cannot be played
+  Radiance environment{0};  // from outside; times the map's values, if there is one
   std::shared_ptr<const EnvironmentMap> environmentMap;  // null: the same from all directions
   std::optional<float> exposure;  // [EV] that it is meant to be shown with; not on the wire
   DVec3 origin{0};                // file coordinates = scene coordinates + origin

@@ -85,7 +85,7 @@ Scene finishScene(SceneDraft draft, bool isLit) {
   }
   validate(scene);
   keepTexelRanges(scene);
-  if (!isLit && !Emitters::anyIn(scene)) {
+  if (!isLit && !scene.environmentMap && !Emitters::anyIn(scene)) {
     warn("no light in the file: a white environment of radiance 1 lights it");
     scene.environment = Radiance(1);
   }

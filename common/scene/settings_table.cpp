@@ -133,6 +133,9 @@ void checkRange(const Setting<Camera>&, const Camera& camera) {
     fail("camera up is parallel to forward, or zero");
   if (!(camera.verticalFov > 0 && camera.verticalFov < kPi))
     fail("camera field of view is {}, must be between 0 and pi", camera.verticalFov);
+  if (!(camera.orthographicHeight >= 0 && camera.orthographicHeight <= kLargestFilm))
+    fail("orthographic height of the camera is {}, must be between 0 and {:g}",
+         camera.orthographicHeight, kLargestFilm);
 }
 
 }  // namespace ninefold

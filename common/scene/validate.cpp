@@ -127,6 +127,9 @@ void checkCameras(const Scene& scene) {
       fail("camera {} '{}': its up direction is parallel to its view", i, camera.name);
     if (!(camera.verticalFov > 0 && camera.verticalFov < kPi))
       fail("camera {} '{}': its field of view must lie between 0 and 180 degrees", i, camera.name);
+    if (!(camera.orthographicHeight >= 0 && camera.orthographicHeight <= kLargestFilm))
+      fail("camera {} '{}': the height of its picture must lie between 0 and {:g}", i, camera.name,
+           kLargestFilm);
   }
 }
 

@@ -103,12 +103,16 @@ double CameraControl::pivotDistance() const {
   return std::max(glm::length(pivot_ - anchor_), kSmallest * sceneRadius_);
 }
 
+double CameraControl::heightAtPivot() const {
+  if (orthographicHeight_ > 0) return double(orthographicHeight_);
+  return 2 * std::tan(0.5 * double(verticalFov_)) * pivotDistance();
+}
+
 void CameraControl::pan(double right, double up) {
   if (!isFinite(right, up)) return;
   settle();
-  const double height = 2 * std::tan(0.5 * double(verticalFov_)) * pivotDistance();
   const DVec3 across = this->right();
-  const DVec3 step = -height * (right * across + up * glm::cross(across, forward_));
+  const DVec3 step = -heightAtPivot() * (right * across + up * glm::cross(across, forward_));
   anchor_ += step;
   pivot_ += step;
 }
@@ -117,6 +121,8 @@ void CameraControl::dolly(double notches) {
   if (!std::isfinite(notches)) return;
   settle();
   const double share = std::pow(kDollyStep, std::clamp(notches, -100.0, 100.0));
+  if (orthographicHeight_ > 0)
+    return setOrthographicHeight(static_cast<float>(share * double(orthographicHeight_)));
   const DVec3 arm = anchor_ - pivot_;
   const double length = glm::length(arm);
   const double wanted = std::clamp(share * length, kSmallest * sceneRadius_, 100 * sceneRadius_);
@@ -132,7 +138,11 @@ void CameraControl::frame(const Bounds& things) {
   settle();
   pivot_ = DVec3(things.centre());
   const double radius = std::max(double(things.radius()), kSmallest * sceneRadius_);
-  anchor_ = pivot_ - radius / std::sin(0.5 * double(verticalFov_)) * forward_;
+  const double away = orthographicHeight_ > 0
+                          ? std::max(glm::dot(pivot_ - anchor_, forward_), radius)
+                          : radius / std::sin(0.5 * double(verticalFov_));
+  anchor_ = pivot_ - away * forward_;
+  setOrthographicHeight(static_cast<float>(2 * radius));
 }
 
 void CameraControl::go(const Camera& camera) {
@@ -142,6 +152,7 @@ void CameraControl::go(const Camera& camera) {
     forward_ = glm::normalize(DVec3(camera.forward));
     up_ = DVec3(camera.up);
     verticalFov_ = camera.verticalFov;
+    orthographicHeight_ = camera.orthographicHeight;
   }
   // The pivot comes onto the line of sight, as far away as it was deep.
   const double depth = glm::dot(pivot_ - anchor_, forward_);
@@ -152,12 +163,19 @@ void CameraControl::setVerticalFov(float radians) {
   if (std::isfinite(radians)) verticalFov_ = std::clamp(radians, kNarrowest, kWidest);
 }
 
+void CameraControl::setOrthographicHeight(float metres) {
+  if (orthographicHeight_ == 0 || !std::isfinite(metres)) return;
+  const auto radius = static_cast<float>(sceneRadius_);
+  orthographicHeight_ = std::clamp(metres, 1e-6f * radius, std::min(100 * radius, kLargestFilm));
+}
+
 Camera CameraControl::camera() const {
   Camera camera;
   camera.eye = Vec3(anchor_ + velocity() * seconds(held_));
   camera.forward = Vec3(forward_);
   camera.up = Vec3(up_);
   camera.verticalFov = verticalFov_;
+  camera.orthographicHeight = orthographicHeight_;
   return camera;
 }
 

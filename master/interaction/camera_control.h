@@ -6,6 +6,9 @@
 //   pan     eye and pivot slide along the picture's plane
 //   dolly   the eye moves towards the pivot and never reaches it
 //
+// An orthographic camera shows nothing larger from nearby: dolly and frame change the height of
+// what it shows instead.
+//
 // Frame-rate independent to the bit: the time for which keys are held is summed in whole
 // nanoseconds since the last event, so that any splitting of it gives the same camera.
 //
@@ -54,6 +57,7 @@ class CameraControl {
   void go(const Camera& camera);     // one of the scene's, or any
   void reset() { go(home_); }
   void setVerticalFov(float radians);
+  void setOrthographicHeight(float metres);  // of an orthographic camera
 
   Camera camera() const;
   Vec3 pivot() const { return Vec3(pivot_); }
@@ -64,7 +68,8 @@ class CameraControl {
   DVec3 velocity() const;
   DVec3 right() const;
   double pivotDistance() const;
-  void settle();  // time up to now goes into the anchor
+  double heightAtPivot() const;  // of what the picture shows there [m]
+  void settle();                 // time up to now goes into the anchor
   void turn(double right, double up);
 
   Camera home_;
@@ -73,6 +78,7 @@ class CameraControl {
   Duration held_{0};
   DVec3 forward_{0, 0, -1}, up_{0, 1, 0};
   float verticalFov_ = 0.8f;
+  float orthographicHeight_ = 0;  // 0: a pinhole
   DVec3 pivot_{0};
   double speed_ = 1;
   bool hurry_ = false;

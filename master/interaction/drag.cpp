@@ -43,8 +43,9 @@ const DMat4& Drag::moveTo(Vec2 pointer, const Camera& camera, int width, int hei
     now_ = turnAbout(centre_, angle) * before_;
     return now_;
   }
-  const DVec3 eye(camera.eye);
-  const DVec3 direction(CameraRays(camera, width, height).direction(pointer.x, pointer.y));
+  const CameraRays rays(camera, width, height);
+  const DVec3 eye(camera.eye + rays.start(pointer.x, pointer.y));
+  const DVec3 direction(rays.direction(pointer.x, pointer.y));
   std::optional<DVec3> point;
   switch (mode_) {
     case DragMode::ground:

@@ -43,7 +43,7 @@ void readOutside(const RawOptions& raw, Options& o) {
   if (namesPicture(*environment))
     o.reading.environment = parseEnvironmentFile(*environment);
   else
-    o.environment = o.settings.environment;
+    o.environment = o.settings.environment, o.reading.hasColorOutside = true;
 }
 
 void readPicture(const RawOptions& raw, Options& o) {

@@ -25,7 +25,9 @@ struct Flag {
 
 constexpr Flag kPicture[] = {
     {"camera", "NAME|INDEX|SPEC",
-     "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50 (default: the first one)"},
+     "a camera of the scene, or eye:target:fov, e.g. 0,1,5:0,1,0:50; with :3m it is orthographic "
+     "and "
+     "its picture 3 m high (default: the first one)"},
     {"sky", "A:E[:T]",
      "light from outside: a clear sky and its sun at azimuth A (0 to 360, clockwise from north, "
      "-z) and elevation E (0 to 90), turbidity T (2 clear to 10 hazy; default 3)"},

@@ -33,6 +33,7 @@ Camera along(const std::vector<Camera>& path, double s) {
   camera.forward = glm::normalize(blend(a.forward, b.forward, t));
   camera.up = blend(a.up, b.up, t);
   camera.verticalFov = blend(a.verticalFov, b.verticalFov, t);
+  camera.orthographicHeight = blend(a.orthographicHeight, b.orthographicHeight, t);
   return camera;
 }
 

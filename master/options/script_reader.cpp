@@ -136,6 +136,9 @@ class Reader {
       }
     }
     if (e.path.empty()) fail("{}: \"camera\" is empty", fields.where());
+    for (const Camera& stop : e.path)
+      if (isOrthographic(stop) != isOrthographic(e.path.front()))
+        fail("{}: there is no way between an orthographic camera and another", fields.where());
   }
 
   // All nodes of that name: one thing may have many.

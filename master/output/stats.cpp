@@ -50,7 +50,8 @@ Json object(const Camera& c) {
           {"eye", list(c.eye)},
           {"forward", list(c.forward)},
           {"up", list(c.up)},
-          {"vertical_fov", c.verticalFov}};
+          {"vertical_fov", c.verticalFov},
+          {"orthographic_height", c.orthographicHeight}};
 }
 
 const char* nameOf(SurfaceTest t) {

@@ -13,8 +13,9 @@ constexpr double kWriteEvery = 60;  // [s], if --save-every does not say it
 
 std::string wordOf(bool value) { return value ? "on" : "off"; }
 std::string wordOf(const Camera& c) {
-  return fmt::format("{},{},{}:{},{},{}:{},{},{}:{}", c.eye.x, c.eye.y, c.eye.z, c.forward.x,
-                     c.forward.y, c.forward.z, c.up.x, c.up.y, c.up.z, c.verticalFov);
+  return fmt::format("{},{},{}:{},{},{}:{},{},{}:{}:{}", c.eye.x, c.eye.y, c.eye.z, c.forward.x,
+                     c.forward.y, c.forward.z, c.up.x, c.up.y, c.up.z, c.verticalFov,
+                     c.orthographicHeight);
 }
 template <typename T>
 std::string wordOf(const T& value) {

@@ -52,7 +52,8 @@ struct PanelChanges {
   std::optional<float> exposure, target;  // [EV], [ms]
   std::optional<ToneCurve> curve;
   std::optional<bool> autoExposure;
-  std::optional<float> verticalFov;  // [rad]
+  std::optional<float> verticalFov;         // [rad]
+  std::optional<float> orthographicHeight;  // [m]
   std::optional<MaterialEdit> material;
   std::optional<LightEdit> light;
   std::optional<uint32_t> selectLight;

@@ -28,8 +28,7 @@ std::optional<Vec3> pointAt(const Shown& shown, Vec2 film) {
   if (!(depth > 0)) return std::nullopt;
   const Camera& camera = shown.frame.order.settings.camera;
   const CameraRays rays(camera, image.width, image.height);
-  const Vec3 direction = rays.direction(film.x, film.y);
-  return camera.eye + depth / glm::dot(direction, camera.forward) * direction;
+  return camera.eye + rays.atDepth(film.x, film.y, depth);
 }
 
 void drawOutline(const Shown& shown, const Scene& scene, const Selection& selection,

@@ -194,6 +194,7 @@ void Session::apply(const PanelChanges& changes) {
   if (changes.curve) setTone({board_.tone().exposure, *changes.curve});
   if (changes.target) live_->setTarget(fromSeconds(1e-3 * double(target_ = *changes.target)));
   if (changes.verticalFov) camera_->setVerticalFov(*changes.verticalFov);
+  if (changes.orthographicHeight) camera_->setOrthographicHeight(*changes.orthographicHeight);
   if (changes.camera) camera_->go(cameras_[*changes.camera]);
   if (changes.saveView) keepView();
   if (changes.togglePlay) playback_->toggle();

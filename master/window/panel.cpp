@@ -153,6 +153,16 @@ void drawViews(const PanelView& view, PanelChanges& changes) {
   ImGui::EndCombo();
 }
 
+void drawLens(const Camera& camera, PanelChanges& changes) {
+  float fov = camera.verticalFov * 180 / kPi, height = camera.orthographicHeight;
+  if (isOrthographic(camera))
+    slide(slider("picture's height", height, Vec2(0.5f, 2) * height, "%.3g m", 0, kLargestFilm),
+          changes.orthographicHeight, height);
+  else
+    slide(slider("field of view", fov, Vec2(5, 120), "%.0f deg", 1, 179), changes.verticalFov,
+          fov * kPi / 180);
+}
+
 void drawPicture(const PanelView& view, PanelChanges& changes) {
   if (!ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen)) return;
   drawViews(view, changes);
@@ -166,9 +176,7 @@ void drawPicture(const PanelView& view, PanelChanges& changes) {
         changes.curve, static_cast<ToneCurve>(curve));
   slide(slider("frame in motion", target, Vec2(20, 500), "%.0f ms", 1, 10000), changes.target,
         target);
-  float fov = view.settings.camera.verticalFov * 180 / kPi;
-  slide(slider("field of view", fov, Vec2(5, 120), "%.0f deg", 1, 179), changes.verticalFov,
-        fov * kPi / 180);
+  drawLens(view.settings.camera, changes);
   for (size_t i = 0; i < view.cameras.size() && i < kCamerasShown; ++i) {
     if (i % 3 > 0) ImGui::SameLine();
     ImGui::PushID(static_cast<int>(i));  // names may be alike

@@ -8,6 +8,17 @@
 #include "master/window/overlays.h"
 
 namespace ninefold {
+namespace {
+
+// What the file does not say of the scene.
+const char* lossOf(const Scene& scene) {
+  const bool moves = !scene.animated.empty() || !scene.shapes.empty();
+  const bool isLit = scene.environmentMap != nullptr;
+  if (moves && isLit) return " without its animation and its light from outside";
+  return moves ? " without its animation" : isLit ? " without its light from outside" : "";
+}
+
+}  // namespace
 
 void SaveDialog::save() {
   if (target_.file()) return write();
@@ -32,9 +43,8 @@ void SaveDialog::write() {
   try {
     const Scene scene = scene_();
     writeGltf(path, scene);
-    const char* loss = scene.animated.empty() ? "" : " without its animation";
-    notice_.say(
-        fmt::format("the edited scene is in {}{}", std::filesystem::absolute(path).string(), loss));
+    notice_.say(fmt::format("the edited scene is in {}{}", std::filesystem::absolute(path).string(),
+                            lossOf(scene)));
     written_();
   } catch (const Error& error) {
     target_.forget();

@@ -19,6 +19,18 @@ TEST(LobeAlbedo, OpaqueReflectionIsAccurate) {
   }
 }
 
+TEST(LobeAlbedo, LayersAreApproximate) {
+  for (const float alpha : {0.0f, 0.1f, 0.4f, 1.0f})
+    for (const float c : {0.05f, 0.3f, 0.6f, 0.95f})
+      for (const Bsdf& b :
+           {coated(metal(alpha), 0), coated(metal(0.3f), alpha, 0.5f),
+            underSheen(metal(alpha), 0.3f), cloth(std::max(alpha, kLeastSheenAlpha))}) {
+        const Vec3 error =
+            lobeAlbedo(b, Lobe::reflection, c) - sampledAlbedo(b, Lobe::reflection, upward(c));
+        EXPECT_LT(maxComponent(glm::abs(error)), 0.1f) << alpha << " cos " << c;
+      }
+}
+
 TEST(LobeAlbedo, DielectricsAreApproximate) {
   for (const float alpha : {0.0f, 0.1f, 0.4f, 1.0f}) {
     for (const float c : {0.1f, 0.3f, 0.6f, 0.95f}) {
@@ -39,6 +51,18 @@ TEST(LobeAlbedo, LobesThatAreNotThereScatterNothing) {
   Bsdf screen;
   screen.passThrough = 0.25f;
   EXPECT_EQ(lobeAlbedo(screen, Lobe::transmission, 0.5f), Vec3(0.25f));
+}
+
+TEST(MeanSheen, IsTheCosineWeightedMeanOfTheAlbedo) {
+  for (const float alpha : {0.04f, 0.2f, 1.0f}) {
+    float mean = 0;
+    constexpr int kSteps = 40;
+    for (int i = 0; i < kSteps; ++i) {
+      const float c = std::sqrt((static_cast<float>(i) + 0.5f) / kSteps);
+      mean += sampledAlbedo(cloth(alpha, Vec3(1)), Lobe::reflection, upward(c), 48).x / kSteps;
+    }
+    EXPECT_NEAR(meanSheen(alpha), mean, 0.01f) << alpha;
+  }
 }
 
 TEST(MeanReflection, IsTheCosineWeightedMeanOfTheAlbedo) {

@@ -31,6 +31,11 @@ std::vector<Case> cases() {
       blended.passThrough = 0.4f;
       blended.transmissionTint = Vec3(0.2f, 0.5f, 0.6f);
       all.push_back({"blended" + at, blended, Lobe::transmission, wo});
+      all.push_back({"varnished" + at, coated(metal(alpha), 0), Lobe::reflection, wo});
+      all.push_back({"coated" + at, coated(metal(alpha), 0.2f, 0.7f), Lobe::reflection, wo});
+      all.push_back({"cloth" + at, cloth(std::max(alpha, kLeastSheenAlpha)), Lobe::reflection, wo});
+      all.push_back({"all layers" + at, coated(underSheen(metal(alpha, Vec3(0.04f)), 0.3f), 0.15f),
+                     Lobe::reflection, wo});
     }
   }
   return all;

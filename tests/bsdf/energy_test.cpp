@@ -25,7 +25,9 @@ TEST(Reciprocity, ReflectionIsSymmetric) {
     const float alpha = 0.05f + 0.95f * random1(i, 1);
     const Vec3 wo = randomDirection(i, 2), wi = randomDirection(i, 3);
     for (const Bsdf& b :
-         {metal(alpha), glass(alpha, 1.5f), glass(alpha, 0.7f), glass(alpha, 1.4f, true)}) {
+         {metal(alpha), glass(alpha, 1.5f), glass(alpha, 0.7f), glass(alpha, 1.4f, true),
+          coated(metal(alpha), 0), coated(metal(0.2f), alpha), cloth(alpha),
+          coated(underSheen(metal(alpha), 0.3f), 0.1f)}) {
       expectNear(bsdfValue(b, Lobe::reflection, wo, wi), bsdfValue(b, Lobe::reflection, wi, wo),
                  1e-3f, "reflection");
     }
@@ -145,6 +147,56 @@ TEST(Energy, SingleScatteringLosesWhatTheTableSays) {
       const Vec3 a = sampledAlbedo(metal(row.alpha, Vec3(1)), Lobe::reflection, upward(cosines[k]));
       EXPECT_NEAR(a.x, row.albedo[k], 0.003f) << row.alpha << " cos " << cosines[k];
     }
+  }
+}
+
+// A coat gives F and takes F from what is below; nothing is gained at any angle.
+TEST(Energy, ASmoothCoatOverAPerfectMirrorLosesNothing) {
+  for (const float weight : {0.3f, 1.0f})
+    for (const float c : {0.02f, 0.2f, 0.5f, 1.0f}) {
+      const Bsdf b = coated(metal(0, Vec3(1)), 0, weight);
+      Vec3 sum(0);
+      constexpr int kSteps = 4000;
+      for (int i = 0; i < kSteps; ++i) {
+        const float u = (static_cast<float>(i) + 0.5f) / kSteps;
+        const auto s = sampleLobe(b, Lobe::reflection, upward(c), Vec2(0.5f), u);
+        if (s) sum += s->weight / float{kSteps};
+      }
+      EXPECT_NEAR(sum.x, 1, 2e-3f) << weight << " cos " << c;
+    }
+}
+
+TEST(Energy, LayersNeverGiveMoreThanComesIn) {
+  for (const float alpha : {0.0f, 0.05f, 0.3f, 1.0f})
+    for (const float other : {0.0f, 0.1f, 0.6f, 1.0f})
+      for (const float c : {0.01f, 0.1f, 0.4f, 1.0f}) {
+        const Bsdf surfaces[] = {coated(metal(alpha, Vec3(1)), other),
+                                 underSheen(metal(alpha, Vec3(1)), std::max(other, 0.04f)),
+                                 cloth(std::max(other, 0.04f), Vec3(1))};
+        for (const Bsdf& b : surfaces) {
+          const Vec3 albedo = sampledAlbedo(b, Lobe::reflection, upward(c));
+          EXPECT_LE(maxComponent(albedo), 1.01f) << alpha << " " << other << " cos " << c;
+        }
+      }
+}
+
+TEST(Energy, ACoatOfWeightZeroIsNone) {
+  const Bsdf plain = metal(0.3f), none = coated(plain, 0.1f, 0);
+  for (uint64_t i = 0; i < 200; ++i) {
+    const Vec3 wo = randomDirection(i, 11), wi = randomDirection(i, 12);
+    const LobeValue a = evaluateLobe(plain, Lobe::reflection, wo, wi);
+    const LobeValue b = evaluateLobe(none, Lobe::reflection, wo, wi);
+    EXPECT_NEAR(a.pdf, b.pdf, 1e-5f * a.pdf);
+    EXPECT_LE(glm::length(a.value - b.value), 1e-5f * glm::length(a.value));
+  }
+}
+
+// The rim of cloth: much more at grazing than from above.
+TEST(Energy, SheenIsARim) {
+  for (const float alpha : {0.04f, 0.25f}) {
+    const Bsdf b = cloth(alpha, Vec3(1));
+    EXPECT_GT(sampledAlbedo(b, Lobe::reflection, upward(0.05f)).x,
+              10 * sampledAlbedo(b, Lobe::reflection, upward(0.9f)).x);
   }
 }
 

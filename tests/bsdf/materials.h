@@ -30,6 +30,27 @@ inline Bsdf glass(float alpha, float eta, bool thin = false) {
   return b;
 }
 
+// Varnish over a surface. weight 1 as a rule.
+inline Bsdf coated(Bsdf base, float coatAlpha, float weight = 1) {
+  base.layered = base.reflects = true;
+  base.coat = weight, base.coatAlpha = coatAlpha;
+  return base;
+}
+
+// Cloth that reflects by its sheen alone, or a surface under sheen.
+inline Bsdf cloth(float sheenAlpha, Vec3 colour = Vec3(0.9f, 0.5f, 0.2f)) {
+  Bsdf b;
+  b.layered = b.reflects = true;
+  b.f0 = b.f90 = Vec3(0);
+  b.sheen = colour, b.sheenAlpha = sheenAlpha;
+  return b;
+}
+inline Bsdf underSheen(Bsdf base, float sheenAlpha) {
+  base.layered = base.reflects = true;
+  base.sheen = Vec3(0.4f, 0.8f, 0.6f), base.sheenAlpha = sheenAlpha;
+  return base;
+}
+
 // Unit direction on the upper side, in the plane y = 0.
 inline Vec3 upward(float cosTheta) {
   return Vec3(std::sqrt(std::max(0.0f, 1.0f - cosTheta * cosTheta)), 0.0f, cosTheta);

@@ -3,6 +3,7 @@ import json
 import unittest
 
 import png
+from bending_square import bending_square
 from moving_square import moving_square
 from programs import BIN, SCENES, ClusterTest, signal
 
@@ -33,6 +34,15 @@ class Animation(Pictures):
             self.run_master(self.write("still.gltf", moving_square(place)), "--frames", 3, "--exposure", 0, "--output", "still.png")
             still, picture = (png.read(self.folder / name) for name in ("still.png", f"a.0{i}.png"))
             self.assertTrue(still == picture, f"picture {i}, x = {place}")
+
+    def test_what_bends_is_the_still_of_its_moment_too(self):
+        scene = self.write("bends.gltf", bending_square())
+        self.run_master(scene, "--animate", "0:2:2", "--frames", 3, "--exposure", 0, "--output", "a.##.png")
+        self.assertEqual(len(set(self.pictures("a.*.png"))), 5)
+        for i in (0, 3):
+            self.run_master(self.write("still.gltf", bending_square(i / 2)), "--frames", 3, "--exposure", 0, "--output", "still.png")
+            still, picture = (png.read(self.folder / name) for name in ("still.png", f"a.0{i}.png"))
+            self.assertTrue(still == picture, f"picture {i}")
 
     def test_it_is_a_script(self):
         scene = self.write("moves.gltf", moving_square())

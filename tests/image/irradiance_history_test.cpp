@@ -122,6 +122,50 @@ TEST(IrradianceHistory, NothingCrossesAnEdge) {
       ASSERT_TRUE(v == 0 || std::abs(v - 2) < 1e-5f) << v << " in frame " << i;
 }
 
+// Parallel rays that move along a slanted wall: light that belongs to places stays at them, to a
+// third of a pixel. At the rim of the picture not all four pixels around a place are there.
+TEST(IrradianceHistory, OrthographicPicturesFindTheirPlacesAgain) {
+  Camera plan = camera();
+  plan.orthographicHeight = 2;
+  IrradianceHistory history;
+  PatchFilter filter(SurfaceTest::none);
+  filter.keepIrradiance(true);
+  const Vec3 normal = glm::normalize(Vec3(-1, 0, 1));
+  for (int i = 0; i < 10; ++i) {
+    plan.eye = Vec3(0.033f * static_cast<float>(i), 0.01f * static_cast<float>(i), 0);
+    const CameraRays rays(plan, kGrid.width(), kGrid.height());
+    const auto lightAt = [&](int x, int y) {
+      const Vec3 p =
+          plan.eye + rays.start(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+      return 3 + p.x + 0.5f * p.y;
+    };
+    const Frame frame =
+        frameOf(kGrid, kDiffuseBit, 0, [&](TileResult& out, size_t at, int x, int y) {
+          LayerPlanes& layer = out.layers[kDiffuse];
+          const float across =
+              plan.eye.x + rays.start(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f).x;
+          layer.distance[at] = 5 - across;
+          set(layer.normal, at, normal);
+          set(layer.irradiance, at, Vec3(lightAt(x, y)));
+          set(layer.reflectance, at, Vec3(0.25f));
+        });
+    history.begin(plan, kGrid.width(), kGrid.height());
+    Patch patch;
+    RgbImage tile;
+    for (int t = 0; t < kGrid.tiles(); ++t) {
+      fill(patch, frame, t);
+      filter.compose(patch, plan, 0, tile);
+      history.blend(patch, filter, true, tile);
+      for (int y = 0; y < tile.height; ++y)
+        for (int x = 0; x < tile.width; ++x)
+          ASSERT_NEAR(tile.pixels.r[tile.at(x, y)], 0.25f * lightAt(patch.x0() + x, patch.y0() + y),
+                      2e-3f)
+              << i << ": " << x << ", " << y;
+    }
+    history.frameDone();
+  }
+}
+
 // The eye steps to the side: what the screen hid until now shows just what this frame says.
 TEST(IrradianceHistory, WhatWasHiddenStartsAnew) {
   Walk walk(screenAndWall);

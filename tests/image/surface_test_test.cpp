@@ -93,6 +93,54 @@ TEST(SurfaceTest, FoldsAFloorUpToTheHorizonWithSpreadFilmPositions) {
   EXPECT_LT(surface.noisy, paper.noisy);
 }
 
+// What an orthographic camera sees, 2 m high, along -z: a place is told by x and y alone.
+Camera plan() {
+  Camera plan = camera();
+  plan.orthographicHeight = 2;
+  return plan;
+}
+Frame planOf(const std::function<Point(Vec3 start)>& shape, const Light& light) {
+  const CameraRays rays(plan(), kWidth, kHeight);
+  return frameOf(kGrid, kDiffuseBit, 0, [&](TileResult& out, size_t i, int x, int y) {
+    const Point point =
+        shape(rays.start(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f));
+    LayerPlanes& layer = out.layers[kDiffuse];
+    layer.distance[i] = point.distance;
+    set(layer.normal, i, point.normal);
+    set(layer.irradiance, i, Vec3(light(x, y, point)));
+    if (point.distance > 0) set(layer.reflectance, i, Vec3(0.25f));
+  });
+}
+
+// A steep roof: its depth grows by more than a pixel from pixel to pixel.
+TEST(SurfaceTest, FoldsARoofSeenByParallelRays) {
+  const Vec3 normal = glm::normalize(Vec3(-3, 0, 1));
+  const auto roof = [&](Vec3 start) {
+    Point p;
+    p.distance = 6 - 3 * start.x, p.normal = normal;
+    return p;
+  };
+  const Light noisy = [](int x, int y, const Point&) { return 2 + setNoise(x, y); };
+  PatchFilter filter(SurfaceTest::surface);
+  const RgbImage image = composed(planOf(roof, noisy), filter, plan());
+  for (int y = 1; y + 1 < kHeight; ++y)
+    for (int x = 1; x + 1 < kWidth; ++x)
+      ASSERT_NEAR(image.pixels.r[image.at(x, y)], 0.5f, 1e-5f) << x << ", " << y;
+}
+
+TEST(SurfaceTest, StopsAtAStepSeenByParallelRays) {
+  const auto step = [](Vec3 start) {
+    Point p;
+    p.part = start.x < 0.1f;
+    p.distance = p.part == 1 ? 50 : 50.05f, p.normal = Vec3(0, 0, 1);
+    return p;
+  };
+  const Light light = [](int, int, const Point& p) { return static_cast<float>(p.part); };
+  PatchFilter filter(SurfaceTest::surface);
+  for (const float red : composed(planOf(step, light), filter, plan()).pixels.r)
+    ASSERT_TRUE(red == 0 || red == 0.25f) << red;
+}
+
 TEST(SurfaceTest, StopsAtAStepBetweenParallelWalls) {
   const Shape step = [](Vec3 v) {
     Point p = v.x < 0.1f ? wallAt(v, 2) : wallAt(v, 2.1f);

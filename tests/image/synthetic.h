@@ -88,13 +88,13 @@ inline void set(RgbPlane& plane, size_t i, Vec3 v) {
 inline Vec3 get(const RgbPlane& plane, size_t i) { return {plane.r[i], plane.g[i], plane.b[i]}; }
 
 // The whole frame, filtered tile by tile.
-inline RgbImage composed(const Frame& frame, PatchFilter& filter) {
+inline RgbImage composed(const Frame& frame, PatchFilter& filter, const Camera& eye = camera()) {
   RgbImage beauty, tile;
   beauty.reset(frame.grid().width(), frame.grid().height());
   Patch patch;
   for (int t = 0; t < frame.grid().tiles(); ++t) {
     fill(patch, frame, t);
-    filter.compose(patch, camera(), 1, tile);
+    filter.compose(patch, eye, 1, tile);
     for (int y = 0; y < tile.height; ++y)
       for (int x = 0; x < tile.width; ++x)
         set(beauty.pixels, beauty.at(patch.x0() + x, patch.y0() + y), tile.rgb(tile.at(x, y)));

@@ -180,6 +180,60 @@ TEST(CameraControl, FramedThingsJustFit) {
   EXPECT_NEAR(angle, 0.5f * camera.verticalFov, 1e-5f);
 }
 
+Camera plan() {
+  Camera camera = home();
+  camera.orthographicHeight = 4;
+  return camera;
+}
+
+// Picture heights right of and above the middle, whatever the depth.
+Vec2 seenInPlan(const Camera& camera, Vec3 p) {
+  const Vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
+  const Vec3 up = glm::cross(right, camera.forward), arm = p - camera.eye;
+  return Vec2(glm::dot(arm, right), glm::dot(arm, up)) / camera.orthographicHeight;
+}
+
+TEST(CameraControl, DollyEnlargesWhatAnOrthographicCameraShows) {
+  CameraControl control(plan(), room());
+  control.dolly(1);
+  EXPECT_LT(control.camera().orthographicHeight, 4);
+  EXPECT_EQ(control.camera().eye, plan().eye);
+  control.dolly(-1);
+  EXPECT_NEAR(control.camera().orthographicHeight, 4, 1e-5f);
+  control.dolly(1e9);
+  control.dolly(1e9);
+  EXPECT_GT(control.camera().orthographicHeight, 0);
+}
+
+TEST(CameraControl, PannedThingsFollowThePointerInOrthographicPictures) {
+  CameraControl control(plan(), room());
+  const Vec2 before = seenInPlan(control.camera(), Vec3(0.3f, 0, -1));
+  control.pan(0.2, -0.1);
+  const Vec2 moved = seenInPlan(control.camera(), Vec3(0.3f, 0, -1)) - before;
+  EXPECT_NEAR(glm::length(moved - Vec2(0.2f, -0.1f)), 0, 1e-5f);
+}
+
+TEST(CameraControl, FramedThingsJustFitAnOrthographicPicture) {
+  CameraControl control(plan(), room());
+  Bounds thing;
+  thing.add(Vec3(0.9f, 0, -1.1f)), thing.add(Vec3(1.1f, 0.3f, -0.9f));
+  control.frame(thing);
+  const Camera camera = control.camera();
+  EXPECT_NEAR(glm::length(seenInPlan(camera, thing.centre())), 0, 1e-5f);
+  EXPECT_NEAR(camera.orthographicHeight, 2 * thing.radius(), 1e-5f);
+  EXPECT_GE(glm::dot(thing.centre() - camera.eye, camera.forward), thing.radius());
+  control.reset();
+  EXPECT_EQ(control.camera().orthographicHeight, 4);
+  control.setOrthographicHeight(3);
+  EXPECT_EQ(control.camera().orthographicHeight, 3);
+}
+
+TEST(CameraControl, APinholeHasNoHeight) {
+  CameraControl control(home(), room());
+  control.setOrthographicHeight(3);
+  EXPECT_EQ(control.camera().orthographicHeight, 0);
+}
+
 TEST(CameraControl, StraightDownCanBeLeft) {
   Camera down = home();
   down.forward = Vec3(0, -1, 0), down.up = Vec3(1, 0, 0);  // a plan with east on top

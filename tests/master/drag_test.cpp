@@ -15,39 +15,50 @@ Camera eyeLevel() {
   return camera;
 }
 
+Camera plan() {
+  Camera camera = eyeLevel();
+  camera.orthographicHeight = 3;
+  return camera;
+}
+
 // Film position at which the camera sees p.
 Vec2 filmAt(const Camera& camera, Vec3 p) {
   const Vec3 right = glm::normalize(glm::cross(camera.forward, camera.up));
   const Vec3 up = glm::cross(right, camera.forward), arm = p - camera.eye;
-  const float scale =
-      kHeight / (2 * std::tan(0.5f * camera.verticalFov) * glm::dot(arm, camera.forward));
+  const float height = isOrthographic(camera) ? camera.orthographicHeight
+                                              : 2 * std::tan(0.5f * camera.verticalFov) *
+                                                    glm::dot(arm, camera.forward);
+  const float scale = kHeight / height;
   return Vec2(kWidth / 2.0f + scale * glm::dot(arm, right),
               kHeight / 2.0f - scale * glm::dot(arm, up));
 }
 
-class DragTest : public testing::TestWithParam<DragMode> {};
+class DragTest : public testing::TestWithParam<std::tuple<DragMode, Camera (*)()>> {};
 
 INSTANTIATE_TEST_SUITE_P(Modes, DragTest,
-                         testing::Values(DragMode::ground, DragMode::vertical, DragMode::alongX,
-                                         DragMode::alongY, DragMode::alongZ));
+                         testing::Combine(testing::Values(DragMode::ground, DragMode::vertical,
+                                                          DragMode::alongX, DragMode::alongY,
+                                                          DragMode::alongZ),
+                                          testing::Values(&eyeLevel, &plan)));
 
 TEST_P(DragTest, WhatIsGrabbedStaysUnderThePointerWithinItsBound) {
-  const Camera camera = eyeLevel();
+  const DragMode mode = std::get<0>(GetParam());
+  const Camera camera = std::get<1>(GetParam())();
   const Vec3 grabbed(0.2f, 0.8f, -0.5f);
   Vec3 step(0.3f, 0, -0.2f);
-  if (GetParam() == DragMode::alongX) step = Vec3(0.4f, 0, 0);
-  if (GetParam() == DragMode::alongZ) step = Vec3(0, 0, -0.6f);
-  if (GetParam() == DragMode::alongY || GetParam() == DragMode::vertical) step = Vec3(0, 0.3f, 0);
-  Drag drag(GetParam(), grabbed, grabbed, filmAt(camera, grabbed), DMat4(1));
+  if (mode == DragMode::alongX) step = Vec3(0.4f, 0, 0);
+  if (mode == DragMode::alongZ) step = Vec3(0, 0, -0.6f);
+  if (mode == DragMode::alongY || mode == DragMode::vertical) step = Vec3(0, 0.3f, 0);
+  Drag drag(mode, grabbed, grabbed, filmAt(camera, grabbed), DMat4(1));
   const DMat4& motion = drag.moveTo(filmAt(camera, grabbed + step), camera, kWidth, kHeight);
   EXPECT_NEAR(glm::length(DVec3(motion[3]) - DVec3(step)), 0, 1e-4);
   EXPECT_NEAR(glm::length(drag.point() - (grabbed + step)), 0, 1e-4f);
   // A pointer that leaves the bound moves the thing only within it.
   const DVec3 at(drag.moveTo(Vec2(150, 400), camera, kWidth, kHeight)[3]);
-  if (GetParam() == DragMode::ground) {
+  if (mode == DragMode::ground) {
     EXPECT_NEAR(at.y, 0, 1e-12);
   }
-  if (GetParam() == DragMode::alongX) {
+  if (mode == DragMode::alongX) {
     EXPECT_EQ(DVec3(0, at.y, at.z), DVec3(0));
   }
 }

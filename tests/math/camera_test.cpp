@@ -67,5 +67,42 @@ TEST(CameraRays, FilmPositionsAreWhereTheirDirectionsCameFrom) {
   EXPECT_FALSE(rays.filmPosition(-tilted().forward));
 }
 
+Camera orthographic() {
+  Camera camera = tilted();
+  camera.eye = Vec3(3, -2, 1), camera.orthographicHeight = 2.5f;
+  return camera;
+}
+
+TEST(CameraRays, OrthographicRaysAreParallelAndSpanTheHeight) {
+  const CameraRays rays(orthographic(), 640, 320);
+  EXPECT_EQ(rays.direction(3, 5), orthographic().forward);
+  EXPECT_EQ(rays.direction(600, 100), orthographic().forward);
+  EXPECT_NEAR(glm::length(rays.start(320, 160)), 0, 1e-6f);
+  EXPECT_NEAR(glm::length(rays.start(7, 0) - rays.start(7, 320)), 2.5f, 1e-5f);
+  EXPECT_NEAR(glm::length(rays.start(0, 9) - rays.start(640, 9)), 5, 1e-5f);
+  EXPECT_NEAR(glm::dot(rays.start(10, 20), orthographic().forward), 0, 1e-6f);
+  const Vec3 right = glm::cross(orthographic().forward, orthographic().up);
+  EXPECT_GT(glm::dot(rays.start(600, 20), right), 0);
+  EXPECT_LT(glm::dot(rays.start(320, 300), orthographic().up), 0);
+}
+
+// A place on a ray is found where the ray came from, at its depth.
+TEST(CameraRays, PlacesAtADepthLieOnTheirRays) {
+  for (const Camera& camera : {tilted(), orthographic()}) {
+    const CameraRays rays(camera, 640, 480);
+    for (const Vec2 film : {Vec2(10, 20), Vec2(320, 240), Vec2(600.5f, 3)}) {
+      const Vec3 start = rays.start(film.x, film.y), d = rays.direction(film.x, film.y);
+      const Vec3 place = rays.atDepth(film.x, film.y, 4);
+      EXPECT_NEAR(glm::dot(place, camera.forward), 4, 1e-5f);
+      EXPECT_NEAR(glm::length(glm::cross(place - start, d)), 0, 1e-5f);
+      EXPECT_NEAR(rays.depthOf(film.x, film.y, glm::length(place - start)), 4, 1e-5f);
+      const auto found = rays.filmPosition(place);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(glm::length(*found - film), 0, 2e-3f);
+    }
+    EXPECT_FALSE(rays.filmPosition(-camera.forward));
+  }
+}
+
 }  // namespace
 }  // namespace ninefold

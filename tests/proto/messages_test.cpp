@@ -25,7 +25,7 @@ Settings oddSettings() {
   Settings s;
   s.method = Method::pathTrace;
   s.width = 1, s.height = 16384;
-  s.camera = {"küche", Vec3(1, 2, 3), Vec3(0, 0, 1), Vec3(0, 2, 0), 1.25f};
+  s.camera = {"küche", Vec3(1, 2, 3), Vec3(0, 0, 1), Vec3(0, 2, 0), 1.25f, 3.5f};
   s.interleave = {16, 1};
   s.directVpls = 0, s.indirectVpls = 65536, s.photons = 16777216;
   s.resampling = 3, s.cameraPoints = 4096;
@@ -281,6 +281,8 @@ TEST(Messages, SettingsOutOfRangeAreNamed) {
       {"camera forward", [](Settings& s) { s.camera.forward = Vec3(0); }},
       {"camera up", [](Settings& s) { s.camera.up = s.camera.forward; }},
       {"field of view", [](Settings& s) { s.camera.verticalFov = 4; }},
+      {"orthographic height", [](Settings& s) { s.camera.orthographicHeight = -1; }},
+      {"orthographic height", [](Settings& s) { s.camera.orthographicHeight = NAN; }},
   };
   for (const auto& [field, spoil] : cases) {
     const std::string text = refusal(spoil);

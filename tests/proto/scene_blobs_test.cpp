@@ -137,6 +137,14 @@ TEST(SceneBlobs, EveryFieldOfAMaterialIsInTheName) {
       [](Material& m) { m.transmissionMap.image = 1; },
       [](Material& m) { m.specularMap.image = 1; },
       [](Material& m) { m.specularColorMap.image = 1; },
+      [](Material& m) { m.sheenColor.x = 0.1f; },
+      [](Material& m) { m.sheenColorMap.image = 1; },
+      [](Material& m) { m.sheenRoughness = 0.1f; },
+      [](Material& m) { m.sheenRoughnessMap.image = 1; },
+      [](Material& m) { m.coat = 0.1f; },
+      [](Material& m) { m.coatMap.image = 1; },
+      [](Material& m) { m.coatRoughness = 0.1f; },
+      [](Material& m) { m.coatRoughnessMap.image = 1; },
       [](Material& m) { m.metallicRoughnessMap.image = 1; },
       [](Material& m) { m.solid = false; }};
   std::vector<Sha256> names{packScene(someScene()).back().info.hash};

@@ -54,14 +54,24 @@ TEST(CameraChoice, WhatIsToldOfACameraIsThatCamera) {
   EXPECT_NEAR(told.verticalFov, camera.verticalFov, 1e-6f);
 }
 
+TEST(CameraChoice, AHeightInMetresMakesItOrthographic) {
+  Scene scene = withCameras({"a"});
+  const Camera camera = chooseCamera(scene, "0,1,4:0,1,0:2.5m");
+  EXPECT_FLOAT_EQ(camera.orthographicHeight, 2.5f);
+  EXPECT_EQ(camera.eye, Vec3(0, 1, 4));
+  const Camera told = chooseCamera(scene, specOf(scene, camera));
+  EXPECT_EQ(told.orthographicHeight, camera.orthographicHeight);
+}
+
 TEST(CameraChoice, EverythingElseIsAnErrorThatListsTheCameras) {
   const Scene scene = withCameras({"front", "door"});
   EXPECT_EQ(errorOf([&] { chooseCamera(scene, "window"); }),
             "no camera 'window': the scene has 0 'front', 1 'door'; or give eye:target:fov as "
-            "x,y,z:x,y,z:degrees");
+            "x,y,z:x,y,z:degrees (or :5m, orthographic, 5 m high)");
   for (const char* bad :
        {"2", "-1", "1.5", "0,0,0:0,0,1", "0,0,0:0,0,0:40", "0,0,0:0,0,1:0", "0,0,0:0,0,1:180",
-        "0,0:0,0,1:40", "0,0,0,0:0,0,1:40", "0,0,nan:0,0,1:40", "0,0,0:0,0,1:40:7", ":::", " 0"})
+        "0,0:0,0,1:40", "0,0,0,0:0,0,1:40", "0,0,nan:0,0,1:40", "0,0,0:0,0,1:40:7",
+        "0,0,0:0,0,1:0m", "0,0,0:0,0,1:m", "0,0,0:0,0,1:1e10m", "0,0,0:0,0,1:3 m", ":::", " 0"})
     EXPECT_FALSE(errorOf([&] { chooseCamera(scene, bad); }).empty()) << bad;
 }
 

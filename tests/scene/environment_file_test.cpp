@@ -115,17 +115,6 @@ TEST_F(EnvironmentFiles, LightAScene) {
   EXPECT_EQ(scene.environment, Radiance(2.5f));
 }
 
-// What a glTF file has of its own is prefiltered for other renderers.
-TEST_F(EnvironmentFiles, AScenesOwnPictureIsNamedWithWhatToDo) {
-  const std::string json =
-      with(kTriangleJson, R"("materials")",
-           R"("extensionsUsed": ["EXT_lights_image_based"], "extensions": {"EXT_lights_image_based":
-         {"lights": [{"intensity": 1}]}}, "materials")");
-  testing::internal::CaptureStderr();
-  readScene(folder_.write("scene.glb", triangleGlb(json)));
-  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(), "--environment FILE");
-}
-
 TEST(EnvironmentFlag, NamesAFileARotationAndAStrength) {
   for (const char* plain : {"none", "1", "1,2,3", "hdr", "a.png"})
     EXPECT_FALSE(namesPicture(plain));

@@ -1,4 +1,4 @@
-// Skins and morph targets, in the rest pose. Expected places are worked out by hand.
+// Skins and morph targets, at rest and while they play. Expected places are worked out by hand.
 #include "common/scene/gltf_deform.h"
 
 #include <gtest/gtest.h>
@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "common/scene/animation.h"
+#include "common/scene/edit.h"
 #include "common/scene/reader.h"
 #include "tests/scene/gltf_bytes.h"
 #include "tests/scene/one_line_error.h"
@@ -324,52 +325,122 @@ TEST(GltfMorph, SaysWhatIsWrong) {
   EXPECT_CONTAINS(errorOf([&] { file.read(); }), "target POSITION has 1 elements for 3 vertices");
 }
 
-TEST(DeformedAnimation, IsSaidToBeImpossible) {
-  DeformedFile file = twoJoints().bindAllToJoint0();
-  const std::string moves = file.vectors({0, 0, 0, 1, 0, 0});
-  for (const int node : {1, 2}) {  // joint 0; joint 1
-    const Scene scene = DeformedFile(file).move(node, "translation", moves).read();
-    EXPECT_EQ(scene.deformed, "thing");
-    EXPECT_CONTAINS(whyNotPlayed(scene), "the animation changes the shape of 'thing'");
-  }
-  file = twoTargets();
-  file.move(0, "weights", file.add<float>({0, 0, 1, 1}, kFloat, "SCALAR", 1));
-  EXPECT_EQ(file.read().deformed, "thing");
-  file.nodes = R"({"mesh": 0})";
-  EXPECT_EQ(file.read().deformed, "node 0");
+// Where the scene's only object has a vertex at a time.
+DVec3 placeAt(const Scene& scene, double time, size_t vertex) {
+  return place(edited(scene, animationAt(scene, time)), vertex);
 }
 
-TEST(DeformedAnimation, ByAJointAboveAndByTheNodeOfAPartlySkinnedMesh) {
+TEST(DeformedAnimation, VerticesGoWithJointsThatMove) {
+  DeformedFile file = twoJoints().bind({0, 0, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0},
+                                       {1, 0, 0, 0, 0.5f, 0.5f, 0, 0, 1, 0, 0, 0});
+  file.attributes += R"(, "NORMAL": )" + file.vectors({0, 0, 1, 0, 0, 1, 0, 0, 1});
+  const Scene scene = file.move(2, "translation", file.vectors({0, 5, 0, 4, 5, 0})).read();
+  EXPECT_EQ(whyNotPlayed(scene), "");
+  EXPECT_EQ(animationEnd(scene), 1);
+  for (size_t vertex = 0; vertex < 3; ++vertex)
+    expectNear(placeAt(scene, 0, vertex), place(scene, vertex));
+  expectNear(placeAt(scene, 0.5, 0), DVec3(10, 0, 0));
+  expectNear(placeAt(scene, 0.5, 1), DVec3(13, 3.5, 0));
+  expectNear(placeAt(scene, 1, 2), DVec3(14, 5, 0));
+  const SceneEdit edit = animationAt(scene, 1);
+  ASSERT_EQ(edit.shapes.size(), 1u);
+  for (const Vec3& n : edit.shapes[0].vertices->normals) EXPECT_EQ(n, Vec3(0, 0, 1));
+}
+
+// What is above a joint moves it, too.
+TEST(DeformedAnimation, VerticesGoWithWhatMovesTheirJoints) {
+  DeformedFile file = twoJoints().bindAllToJoint0();
+  file.skins = R"({"joints": [2]})";
+  const Scene scene = file.move(1, "translation", file.vectors({10, 0, 0, 10, 0, 6})).read();
+  expectNear(placeAt(scene, 0.5, 0), DVec3(10, 5, 3));
+}
+
+TEST(DeformedAnimation, WeightsMorph) {
+  DeformedFile file = twoTargets();
+  file.move(0, "weights", file.add<float>({0, 0, 1, 0.5f}, kFloat, "SCALAR", 1));
+  const Scene scene = file.read();
+  expectNear(placeAt(scene, 0, 1), DVec3(2, 0, 0));
+  expectNear(placeAt(scene, 0.5, 1), DVec3(4, 0, 2));
+  expectNear(placeAt(scene, 7, 1), DVec3(6, 0, 4));
+  EXPECT_EQ(animationEnd(scene), 1);
+}
+
+// A mesh that two nodes share, of which one morphs.
+TEST(DeformedAnimation, OnlyTheNodeWhoseWeightsMoveMorphs) {
+  DeformedFile file = twoTargets();
+  file.nodes = R"({"mesh": 0}, {"mesh": 0})", file.roots = "[0, 1]";
+  const Scene scene =
+      file.move(1, "weights", file.add<float>({0, 0, 1, 0}, kFloat, "SCALAR", 1)).read();
+  const Scene later = edited(scene, animationAt(scene, 1));
+  expectNear(place(later, 1, 0), DVec3(2, 0, 0));
+  expectNear(place(later, 1, 1), DVec3(2, 0, 4));
+}
+
+TEST(DeformedAnimation, MorphsComeBeforeTheSkin) {
+  DeformedFile file = twoTargets().bindAllToJoint0();
+  file.nodes = R"({"mesh": 0, "skin": 0}, {"scale": [3, 1, 1]})";
+  file.roots = "[0, 1]", file.skins = R"({"joints": [1]})";
+  const Scene scene =
+      file.move(0, "weights", file.add<float>({0, 0, 0, 1}, kFloat, "SCALAR", 1)).read();
+  expectNear(placeAt(scene, 1, 1), DVec3(30, 0, 0));
+}
+
+TEST(DeformedAnimation, WeightsMustFitTheTargets) {
+  DeformedFile file = twoTargets();
+  for (const auto& weights : {std::vector<float>{0, 0, 0, 1, 1, 1}, {0, 1}, {0, 0, 1}}) {
+    DeformedFile wrong = file;
+    wrong.move(0, "weights", wrong.add<float>(weights, kFloat, "SCALAR", 1));
+    EXPECT_CONTAINS(errorOf([&] { wrong.read(); }), "weights");
+  }
+}
+
+// A part that stands at the node and one that hangs on joints cannot go two ways at once.
+TEST(DeformedAnimation, OfAPartlySkinnedMeshIsSaidToBeImpossible) {
   DeformedFile file = twoJoints().bindAllToJoint0();
   const std::string moves = file.vectors({0, 0, 0, 1, 0, 0});
-  file.skins = R"({"joints": [2]})";
-  EXPECT_EQ(DeformedFile(file).move(1, "translation", moves).read().deformed, "thing");
-  EXPECT_EQ(DeformedFile(file).move(0, "translation", moves).read().deformed, "");
+  EXPECT_EQ(whyNotPlayed(DeformedFile(file).move(0, "translation", moves).read()), "");
   file.addPrimitive(R"({"attributes": {"POSITION": 0}, "indices": 1})");
-  EXPECT_EQ(DeformedFile(file).move(0, "translation", moves).read().deformed, "thing");
+  EXPECT_CONTAINS(whyNotPlayed(DeformedFile(file).move(0, "translation", moves).read()), "'thing'");
+  EXPECT_EQ(whyNotPlayed(DeformedFile(file).move(1, "translation", moves).read()), "");
 }
 
 // Its joint has no size at rest, so that nothing is there; other things are.
-TEST(DeformedAnimation, OfWhatIsFlatAtRestIsSaidToBeImpossible) {
+TEST(DeformedAnimation, WhatIsFlatAtRestStaysAwayWithAWarning) {
   DeformedFile file = twoJoints().bindAllToJoint0();
   file.nodes = R"({"name": "thing", "mesh": 0, "skin": 0}, {"scale": [0, 0, 0]}, {},
       {"name": "other", "mesh": 1})";
   file.roots = "[0, 1, 3]";
   file.addMesh(R"({"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]})");
-  const Scene scene = file.move(1, "scale", file.vectors({0, 0, 0, 1, 1, 1})).read();
+  file.move(1, "scale", file.vectors({0, 0, 0, 1, 1, 1}));
+  testing::internal::CaptureStderr();
+  const Scene scene = file.read();
+  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
+                  "'thing': 1 triangles without area in the rest pose stay away while it plays");
   EXPECT_EQ(scene.instances.size(), 1u);
-  EXPECT_EQ(scene.deformed, "thing");
+  EXPECT_TRUE(animationAt(scene, 1).shapes.empty());
 }
 
-TEST(DeformedAnimation, OfOtherNodesPlays) {
+TEST(DeformedAnimation, OfOtherNodesLeavesShapesAlone) {
   DeformedFile file = twoJoints().bindAllToJoint0();
   const std::string moves = file.vectors({0, 0, 0, 1, 0, 0});
   for (const int node : {0, 3}) {  // the node of a skinned mesh does not move it
     const Scene scene = DeformedFile(file).move(node, "translation", moves).read();
     EXPECT_EQ(whyNotPlayed(scene), "");
     EXPECT_TRUE(animationAt(scene, 1).objects.empty());
+    EXPECT_TRUE(animationAt(scene, 1).shapes.empty());
   }
   EXPECT_EQ(whyNotPlayed(file.read()), "nothing is animated in the scene");
+}
+
+// Far from the file's origin nothing is lost.
+TEST(DeformedAnimation, FarAwayItIsAsExact) {
+  DeformedFile file = twoJoints().bindAllToJoint0();
+  file.nodes = R"({"name": "thing", "mesh": 0, "skin": 0}, {"translation": [1e7, 0, 0]}, {})";
+  file.roots = "[0, 1]", file.skins = R"({"joints": [1]})";
+  const Scene scene =
+      file.move(1, "translation", file.add<float>({1e7f, 0, 0, 1e7f, 1, 0}, kFloat, "VEC3", 3))
+          .read();
+  expectNear(placeAt(scene, 0.5, 1), DVec3(1e7 + 2, 0.5, 0), 1e-5);
 }
 
 }  // namespace

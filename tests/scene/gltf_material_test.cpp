@@ -76,6 +76,43 @@ TEST(GltfMaterial, SpecularExtension) {
   EXPECT_EQ(m.specularColor, Vec3(1, 2, 0.5f));
 }
 
+const std::string kLayers =
+    R"({"alphaMode": "OPAQUE", MORE "extensions": {"KHR_materials_clearcoat":
+    {"clearcoatFactor": 0.7, "clearcoatTexture": {"index": 0}, "clearcoatRoughnessFactor": 0.2,
+     "clearcoatRoughnessTexture": {"index": 0}},
+    "KHR_materials_sheen": {"sheenColorFactor": [0.1, 0.2, 0.3], "sheenColorTexture": {"index": 0},
+     "sheenRoughnessFactor": 0.4, "sheenRoughnessTexture": {"index": 0}}, "LAST": {}}})";
+
+TEST(GltfMaterial, CoatAndSheen) {
+  testing::internal::CaptureStderr();
+  const Scene scene = readWith(with(kLayers, "MORE", ""), kTextures);
+  EXPECT_EQ(testing::internal::GetCapturedStderr().find("coat"), std::string::npos);
+  const Material& m = scene.materials[0];
+  EXPECT_EQ(m.coat, 0.7f);
+  EXPECT_EQ(m.coatRoughness, 0.2f);
+  EXPECT_EQ(m.sheenColor, Vec3(0.1f, 0.2f, 0.3f));
+  EXPECT_EQ(m.sheenRoughness, 0.4f);
+  EXPECT_TRUE(m.coatMap && m.coatRoughnessMap && m.sheenColorMap && m.sheenRoughnessMap);
+  EXPECT_TRUE(scene.images[static_cast<size_t>(m.sheenColorMap.image)].srgb);
+  EXPECT_FALSE(scene.images[static_cast<size_t>(m.sheenRoughnessMap.image)].srgb);
+  EXPECT_FALSE(scene.images[static_cast<size_t>(m.coatMap.image)].srgb);
+}
+
+// A warning says what is otherwise than the file means it.
+TEST(GltfMaterial, CoatsThatAreNotAsMeantAreTold) {
+  testing::internal::CaptureStderr();
+  readWith(with(kLayers, "MORE", R"("name": "car", "normalTexture": {"index": 0},)"), kTextures);
+  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
+                  "material 'car': its coat follows the bumps below it");
+  testing::internal::CaptureStderr();
+  readWith(with(with(kLayers, "MORE",
+                     R"("name": "pane", "pbrMetallicRoughness": {"metallicFactor": 0},)"),
+                R"("LAST")", R"("KHR_materials_transmission": {"transmissionFactor": 1}, "LAST")"),
+           kTextures);
+  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
+                  "material 'pane': coat and sheen are left out, as light passes through it");
+}
+
 TEST(GltfMaterial, IndexZeroMeansFullReflection) {
   EXPECT_GT(readWith(R"({"extensions": {"KHR_materials_ior": {"ior": 0}}})").materials[0].ior,
             1000);

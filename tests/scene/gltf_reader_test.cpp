@@ -201,20 +201,29 @@ TEST(GltfReader, CamerasLookAlongMinusZOfTheirNode) {
   EXPECT_FLOAT_EQ(camera.verticalFov, 0.5f);
 }
 
-TEST(GltfReader, OrthographicCamerasAreLeftOutWithOneLine) {
-  std::string json =
-      with(kTriangleJson, R"("mesh": 0})", R"("mesh": 0}, {"name": "plan", "camera": 0})");
+std::string withOrthographic(const std::string& magnification) {
+  std::string json = with(kTriangleJson, R"("mesh": 0})",
+                          R"("mesh": 0}, {"name": "plan", "camera": 0, "scale": [3, 3, 3],
+                             "translation": [0, 0, 5]})");
   json = with(json, R"("nodes": [0])", R"("nodes": [0, 1])");
-  json = with(json, R"("materials")",
-              R"("cameras": [{"type": "orthographic", "orthographic":
-                 {"xmag": 1, "ymag": 1, "znear": 0, "zfar": 9}}], "materials")");
-  testing::internal::CaptureStderr();
-  const Scene scene = readTriangle(json);
-  EXPECT_CONTAINS(testing::internal::GetCapturedStderr(),
-                  "camera 'plan' is not perspective: left out; one that is far away and has a "
-                  "narrow angle looks nearly the same");
-  ASSERT_EQ(scene.cameras.size(), 1u);
-  EXPECT_NE(scene.cameras[0].name, "plan");
+  return with(json, R"("materials")",
+              R"("cameras": [{"type": "orthographic", "orthographic": {"xmag": 9, "ymag": )" +
+                  magnification + R"(, "znear": 0, "zfar": 9}}], "materials")");
+}
+
+TEST(GltfReader, OrthographicCamerasShowTwiceTheirMagnification) {
+  for (const char* magnification : {"1.25", "-1.25"}) {
+    const Scene scene = readTriangle(withOrthographic(magnification));
+    ASSERT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.cameras[0].name, "plan");
+    EXPECT_EQ(scene.cameras[0].forward, Vec3(0, 0, -1));
+    EXPECT_FLOAT_EQ(scene.cameras[0].orthographicHeight, 2.5f);
+  }
+}
+
+TEST(GltfReader, OrthographicCamerasWithoutHeightAreAnError) {
+  for (const char* bad : {"0", "1e30"})
+    EXPECT_CONTAINS(errorOf([&] { readTriangle(withOrthographic(bad)); }), "camera 'plan'");
 }
 
 TEST(GltfReader, PunctualLightsComeWithColourTimesIntensity) {
@@ -325,11 +334,11 @@ TEST(GltfReader, OptionalUnknownExtensionsGiveOneWarning) {
   testing::internal::CaptureStderr();
   readTriangle(with(
       kTriangleJson, R"("scene": 0)",
-      R"("extensionsUsed": ["KHR_materials_sheen", "VENDOR_magic", "KHR_materials_ior"], "scene": 0)"));
+      R"("extensionsUsed": ["KHR_materials_dispersion", "VENDOR_magic", "KHR_materials_ior"], "scene": 0)"));
   const std::string lines = testing::internal::GetCapturedStderr();
   EXPECT_CONTAINS(lines,
-                  "left out, as nothing reads it: extensions KHR_materials_sheen (cloth lacks its "
-                  "bright rim), VENDOR_magic");
+                  "left out, as nothing reads it: extensions KHR_materials_dispersion (all colours "
+                  "refract alike), VENDOR_magic");
 }
 
 }  // namespace

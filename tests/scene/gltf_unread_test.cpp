@@ -48,8 +48,8 @@ TEST(GltfUnread, MaterialPropertiesAreNamedWithTheirPlace) {
 
 TEST(GltfUnread, ExtensionsAreNamedWhereverTheyStand) {
   EXPECT_EQ(unreadOf(material(R"("extensions": {"KHR_materials_ior": {"ior": 1.3},
-      "KHR_materials_sheen": {"sheenRoughnessFactor": 1}})")),
-            "extensions KHR_materials_sheen (cloth lacks its bright rim)");
+      "KHR_materials_anisotropy": {"anisotropyStrength": 1}})")),
+            "extensions KHR_materials_anisotropy (highlights are round)");
   EXPECT_EQ(unreadOf(R"({"extensions": {"A": {}}, "asset": {"extensions": {"B": {"a": [{}]}}},
       "bufferViews": [{"buffer": 0, "extensions": {"C": {}}}], "animations": [{"channels": [
       {"target": {"extensions": {"D": {}}}}]}], "nodes": [{"extensions": {"E": 1}}]})"),
@@ -71,19 +71,22 @@ TEST(GltfUnread, WhatAnExtensionSaysBeyondWhatIsReadIsNamed) {
 
 TEST(GltfUnread, ExtensionsThatAreOnlyAnnouncedAreNamed) {
   EXPECT_EQ(unreadOf(R"({"extensionsUsed": ["KHR_mesh_quantization", "KHR_texture_transform",
-      "KHR_materials_sheen", "KHR_lights_punctual"]})"),
-            "extensions KHR_materials_sheen (cloth lacks its bright rim)");
+      "KHR_materials_anisotropy", "KHR_lights_punctual"]})"),
+            "extensions KHR_materials_anisotropy (highlights are round)");
   EXPECT_TRUE(isReadExtension("KHR_texture_transform"));
   EXPECT_FALSE(isReadExtension("KHR_texture_basisu"));
 }
 
 // Each is named once, however many materials have it.
 TEST(GltfUnread, WhatThePictureShowsInsteadIsSaid) {
-  EXPECT_EQ(unreadOf(R"({"extensionsUsed": ["KHR_materials_clearcoat", "KHR_materials_iridescence"],
-      "materials": [{"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1}}},
-      {"extensions": {"KHR_materials_clearcoat": {}, "KHR_materials_iridescence": {}}}]})"),
-            "extensions KHR_materials_clearcoat (without the coat and its reflection), "
-            "KHR_materials_iridescence (without colours of thin films)");
+  EXPECT_EQ(
+      unreadOf(R"({"extensionsUsed": ["KHR_materials_dispersion", "KHR_materials_iridescence"],
+      "materials": [{"extensions": {"KHR_materials_dispersion": {"dispersion": 1}}},
+      {"extensions": {"KHR_materials_clearcoat": {"clearcoatNormalTexture": {"index": 0}},
+      "KHR_materials_dispersion": {}, "KHR_materials_iridescence": {}}}]})"),
+      "extensions KHR_materials_clearcoat.clearcoatNormalTexture (the coat follows the bumps "
+      "below it), KHR_materials_dispersion (all colours refract alike), "
+      "KHR_materials_iridescence (without colours of thin films)");
 }
 
 TEST(GltfUnread, ExtrasMayHoldAnything) {

@@ -45,6 +45,18 @@ TEST_P(GltfWriterTest, EditsAreSaved) {
   expectSameScene(after, readScene(path));
 }
 
+TEST(GltfWriterFiles, LayersAndOrthographicCamerasAreKept) {
+  const TempFolder folder;
+  Scene scene = readScene(NINEFOLD_SCENES "/cornell.glb");
+  for (Material& m : scene.materials) {
+    m.coat = 0.5f, m.coatRoughness = 0.25f;
+    m.sheenColor = Vec3(0.5f, 0.25f, 1), m.sheenRoughness = 0.75f;
+  }
+  scene.cameras[0].orthographicHeight = 2.5f, scene.cameras[0].verticalFov = Camera{}.verticalFov;
+  writeGltf(folder.path() / "a.glb", scene);
+  expectSameScene(scene, readScene(folder.path() / "a.glb"));
+}
+
 TEST(GltfWriterFiles, NamesThatAreNoUtf8DoNotKeepASceneFromBeingSaved) {
   const TempFolder folder;
   Scene scene = readScene(NINEFOLD_SCENES "/cornell.glb");

@@ -45,6 +45,10 @@ inline void expectSameMaterial(const Scene& a, const Material& ma, const Scene& 
                        ma.attenuationColor, ma.attenuationDistance),
             std::tuple(mb.transmission, mb.ior, mb.specular, mb.specularColor, mb.solid,
                        mb.attenuationColor, mb.attenuationDistance));
+  EXPECT_EQ(std::tuple(ma.sheenColor, ma.sheenRoughness, ma.coat, ma.coatRoughness),
+            std::tuple(mb.sheenColor, mb.sheenRoughness, mb.coat, mb.coatRoughness));
+  expectSameUse(a, ma.coatMap, b, mb.coatMap);
+  expectSameUse(a, ma.sheenColorMap, b, mb.sheenColorMap);
   expectNear(ma.emission, mb.emission);
   expectSameUse(a, ma.baseColorMap, b, mb.baseColorMap);
   expectSameUse(a, ma.metallicRoughnessMap, b, mb.metallicRoughnessMap);
@@ -77,6 +81,7 @@ inline void expectSameScene(const Scene& a, const Scene& b) {
         glm::length(DVec3(a.cameras[i].eye) + a.origin - DVec3(b.cameras[i].eye) - b.origin), 0,
         1e-6 * double(size));
     EXPECT_EQ(a.cameras[i].verticalFov, b.cameras[i].verticalFov);
+    EXPECT_EQ(a.cameras[i].orthographicHeight, b.cameras[i].orthographicHeight);
   }
   ASSERT_EQ(a.lights.size(), b.lights.size());
   for (size_t i = 0; i < a.lights.size(); ++i) {

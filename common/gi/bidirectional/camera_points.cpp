@@ -17,12 +17,12 @@ struct End {
 // Where the path through `film` ends that follows the lobe that u chooses.
 std::optional<End> follow(const Transport& t, const View& view, Vec2 film, float u,
                           const PixelSampler& sampler, RayCounts& rays) {
-  const Vec3 direction = CameraRays(view.camera, view.width, view.height)
-                             .direction(film.x * static_cast<float>(view.width),
-                                        film.y * static_cast<float>(view.height));
+  const CameraRays camera(view.camera, view.width, view.height);
+  film *= Vec2(view.width, view.height);
+  const Vec3 direction = camera.direction(film.x, film.y);
   ++rays.eye;
-  const Hit hit =
-      t.tracer.closest(view.camera.eye, direction, std::numeric_limits<float>::infinity());
+  const Hit hit = t.tracer.closest(view.camera.eye + camera.start(film.x, film.y), direction,
+                                   std::numeric_limits<float>::infinity());
   if (!hit) return std::nullopt;
   const ShadingPoint p = t.shader.shade(t.tracer.surface(hit), -direction, view.eyeMedia);
   const Vec3 through = t.shader.attenuation(p, view.eyeMedia, hit.t);

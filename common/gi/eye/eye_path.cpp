@@ -26,7 +26,7 @@ uint16_t foldHash(uint64_t hash) {
 Radiance directAtLobe(const Transport& t, const Chain& c, Lobe lobe, size_t stream, Vec2 u,
                       RayCounts& rays) {
   const ShadingPoint& p = c.point;
-  if (p.bsdf.alpha == 0) return Radiance(0);
+  if (p.bsdf.isSmooth()) return Radiance(0);
   const auto light = sampleLight(t, stream, p, u);
   if (!light) return Radiance(0);
   const bool above = glm::dot(light->w, p.ng) > 0;
@@ -63,7 +63,8 @@ bool step(const Transport& t, Chain& c, Lobe lobe, const PixelSampler& sampler, 
   const Vec3 wi = glm::normalize(p.frame.toWorld(sample->wi));
   // A direction on the wrong side of the real surface would leak light through it.
   if ((glm::dot(wi, p.ng) > 0) != (lobe == Lobe::reflection)) return false;
-  c.throughput *= glm::min(sample->weight, Vec3(1));
+  const float excess = std::max(1.0f, maxComponent(sample->weight));
+  c.throughput *= sample->weight / excess, c.gain *= excess;
   c.lobePdf = sample->pdf;
   if (isBlack(c.throughput)) return false;
   if (lobe == Lobe::transmission) c.media = t.shader.pass(p, c.media);

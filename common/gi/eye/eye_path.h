@@ -3,7 +3,7 @@
 //
 //   layer radiance = throughput (rho/pi) E(x) gain + U
 //
-//   throughput  product of the lobes' weights, each in [0, 1]
+//   throughput  product of the lobes' weights, each in [0, 1]; what exceeds 1 is in the gain
 //   rho         reflectance of D at x, where the path ends
 //   gain        1 / product of the probabilities of the random choices; goes into E and U, so that
 //               reflectance stays <= 1

@@ -31,10 +31,9 @@ EyeBlock traceBlock(TaskContext& c, uint32_t path, int bi, int bj) {
     const int j = std::min(bj + lane / kBlockSide, c.rect.height - 1);
     const int x = c.pixelX(i), y = c.pixelY(j);
     const Vec2 offset = c.t.settings.jitter ? c.sampler(x, y, path).get2D(0) : Vec2(0.5f);
-    const Vec3 direction =
-        c.camera.direction(static_cast<float>(x) + offset.x, static_cast<float>(y) + offset.y);
-    block.rays.set(static_cast<size_t>(lane), c.view.camera.eye, direction, 0,
-                   std::numeric_limits<float>::infinity());
+    const float px = static_cast<float>(x) + offset.x, py = static_cast<float>(y) + offset.y;
+    block.rays.set(static_cast<size_t>(lane), c.view.camera.eye + c.camera.start(px, py),
+                   c.camera.direction(px, py), 0, std::numeric_limits<float>::infinity());
     const bool inside =
         bi + lane % kBlockSide < c.rect.width && bj + lane / kBlockSide < c.rect.height;
     block.active |= (inside ? 1u : 0u) << lane;

@@ -15,7 +15,7 @@ namespace ninefold {
 struct FirstHit {
   size_t pixel = 0;    // in the task's rectangle, row-major
   int x = 0, y = 0;    // in the image
-  Vec3 direction{0};   // unit, from the eye
+  Vec3 direction{0};   // unit, of the ray
   float distance = 0;  // [m]; 0 = nothing was met
   ShadingPoint point;  // valid if something was
   explicit operator bool() const { return distance > 0; }

@@ -7,7 +7,7 @@ namespace ninefold {
 View viewOf(const Transport& t, const Settings& s) {
   View view{s.camera, s.width, s.height, {}};
   view.camera.eye = t.tracer.clearOf(s.camera.eye, s.camera.forward);
-  view.eyeMedia = mediaAround(t, view.camera.eye);
+  if (!isOrthographic(s.camera)) view.eyeMedia = mediaAround(t, view.camera.eye);
   return view;
 }
 

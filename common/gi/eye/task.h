@@ -23,7 +23,9 @@ struct Task {
 struct View {
   Camera camera;
   int width, height;
-  MediumStack eyeMedia;  // the solids that the eye is inside of
+  // The solids that the eye is inside of. Each ray of an orthographic camera starts elsewhere: what
+  // it starts in is found out where it leaves it (Shader::before).
+  MediumStack eyeMedia;
 };
 
 // The view of these settings. An eye exactly on a surface is moved off: at no distance it would see

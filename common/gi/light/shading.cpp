@@ -55,6 +55,7 @@ Shader::Shader(const Scene& scene) : scene_(&scene) {
     if (p.fixedMean) p.mean = coatReflection(p.ends, m.roughness * m.roughness);
     p.transmits = transmits(m);
     p.folds = !p.transmits && foldsIntoDiffuse(scene, m);
+    p.layered = hasCoat(m) || hasSheen(m);
     p.focuses = focusesLight(scene, m);
     p.passes = letsPassStraight(scene, m);
     p.diffuse = mayBeDiffuseOf(m, p.folds);
@@ -107,6 +108,25 @@ void Shader::fillOpaque(Bsdf& bsdf, const Material& m, const Prepared& prepared,
   if (!prepared.folds) return;
   const Vec3 metal = metallic > 0 ? meanReflection_(base, Vec3(1), alpha) : Vec3(0);
   bsdf.diffuse = glm::min(bsdf.diffuse + mix(mean, metal, metallic), Vec3(1));
+}
+
+void Shader::addLayers(Bsdf& bsdf, const Material& m, bool folds, const SurfacePoint& s) const {
+  if (folds || !bsdf.reflects) bsdf.f0 = bsdf.f90 = Vec3(0);
+  const auto texel = [&](const TextureUse& use) {
+    return use ? lookUp(*scene_, use, s.uv0, s.uv1) : Vec4(1);
+  };
+  bsdf.coat = hasCoat(m) ? m.coat * texel(m.coatMap).x : 0;
+  bsdf.sheen = m.sheenColor * Vec3(texel(m.sheenColorMap));
+  const float coatRoughness = m.coatRoughness * texel(m.coatRoughnessMap).y;
+  const float sheenRoughness = m.sheenRoughness * texel(m.sheenRoughnessMap).w;
+  const float coatAlpha = coatRoughness * coatRoughness;
+  bsdf.coatAlpha = coatAlpha < kSmoothAlpha ? 0.0f : coatAlpha;
+  bsdf.sheenAlpha = std::clamp(sheenRoughness * sheenRoughness, kLeastSheenAlpha, 1.0f);
+  const float coatMean = meanReflection_(Vec3(kCoatReflectance), Vec3(1), bsdf.coatAlpha).x;
+  bsdf.diffuse *=
+      (1 - bsdf.coat * coatMean) * (1 - maxComponent(bsdf.sheen) * meanSheen(bsdf.sheenAlpha));
+  bsdf.layered = bsdf.coat > 0 || !isBlack(bsdf.sheen);
+  bsdf.reflects = bsdf.layered || !isBlack(bsdf.f90);
 }
 
 void Shader::fillTransmitting(Bsdf& bsdf, const Material& m, const Prepared& prepared, Vec3 base,
@@ -163,11 +183,13 @@ ShadingPoint Shader::shade(const SurfacePoint& s, Vec3 wo, const MediumStack& me
     p.bsdf.eta = m.solid ? indexOf(inside) / indexOf(outside) : m.ior;
   } else {
     fillOpaque(p.bsdf, m, prepared, base, metallic, alpha, s);
+    if (prepared.layered) addLayers(p.bsdf, m, prepared.folds, s);
   }
   if (m.alphaMode == AlphaMode::blend) {
     opacity = std::clamp(opacity, 0.0f, 1.0f);
     p.bsdf.diffuse *= opacity, p.bsdf.f0 *= opacity, p.bsdf.f90 *= opacity;
     p.bsdf.reflectionTint *= opacity, p.bsdf.transmissionTint *= opacity;
+    p.bsdf.coat *= opacity, p.bsdf.sheen *= opacity;
     p.bsdf.passThrough = 1 - opacity;
   }
   return p;

@@ -8,6 +8,7 @@
 // Transmitting  KHR_materials_transmission T: exact Fresnel; (1-F) T baseColor goes through, D
 //               keeps the share 1-T.
 // Folded        A lobe for which foldsIntoDiffuse holds adds its mean reflection to D and is gone.
+// Layers        Sheen and coat (bsdf/layers.h) over opaque surfaces; D loses their mean albedos.
 // Blended       Every part times the opacity; the rest passes straight on.
 // Attenuation   exp(-sigma t) inside solids, sigma = -ln(colour)/attenuationDistance [1/m]
 // Vertices      Their colours multiply baseColor and the opacity.
@@ -33,7 +34,8 @@ inline bool facesNormal(Vec3 n, Vec3 w) { return glm::dot(n, w) > 1e-4f; }
 
 // Whether VPLs stand on the surface's reflection lobe.
 inline bool isGlossy(const Bsdf& bsdf) {
-  return bsdf.reflects && !bsdf.dielectric && bsdf.alpha >= kGlossyRoughness * kGlossyRoughness;
+  const bool isRough = bsdf.alpha >= kGlossyRoughness * kGlossyRoughness;
+  return bsdf.reflects && !bsdf.dielectric && bsdf.coat == 0 && (isRough || isBlack(bsdf.f90));
 }
 
 // A surface point seen from direction wo; normals are turned to wo's side.
@@ -131,6 +133,7 @@ class Shader {
   // Of a material, worked out once: every hit asks.
   struct Prepared {
     bool folds = false;      // opaque reflection lobe goes into D
+    bool layered = false;    // under sheen or a coat
     bool transmits = false;  // dielectric interface
     bool focuses = false;    // has an S lobe that is the photons' work
     bool passes = false;     // may let light pass straight on
@@ -150,6 +153,8 @@ class Shader {
                   float metallic, float alpha, const SurfacePoint& s) const;
   void fillTransmitting(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                         float metallic, const SurfacePoint& s) const;
+  // The layers over what fillOpaque filled in.
+  void addLayers(Bsdf& bsdf, const Material& material, bool folds, const SurfacePoint& s) const;
   FresnelEnds dielectricEnds(const Material& material, const SurfacePoint& s) const;
   // Mean reflection of the dielectric part.
   Reflectance coatReflection(const FresnelEnds& ends, float alpha) const;

@@ -54,7 +54,7 @@ LobeValue evaluateWay(const ShadingPoint& p, Way way, Vec3 w) {
 
 Radiance directAtVertex(const Transport& t, const ShadingPoint& p, const MediumStack& media,
                         Way way, size_t stream, Vec2 u, RayCounts& rays) {
-  if (way != Way::diffuse && p.bsdf.alpha == 0) return Radiance(0);
+  if (way != Way::diffuse && p.bsdf.isSmooth()) return Radiance(0);
   const auto light = sampleLight(t, stream, p, u);
   if (!light) return Radiance(0);
   const LobeValue value = evaluateWay(p, way, light->w);

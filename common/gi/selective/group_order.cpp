@@ -17,6 +17,7 @@ uint64_t keyOf(const StatePages& pages, const View& view) {
   uint64_t key =
       hashWords(pages.hash(), static_cast<uint64_t>(view.width), static_cast<uint64_t>(view.height),
                 std::bit_cast<uint32_t>(view.camera.verticalFov));
+  key = hashWords(key, std::bit_cast<uint32_t>(view.camera.orthographicHeight));
   for (const Vec3& v : {view.camera.eye, view.camera.forward, view.camera.up})
     for (int c = 0; c < 3; ++c) key = hashWords(key, std::bit_cast<uint32_t>(v[c]));
   return key;
