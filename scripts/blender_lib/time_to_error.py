@@ -1,0 +1,67 @@
+"""How long a render takes, in Blender: run inside Blender by scripts/blender_time.
+
+    blender -b --factory-startup --addons ninefold_render --python time_to_error.py -- ENGINE SCENE.glb OUT.exr SEED LIMIT [ADDRESS KEY]
+
+LIMIT: of Ninefold the noise limit [%], or with ADDRESS, where others' clients come, frames; of Cycles samples a pixel. Prints
+TIMES {"first": until there is a picture, "all": until it is done} [s], both since the render was asked for.
+"""
+import json
+import pathlib
+import sys
+import time
+
+import bpy
+import numpy as np
+
+np.bool = bool  # see public_scenes.py
+
+SIZE = (320, 240)
+
+
+def set_engine(scene, engine, seed, limit, cluster):
+    scene.render.engine = engine
+    if engine == "CYCLES":
+        cycles = scene.cycles
+        cycles.samples, cycles.seed = int(limit), seed
+        cycles.use_adaptive_sampling = cycles.use_denoising = False
+        cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = cycles.transmission_bounces = 32
+        cycles.sample_clamp_indirect = cycles.blur_glossy = 0
+        return
+    settings = scene.ninefold
+    settings.seed, settings.local_clients, settings.frames = seed, 2, 0
+    if cluster:
+        settings.local_clients, settings.frames = 0, int(limit)
+        settings.listen, settings.key_file = cluster[:2]
+        settings.more = f"--wait-clients {cluster[2]}"
+    else:
+        settings.error = float(limit)
+
+
+def main():
+    engine, path, out, seed, limit, *cluster = sys.argv[sys.argv.index("--") + 1:]
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    bpy.ops.import_scene.gltf(filepath=path)
+    scene = bpy.context.scene
+    scene.camera = next(thing for thing in scene.objects if thing.type == "CAMERA")
+    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    set_engine(scene, engine, int(seed), limit, cluster)
+    shown = []
+    if engine == "NINEFOLD":
+        import ninefold_render
+        show = ninefold_render.NinefoldEngine.show
+
+        def timed(self, *arguments):
+            show(self, *arguments)
+            shown.append(time.monotonic())
+
+        ninefold_render.NinefoldEngine.show = timed
+    begin = time.monotonic()
+    bpy.ops.render.render()
+    end = time.monotonic()
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+    bpy.data.images["Render Result"].save_render(out)
+    print("TIMES", json.dumps({"first": (shown or [end])[0] - begin, "all": end - begin}), flush=True)
+
+
+if __name__ == "__main__":
+    main()
