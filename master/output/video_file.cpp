@@ -5,8 +5,10 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <thread>
 
@@ -53,6 +55,30 @@ std::vector<std::string> arguments(const std::string& file, int width, int heigh
           "+bitexact", "-movflags", "+faststart", "-f", "mp4", file};
 }
 
+// Whether a file is whole: ffmpeg's exit status does not tell. Its boxes (a length of 4 or 8 bytes,
+// four letters) fill it, and the index, moov, is among them (ISO/IEC 14496-12, 4.2).
+bool isWhole(const std::filesystem::path& path, uint64_t size) {
+  std::ifstream file(path, std::ios::binary);
+  bool hasIndex = false;
+  uint64_t at = 0;
+  while (at < size) {
+    std::array<unsigned char, 16> head{};
+    file.seekg(static_cast<std::streamoff>(at));
+    file.read(reinterpret_cast<char*>(head.data()), head.size());
+    file.clear();  // the last box may be shorter
+    const auto number = [&](size_t first, size_t end) {
+      uint64_t n = 0;
+      for (size_t i = first; i < end; ++i) n = n << 8 | head.at(i);
+      return n;
+    };
+    const uint64_t length = number(0, 4) == 1 ? number(8, 16) : number(0, 4);
+    if (length < 8 || length > size - at) return false;
+    hasIndex = hasIndex || std::string(head.begin() + 4, head.begin() + 8) == "moov";
+    at += length;
+  }
+  return hasIndex;
+}
+
 ChildProcess startProgram(const std::vector<std::string>& arguments, const Descriptor& input) {
   return ChildProcess::start(kProgram, arguments, input, {STDIN_FILENO, true});
 }
@@ -94,6 +120,7 @@ void VideoFile::finish() {
   const ChildProcess::Ending ending = waitForEnd();
   if (ending.status != 0) failWith("ended with " + ending.text);
   file_.takeWhatIsThere();
+  if (!isWhole(file_.beside(), file_.size())) failWith("left a part");
   file_.publish();
 }
 

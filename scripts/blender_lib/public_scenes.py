@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-SIZE = (320, 240)
+SIZE = (240, 180)
 np.bool = bool  # Debian's Blender 3.4 imports glTF by that name, which its numpy has no more
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 np.bool = bool  # see public_scenes.py
 
-SIZE = (320, 240)
+SIZE = (240, 180)
 
 
 def set_engine(scene, engine, seed, limit, cluster):
