@@ -599,7 +599,7 @@ class Exporter:
         environment = self.environment_of(scene.world)
         first = self.what_is_there(scene)
         plain = bpy.data.scenes.new("plain")
-        self.realise(plain, *first[1:])
+        self.realise(plain, depsgraph)
         bpy.context.window.scene = plain
         self.write(plain)
         bpy.context.window.scene = scene
@@ -650,28 +650,35 @@ class Exporter:
         scene.render.simplify_subdivision = scene.render.simplify_subdivision_render
         scene.render.simplify_child_particles = scene.render.simplify_child_particles_render
 
+    def seen(self, depsgraph):
+        """Things and their places; meshes: so come curves, texts and metaballs, too. A thing is only there until the next one."""
+        for instance in depsgraph.object_instances:
+            if not instance.show_self:
+                continue
+            thing = instance.object
+            if thing.type in {"MESH", "LIGHT"}:
+                yield thing, instance.matrix_world.copy()
+            elif thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}:
+                self.warn(f"{thing.name} is left out: glTF has no {thing.type.lower()}")
+
     def what_is_there(self, scene):
-        """At the scene's frame: what is seen, but for the places; the things; their places, and the camera's at the end."""
+        """At the scene's frame: what is seen, but for the places; and these, the camera's at the end."""
         depsgraph = bpy.context.evaluated_depsgraph_get()
         camera = scene.camera.evaluated_get(depsgraph)
-        there, things, places = [frame_of(camera.data, scene.render, self.order["resolution"]), animated_values(scene)], [], []
+        there, places = [frame_of(camera.data, scene.render, self.order["resolution"]), animated_values(scene)], []
         shapes = {}
-        for instance in depsgraph.object_instances:
-            thing, matrix = instance.object, instance.matrix_world.copy()
-            if not instance.show_self or thing.type not in {"MESH", "LIGHT"}:  # meshes: so come curves, texts and metaballs, too
-                if instance.show_self and thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}:
-                    self.warn(f"{thing.name} is left out: glTF has no {thing.type.lower()}")
+        for thing, matrix in self.seen(depsgraph):
+            places.append(matrix)
+            if not self.order["frames"]:  # nobody compares
                 continue
             if thing.type == "LIGHT":
                 there.append(self.lamp_values(thing.data.original, matrix))
-            else:
-                key = thing.data.as_pointer()
-                if key not in shapes:
-                    shapes[key] = shape_print(thing.data)
-                there.append((thing.name, shapes[key], materials_of(thing), None if is_upright(matrix) else tuple(map(tuple, matrix))))
-            things.append(thing)
-            places.append(matrix)
-        return Seen(there, things, places + [camera.matrix_world.copy()])
+                continue
+            key = thing.data.as_pointer()
+            if key not in shapes:
+                shapes[key] = shape_print(thing.data)
+            there.append((thing.name, shapes[key], materials_of(thing), None if is_upright(matrix) else tuple(map(tuple, matrix))))
+        return Seen(there, places + [camera.matrix_world.copy()])
 
     def places_ahead(self, scene, first):
         """Of the frames that follow, as long as nothing but places changes."""
@@ -682,9 +689,9 @@ class Exporter:
                 return
             yield seen.places
 
-    def realise(self, plain, things, places):
-        """All that is seen, in the scene `plain`, and lamps that are none there in `punctual`; all in `parts`."""
-        for thing, matrix in zip(things, places):
+    def realise(self, plain, depsgraph):
+        """All that is seen, in the scene `plain`, and lamps that are none there in `punctual`; all in `parts`, in their order."""
+        for thing, matrix in self.seen(depsgraph):
             if thing.type == "LIGHT":
                 self.place_lamp(plain, thing.data.original, matrix)
                 continue
@@ -913,7 +920,7 @@ class Exporter:
         return {"KHR_lights_punctual": {"light": len(lights) - 1}}
 
 
-Seen = collections.namedtuple("Seen", "there things places")
+Seen = collections.namedtuple("Seen", "there places")
 
 
 class Part:
