@@ -172,6 +172,12 @@ void WrittenFile::reserve(uint64_t bytes) {
   }
 }
 
+void WrittenFile::takeWhatIsThere() {
+  struct stat facts {};
+  if (::fstat(fd_.get(), &facts) != 0) failWith(errno);
+  size_ = static_cast<uint64_t>(facts.st_size);
+}
+
 void WrittenFile::publish() {
   if (failure_ != 0) failWith(failure_);
   // EINVAL: a file system that cannot.

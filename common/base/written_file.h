@@ -41,6 +41,10 @@ class WrittenFile {
   uint64_t size() const { return size_; }
   // Throws if there is no room for so many bytes, as far as the file system can tell.
   void reserve(uint64_t bytes);
+  // Where the bytes are until then. Another program may write them there; then takeWhatIsThere,
+  // which believes that they are all.
+  const std::filesystem::path& beside() const { return beside_; }
+  void takeWhatIsThere();
   // Last. Nothing is to be seen under the name before. Throws if any write has failed.
   void publish();
 

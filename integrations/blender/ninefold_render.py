@@ -5,6 +5,9 @@ docs/blender.md tells how to install and use it.
     F12 ─► render(): .blend copy ─► a Blender without window: glTF
         ─► ninefold-master ─► .exr ─► passes
 
+An animation whose frames differ by places alone goes to one master, as a glTF animation
+(`Sequence`).
+
 The exporter needs a context that render() does not have. A Blender of its own has one. There the
 scene may be changed, so that the exporter sees what a render sees. This file is both: the add-on,
 and what runs there (`export_main`).
@@ -15,6 +18,7 @@ master's log has a thread here.
 Errors: Trouble, told in one line in Blender's report area. Whatever happens, both programs are
 ended before render() returns. They end by themselves when Blender dies.
 """
+import atexit
 import collections
 import functools
 import json
@@ -47,6 +51,7 @@ bl_info = {
 }
 
 MOST_PIXELS = 16384  # of a side, as the master takes them
+WIDEST_PICTURE = 8192  # of what is outside, as the master takes it
 EVERY = 2            # a new look at the picture so often [s]
 PATIENCE = 20        # of an interrupted master, before it is killed [s]
 FAR = 1e10           # Blender's depth where nothing is
@@ -227,7 +232,7 @@ def master_command(master, flags, settings, scene, exported, folder, passes):
     """The command line; refuses what cannot come to an end."""
     s, (width, height) = settings, exported["size"]
     command = [master, scene, "--size", f"{width}x{height}", "--seed", str(s.seed), "--method", s.method,
-               "--output", str(folder / "picture.exr"),
+               "--output", str(folder / ("picture.####.exr" if exported["frames"] > 1 else "picture.exr")),
                "--environment", exported["environment"], "--local-clients", str(s.local_clients)]
     if not (s.frames or s.seconds or s.error):
         raise Trouble("nothing ends the render: set frames, a time limit or a noise limit")
@@ -237,7 +242,12 @@ def master_command(master, flags, settings, scene, exported, folder, passes):
                         ("--key-file", bpy.path.abspath(s.key_file)), ("--denoise", "on" if s.denoise else "")):
         if value:
             command += [flag, f"{value:.7g}" if isinstance(value, float) else str(value)]
-    for flag, value in (("--save-every", str(EVERY)), ("--light-units", "radiometric")):
+    usual = {"--light-units": "radiometric"}
+    if exported["frames"] > 1:
+        usual["--animate"] = f"0:{exported['frames'] - 1}:1"
+    else:
+        usual["--save-every"] = str(EVERY)
+    for flag, value in usual.items():
         if flag in flags:
             command += [flag, value]
     if passes:
@@ -257,6 +267,69 @@ def complaint(program, what):
     return f"{what}: {told[-1] if told else f'ended with status {status}'}"
 
 
+# ---------------------------------------------------------------- animations
+
+class Job:
+    """A picture that is asked for, and what pictures of one sequence have in common."""
+
+    def __init__(self, depsgraph, engine, master):
+        scene = depsgraph.scene
+        self.frame = scene.frame_current
+        self.layer = depsgraph.view_layer.name
+        self.master = master
+        settings = [getattr(scene.ninefold, name) for name in NinefoldSettings.__annotations__]
+        self.alike = (scene.name, self.layer, master, engine.resolution_x, engine.resolution_y, *settings)
+
+
+def frames_ahead(scene):
+    return list(range(scene.frame_current, scene.frame_end + 1, scene.frame_step))
+
+
+def is_sequence(scene):
+    """Whether the master can make the animation's pictures one after another: by a number of frames, in one layer, radiance
+    alone."""
+    s = scene.ninefold
+    return s.frames and not (s.seconds or s.error or s.passes or s.denoise) and sum(l.use for l in scene.view_layers) == 1
+
+
+class Sequence:
+    """Frames of an animation that one master makes, each as soon as it can. Blender asks for them one by one."""
+    latest = None  # at most one
+
+    def __init__(self, job, program, folder, frames, crop):
+        self.alike, self.program, self.folder, self.frames, self.crop = job.alike, program, folder, frames, crop
+        self.made = 0  # pictures
+
+    def goes_on(self, job):
+        return job.alike == self.alike and job.frame in self.frames[self.made:]
+
+    def wait_for(self, frame, engine):
+        """The file of its picture. Those before it were not asked for."""
+        number = self.frames.index(frame)
+        wanted = f"picture {number + 1} of {len(self.frames)} in "
+        for line in self.program.follow(engine):
+            if line.startswith("warning: "):
+                engine.report({"WARNING"}, f"Ninefold: {line[len('warning: '):]}")
+            if wanted in line:
+                self.made = number + 1
+                engine.update_progress(self.made / len(self.frames))
+                return self.folder / f"picture.{number:04}.exr"
+        raise Trouble(complaint(self.program, "the master"))
+
+    @classmethod
+    def end(cls, *_):
+        """The master has no more to do."""
+        ended, cls.latest = cls.latest, None
+        if ended:
+            ended.program.close()
+            shutil.rmtree(ended.folder, ignore_errors=True)
+
+
+@bpy.app.handlers.persistent
+def end_sequence(*_):
+    Sequence.end()
+
+
 # ---------------------------------------------------------------- the engine
 
 class NinefoldEngine(bpy.types.RenderEngine):
@@ -271,28 +344,57 @@ class NinefoldEngine(bpy.types.RenderEngine):
             self.register_pass(scene, layer, kind.name, kind.channels, kind.id, kind.type)
 
     def render(self, depsgraph):
+        try:
+            settings = depsgraph.scene.ninefold
+            master = master_path()
+            job = Job(depsgraph, self, master)
+            if not Sequence.latest or not Sequence.latest.goes_on(job):
+                Sequence.end()
+                self.check(depsgraph.scene)
+                self.begin(job, depsgraph, settings)
+            elif self.show_next(Sequence.latest, job):
+                Sequence.end()
+        except Cancelled:
+            Sequence.end()
+        except Trouble as trouble:
+            Sequence.end()
+            self.report({"ERROR"}, f"Ninefold: {trouble}")
+
+    def begin(self, job, depsgraph, settings):
+        """A picture, or the first one of a sequence."""
         folder = pathlib.Path(tempfile.mkdtemp(prefix="ninefold-"))
         try:
-            self.render_in(folder, depsgraph)
-        except Cancelled:
-            pass
-        except Trouble as trouble:
-            self.report({"ERROR"}, f"Ninefold: {trouble}")
+            flags = flags_of(job.master, os.path.getmtime(job.master))
+            frames = frames_ahead(depsgraph.scene) if self.is_animation and is_sequence(depsgraph.scene) else []
+            exported = self.export(folder, depsgraph, PICTURES in flags, frames)
+            for warning in exported["warnings"]:
+                self.report({"WARNING"}, f"Ninefold: {warning}")
+            passes = PASSES if settings.passes else ()
+            command = master_command(job.master, flags, settings, str(folder / "scene.gltf"), exported, folder, passes)
+            if exported["frames"] > 1:
+                Sequence.latest = Sequence(job, Program(command, cwd=folder), folder, frames[:exported["frames"]], exported["crop"])
+                self.show_next(Sequence.latest, job)
+                return
+            with Program(command, cwd=folder) as program:
+                self.gather(program, folder / "picture.exr", exported["crop"], passes, depsgraph.view_layer.name)
         finally:
-            shutil.rmtree(folder, ignore_errors=True)
+            if not Sequence.latest:
+                shutil.rmtree(folder, ignore_errors=True)
 
-    def render_in(self, folder, depsgraph):
-        settings = depsgraph.scene.ninefold
-        master = master_path()
-        flags = flags_of(master, os.path.getmtime(master))
-        self.check(depsgraph.scene)
-        exported = self.export(folder, depsgraph, PICTURES in flags)
-        for warning in exported["warnings"]:
-            self.report({"WARNING"}, f"Ninefold: {warning}")
-        passes = PASSES if settings.passes else ()
-        command = master_command(master, flags, settings, str(folder / "scene.gltf"), exported, folder, passes)
-        with Program(command, cwd=folder) as program:
-            self.gather(program, folder / "picture.exr", exported["crop"], passes, depsgraph.view_layer.name)
+    def show_next(self, sequence, job):
+        """Shows the job's frame. True if there is none after it."""
+        left, bottom, width, height = sequence.crop
+        result = self.begin_result(0, 0, width, height, layer=job.layer)
+        try:
+            self.update_stats("", f"Rendering {len(sequence.frames)} frames of an animation")
+            picture = sequence.wait_for(job.frame, self)
+            self.show(result, picture, sequence.crop)
+        except (Cancelled, Trouble):
+            self.end_result(result, cancel=True)
+            raise
+        self.end_result(result)
+        picture.unlink()
+        return job.frame == sequence.frames[-1]
 
     def check(self, scene):
         """Refuses what would be a wrong picture."""
@@ -304,15 +406,16 @@ class NinefoldEngine(bpy.types.RenderEngine):
         if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
             raise Trouble("pixels must be square: set both aspects in the output's format to 1")
 
-    def export(self, folder, depsgraph, pictures):
-        """The scene as glTF in `folder`, by another Blender, and what that said of it."""
+    def export(self, folder, depsgraph, pictures, frames):
+        """The scene as glTF in `folder`, by another Blender, and what that said of it. With it the places of things in those
+        `frames` that follow, as far as nothing else changes."""
         self.update_stats("", "Exporting the scene")
         scene = depsgraph.scene.original
         copy = folder / "scene.blend"
         bpy.data.libraries.write(str(copy), {scene}, path_remap="ABSOLUTE", fake_user=True)
         order = {"blend": str(copy), "scene": scene.name, "layer": depsgraph.view_layer.name, "frame": scene.frame_current,
                  "subframe": scene.frame_subframe, "resolution": [self.resolution_x, self.resolution_y],
-                 "folder": str(folder), "pictures": pictures}
+                 "folder": str(folder), "pictures": pictures, "frames": frames[1:]}
         trust = "--enable-autoexec" if bpy.context.preferences.filepaths.use_scripts_auto_execute else "--disable-autoexec"
         command = [bpy.app.binary_path, "--background", "--factory-startup", trust, "--python-exit-code", "1", "--python",
                    os.path.abspath(__file__), "--", EXPORT_FLAG, json.dumps(order)]
@@ -437,6 +540,7 @@ def shared_panels():
             yield panel
 
 
+MOMENTS_OF_AN_END = ("render_complete", "render_cancel", "load_pre")
 CLASSES = (NinefoldPreferences, NinefoldSettings, NinefoldEngine, NinefoldPanel)
 
 
@@ -446,9 +550,16 @@ def register():
     bpy.types.Scene.ninefold = bpy.props.PointerProperty(type=NinefoldSettings)
     for panel in shared_panels():
         panel.COMPAT_ENGINES.add(NinefoldEngine.bl_idname)
+    for moment in MOMENTS_OF_AN_END:
+        getattr(bpy.app.handlers, moment).append(end_sequence)
+    atexit.register(Sequence.end)
 
 
 def unregister():
+    Sequence.end()
+    atexit.unregister(Sequence.end)
+    for moment in MOMENTS_OF_AN_END:
+        getattr(bpy.app.handlers, moment).remove(end_sequence)
     for panel in shared_panels():
         panel.COMPAT_ENGINES.discard(NinefoldEngine.bl_idname)
     del bpy.types.Scene.ninefold
@@ -468,7 +579,8 @@ class Exporter:
     def __init__(self, order):
         self.order = order
         self.warnings = []
-        self.lamps = []      # (light, matrix)
+        self.parts = []      # of what is seen, in its order; the camera at the end
+        self.punctual = []   # (light, radiant quantity, part)
         self.meshes = {}     # by what they were made of
         self.none = None     # the material of what has none
         self.files = pathlib.Path(order["folder"])
@@ -481,23 +593,24 @@ class Exporter:
         for material in bpy.data.materials:
             self.prepare(material)
         depsgraph = bpy.context.evaluated_depsgraph_get()
-        camera = scene.camera.evaluated_get(depsgraph)
-        matrix = camera.matrix_world.copy()
-        size, crop, fov = frame_of(camera.data, scene.render, self.order["resolution"])
-        self.warn_of_the_rest(scene, camera.data)
+        camera = scene.camera.evaluated_get(depsgraph).data
+        size, crop, fov = frame_of(camera, scene.render, self.order["resolution"])
+        self.warn_of_the_rest(scene, camera)
         environment = self.environment_of(scene.world)
+        first = self.what_is_there(scene)
         plain = bpy.data.scenes.new("plain")
-        for name, mesh, place in self.realise(depsgraph):
-            add_object(plain, name, mesh, place)
-        punctual = self.place_lamps(plain)
+        self.realise(plain, depsgraph)
         bpy.context.window.scene = plain
         self.write(plain)
+        bpy.context.window.scene = scene
+        poses = [first.places, *self.places_ahead(scene, first)]
         path = self.files / "scene.gltf"
         gltf = json.loads(path.read_text())
-        self.complete(gltf, punctual, matrix, fov)
+        self.complete(gltf, fov)
+        self.animate(gltf, poses)
         path.write_text(json.dumps(gltf))
         (self.files / "export.json").write_text(json.dumps(
-            {"size": size, "crop": crop, "environment": environment, "warnings": self.warnings}))
+            {"size": size, "crop": crop, "environment": environment, "warnings": self.warnings, "frames": len(poses)}))
 
     def warn_of_the_rest(self, scene, camera):
         for is_on, what in ((camera.dof.use_dof, "depth of field"), (scene.render.use_motion_blur, "motion blur"),
@@ -537,24 +650,58 @@ class Exporter:
         scene.render.simplify_subdivision = scene.render.simplify_subdivision_render
         scene.render.simplify_child_particles = scene.render.simplify_child_particles_render
 
-    def realise(self, depsgraph):
-        """All that is seen, as (name, mesh, matrix); lamps go into `lamps`."""
+    def seen(self, depsgraph):
+        """Things and their places; meshes: so come curves, texts and metaballs, too. A thing is only there until the next one."""
         for instance in depsgraph.object_instances:
             if not instance.show_self:
                 continue
-            thing, matrix = instance.object, instance.matrix_world.copy()
-            if thing.type == "LIGHT":
-                self.lamps.append((thing.data.original, matrix))
-            elif thing.type == "MESH":  # so come curves, texts and metaballs, too
-                mesh = self.mesh_of(thing)
-                if mesh.polygons:
-                    yield (thing.name, *upright(mesh, matrix))
+            thing = instance.object
+            if thing.type in {"MESH", "LIGHT"}:
+                yield thing, instance.matrix_world.copy()
             elif thing.type in {"VOLUME", "CURVES", "POINTCLOUD", "GPENCIL", "GREASEPENCIL"}:
                 self.warn(f"{thing.name} is left out: glTF has no {thing.type.lower()}")
 
+    def what_is_there(self, scene):
+        """At the scene's frame: what is seen, but for the places; and these, the camera's at the end."""
+        depsgraph = bpy.context.evaluated_depsgraph_get()
+        camera = scene.camera.evaluated_get(depsgraph)
+        there, places = [frame_of(camera.data, scene.render, self.order["resolution"]), animated_values(scene)], []
+        shapes = {}
+        for thing, matrix in self.seen(depsgraph):
+            places.append(matrix)
+            if not self.order["frames"]:  # nobody compares
+                continue
+            if thing.type == "LIGHT":
+                there.append(self.lamp_values(thing.data.original, matrix))
+                continue
+            key = thing.data.as_pointer()
+            if key not in shapes:
+                shapes[key] = shape_print(thing.data)
+            there.append((thing.name, shapes[key], materials_of(thing), None if is_upright(matrix) else tuple(map(tuple, matrix))))
+        return Seen(there, places + [camera.matrix_world.copy()])
+
+    def places_ahead(self, scene, first):
+        """Of the frames that follow, as long as nothing but places changes."""
+        for frame in self.order["frames"]:
+            scene.frame_set(frame)
+            seen = self.what_is_there(scene)
+            if seen.there != first.there:
+                return
+            yield seen.places
+
+    def realise(self, plain, depsgraph):
+        """All that is seen, in the scene `plain`, and lamps that are none there in `punctual`; all in `parts`, in their order."""
+        for thing, matrix in self.seen(depsgraph):
+            if thing.type == "LIGHT":
+                self.place_lamp(plain, thing.data.original, matrix)
+                continue
+            mesh = self.mesh_of(thing)
+            made = add_object(plain, thing.name, *upright(mesh, matrix)) if mesh.polygons else None
+            self.parts.append(Part(made and made.name, lambda place: Y_UP @ place @ Y_UP.inverted()))
+        self.parts.append(Part(None, lambda place: Y_UP @ unscaled(place)))  # the camera
+
     def mesh_of(self, thing):
-        key = (thing.original.as_pointer(), thing.data.as_pointer(),
-               tuple(slot.material and slot.material.name for slot in thing.material_slots))
+        key = (thing.original.as_pointer(), thing.data.as_pointer(), materials_of(thing))
         if key not in self.meshes:
             mesh = thing.data.copy()
             for slot, place in zip(thing.material_slots, range(len(mesh.materials))):
@@ -625,13 +772,27 @@ class Exporter:
         if source.type != "TEX_ENVIRONMENT" or source.image is None:
             self.warn(f"world {world.name}: its colour by nodes is not carried over; it is rendered black")
             return "none"
-        width, height = source.image.size
-        if self.order["pictures"] and source.projection == "EQUIRECTANGULAR" and width == 2 * height > 0:
-            return self.picture_of(world, source, strength.default_value)
+        picture = self.checked_picture(world, source.image)
+        width, height = picture.size
+        if self.order["pictures"] and source.projection == "EQUIRECTANGULAR" and width == 2 * height:
+            return self.picture_of(world, source, picture, strength.default_value)
         self.warn(f"world {world.name}: its picture is carried over as its mean colour")
-        return colour_text([c * strength.default_value for c in mean_radiance(source.image)])
+        return colour_text([c * strength.default_value for c in mean_radiance(picture)])
 
-    def picture_of(self, world, source, strength):
+    def checked_picture(self, world, picture):
+        """No larger than the master takes it."""
+        width, height = picture.size
+        if width == 0:
+            raise Trouble(f"world {world.name}: its picture {picture.filepath or picture.name} cannot be read: mend it, or unlink it")
+        if width > WIDEST_PICTURE:
+            self.warn(f"world {world.name}: its picture of {width}x{height} is carried over {WIDEST_PICTURE} pixels wide")
+            picture = picture.copy()
+            picture.scale(WIDEST_PICTURE, round(height * WIDEST_PICTURE / width))
+        if picture.is_float and not np.isfinite(pixels_of(picture)).all():
+            raise Trouble(f"world {world.name}: its picture {picture.name} has values that are no finite numbers: mend it")
+        return picture
+
+    def picture_of(self, world, source, picture, strength):
         """FILE:ROTATION:STRENGTH; the picture's middle is +x for both. A turned place of looking turns the picture back."""
         name, turn = "environment.exr", 0
         if source.inputs["Vector"].is_linked:
@@ -645,28 +806,33 @@ class Exporter:
                 self.warn(f"world {world.name}: how its picture is placed is not carried over")
         saver = bpy.data.scenes.new("saver")
         saver.render.image_settings.file_format, saver.render.image_settings.color_depth = "OPEN_EXR", "32"
-        source.image.save_render(str(self.files / name), scene=saver)
+        picture.save_render(str(self.files / name), scene=saver)
         return f"{name}:{turn:.9g}:{strength:.9g}" if strength > 0 else "none"
 
-    def place_lamps(self, scene):
-        """Lamps with a size as surfaces that shine. Returns the others as (name, light, radiant quantity, matrix)."""
-        punctual = []
-        for light, matrix in self.lamps:
-            colour = self.power_of(light)
-            if light.type == "AREA":
-                add_shining(scene, light.name, area_mesh(light), matrix,
-                            lambda area: [c / (4 * area) for c in colour])
-                if light.spread < math.pi - 1e-3:
-                    self.warn(f"lamp {light.name}: its spread is left out, it lights the whole half space")
-            elif light.type == "POINT" and light.shadow_soft_size > 0:
-                place = Matrix.Translation(matrix.translation)
-                add_shining(scene, light.name, ball_mesh(light.shadow_soft_size), place,
-                            lambda area: [c / (math.pi * area) for c in colour])
-            else:
-                if light.type == "SUN" and light.angle > 0.02:
-                    self.warn(f"sun {light.name}: its angle is left out, shadows are sharp")
-                punctual.append((light, colour if light.type == "SUN" else [c / (4 * math.pi) for c in colour], matrix))
-        return punctual
+    def place_lamp(self, plain, light, matrix):
+        """One with a size is a surface that shines."""
+        colour = self.power_of(light)
+        if light.type == "AREA":
+            made = add_shining(plain, light.name, area_mesh(light), matrix, lambda area: [c / (4 * area) for c in colour])
+            if light.spread < math.pi - 1e-3:
+                self.warn(f"lamp {light.name}: its spread is left out, it lights the whole half space")
+        elif light.type == "POINT" and light.shadow_soft_size > 0:
+            made = add_shining(plain, light.name, ball_mesh(light.shadow_soft_size), unscaled(matrix),
+                               lambda area: [c / (math.pi * area) for c in colour])
+        else:
+            if light.type == "SUN" and light.angle > 0.02:
+                self.warn(f"sun {light.name}: its angle is left out, shadows are sharp")
+            part = Part(None, lambda place: Y_UP @ unscaled(place))
+            self.punctual.append((light, colour if light.type == "SUN" else [c / (4 * math.pi) for c in colour], part))
+            self.parts.append(part)
+            return
+        self.parts.append(Part(made and made.name, lambda place: Y_UP @ unscaled(place) @ Y_UP.inverted()))
+
+    def lamp_values(self, light, matrix):
+        """All that counts but its place."""
+        names = ("type", "shadow_soft_size", "angle", "spread", "shape", "size", "size_y", "spot_size", "spot_blend")
+        return (light.name, self.power_of(light), [getattr(light, name, None) for name in names],
+                [round(side, 6) for side in matrix.to_scale()])
 
     def power_of(self, light):
         """Colour times strength, as the light's panel means them: [W], of a sun [W/m^2]."""
@@ -692,7 +858,7 @@ class Exporter:
         known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
         bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
 
-    def complete(self, gltf, punctual, matrix, fov):
+    def complete(self, gltf, fov):
         """What the exporter does not say, or not as Cycles means it."""
         gltf["asset"]["generator"] = "Ninefold for Blender"  # lamps are in W/sr, whoever wrote the rest
         for material in gltf.get("materials", []):
@@ -703,19 +869,44 @@ class Exporter:
             specular = extensions.get("KHR_materials_specular", {})
             if specular.get("specularColorFactor") == [0, 0, 0]:  # glTF's alone still reflects at grazing angles
                 specular["specularFactor"] = 0
+        nodes = gltf.setdefault("nodes", [])
+        by_name = {node["name"]: i for i, node in enumerate(nodes)}
+        for part in self.parts:
+            part.node = by_name.get(part.name)
         roots = gltf["scenes"][gltf.get("scene", 0)].setdefault("nodes", [])
 
-        def add_node(node, place):
-            node["matrix"] = [c for column in (Y_UP @ place).col for c in column]
-            roots.append(len(gltf.setdefault("nodes", [])))
-            gltf["nodes"].append(node)
+        def add_node(part, node):
+            part.node = len(nodes)
+            roots.append(part.node)
+            nodes.append(node)
 
         gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": fov, "znear": 0.01}}]
-        add_node({"name": "camera", "camera": 0}, unscaled(matrix))
-        for light, intensity, place in punctual:
-            add_node({"name": light.name, "extensions": self.punctual(gltf, light, intensity)}, unscaled(place))
+        add_node(self.parts[-1], {"name": "camera", "camera": 0})
+        for light, intensity, part in self.punctual:
+            add_node(part, {"name": light.name, "extensions": self.punctual_light(gltf, light, intensity)})
 
-    def punctual(self, gltf, light, intensity):
+    def animate(self, gltf, poses):
+        """Gives camera and lamps their place, and all parts that move those of the later poses, one a second."""
+        for part, place in zip(self.parts, poses[0]):
+            if part.node is not None and part.name is None:
+                gltf["nodes"][part.node].update(zip(PATHS, told(part.place(place))))
+        if len(poses) == 1:
+            return
+        data, samplers, channels = Accessors(gltf), [], []
+        times = data.add([[i] for i in range(len(poses))])
+        for part, places in zip(self.parts, zip(*poses)):
+            if part.node is None or all(place == places[0] for place in places):
+                continue
+            gltf["nodes"][part.node].pop("matrix", None)
+            for path, values in zip(PATHS, zip(*(told(part.place(place)) for place in places))):
+                samplers.append({"input": times, "output": data.add(values)})
+                channels.append({"sampler": len(samplers) - 1, "target": {"node": part.node, "path": path}})
+        if channels:
+            gltf["animations"] = [{"name": "frames", "samplers": samplers, "channels": channels}]
+        (self.files / "places.bin").write_bytes(data.bytes)
+        gltf.setdefault("buffers", []).append({"uri": "places.bin", "byteLength": len(data.bytes)})
+
+    def punctual_light(self, gltf, light, intensity):
         strength = max(max(intensity), 1e-30)
         colour = [c / strength for c in intensity]
         if light.type == "SPOT":
@@ -729,6 +920,35 @@ class Exporter:
         return {"KHR_lights_punctual": {"light": len(lights) - 1}}
 
 
+Seen = collections.namedtuple("Seen", "there places")
+
+
+class Part:
+    """A thing in the file: the name of its node there, if the exporter writes it; its place of a place in Blender; its node."""
+
+    def __init__(self, name, place):
+        self.name, self.place, self.node = name, place, None
+
+
+class Accessors:
+    """Rows of numbers that become a last buffer of a glTF file."""
+
+    def __init__(self, gltf):
+        self.gltf, self.bytes = gltf, bytearray()
+        self.buffer = len(gltf.get("buffers", []))
+
+    def add(self, rows):
+        rows = np.asarray(rows, np.float32)
+        views, accessors = self.gltf.setdefault("bufferViews", []), self.gltf.setdefault("accessors", [])
+        views.append({"buffer": self.buffer, "byteOffset": len(self.bytes), "byteLength": rows.nbytes})
+        self.bytes += rows.tobytes()
+        kind = {1: "SCALAR", 3: "VEC3", 4: "VEC4"}[rows.shape[1]]
+        accessors.append({"bufferView": len(views) - 1, "componentType": 5126, "count": len(rows), "type": kind,
+                          "min": rows.min(axis=0).tolist(), "max": rows.max(axis=0).tolist()})
+        return len(accessors) - 1
+
+
+PATHS = ("translation", "rotation", "scale")
 Y_UP = Matrix(((1, 0, 0, 0), (0, 0, 1, 0), (0, -1, 0, 0), (0, 0, 0, 1)))
 # Of other shaders the settings of the Principled one that mean the same. Roughness and colour are the shader's.
 PLAIN_SHADERS = {"BSDF_DIFFUSE": {"Specular": 0, "Specular IOR Level": 0}, "BSDF_GLOSSY": {"Metallic": 1},
@@ -763,6 +983,46 @@ def as_diffuse(material):
     for name, value in PLAIN_SHADERS["BSDF_DIFFUSE"].items():
         if name in node.inputs:
             node.inputs[name].default_value = value
+
+
+def materials_of(thing):
+    return tuple(slot.material and slot.material.name for slot in thing.material_slots)
+
+
+def shape_print(mesh):
+    """A number that tells meshes apart: corners, faces, materials, texture places and colours."""
+    def values(rows, name, width, kind):
+        got = np.empty(len(rows) * width, kind)
+        rows.foreach_get(name, got)
+        return got
+
+    layers = [values(layer.data, "uv", 2, np.float32) for layer in mesh.uv_layers]
+    layers += [values(layer.data, "color", 4, np.float32) for layer in mesh.color_attributes]
+    code = 0
+    for part in (values(mesh.vertices, "co", 3, np.float32), values(mesh.loops, "vertex_index", 1, np.int32),
+                 values(mesh.polygons, "material_index", 1, np.int32), *layers):
+        code = zlib.crc32(part, code)
+    return len(mesh.vertices), len(mesh.polygons), code
+
+
+def animated_values(scene):
+    """All that changes over time at materials, nodes and the world, as it is now."""
+    owners = [*bpy.data.materials, *bpy.data.node_groups, *bpy.data.worlds, *bpy.data.textures]
+    trees = [owner.node_tree for owner in owners if getattr(owner, "node_tree", None)]
+    found = [scene.frame_current for image in bpy.data.images if image.source in {"SEQUENCE", "MOVIE"} and image.users]
+    for owner in owners + trees:
+        animation = owner.animation_data
+        if not animation:
+            continue
+        actions = [animation.action] + [strip.action for track in animation.nla_tracks for strip in track.strips]
+        curves = [curve for action in actions if action for curve in action.fcurves] + list(animation.drivers)
+        for curve in curves:
+            try:
+                value = owner.path_resolve(curve.data_path)
+            except ValueError:  # what it animated is gone
+                continue
+            found.append((owner.name, curve.data_path, tuple(value) if hasattr(value, "__len__") else value))
+    return found
 
 
 def show_layers(layer):
@@ -804,11 +1064,22 @@ def frame_of(camera, render, resolution):
     return size, start + part, 2 * math.atan(sensor / (camera.lens * along) * size[1] / 2)
 
 
-def upright(mesh, matrix):
-    """The mesh and its place; what no position, rotation and scale can say goes into a copy of the mesh."""
-    told = Matrix.LocRotScale(*matrix.decompose())
+def told(matrix):
+    """Position, rotation and scale, as a node has them."""
+    place, turn, scale = matrix.decompose()
+    return list(place), [turn.x, turn.y, turn.z, turn.w], list(scale)
+
+
+def is_upright(matrix):
+    """Whether position, rotation and scale can say it."""
+    again = Matrix.LocRotScale(*matrix.decompose())
     size = max(abs(v) for row in matrix.to_3x3() for v in row)
-    if all(abs(a - b) <= 1e-5 * size for told_row, row in zip(told.to_3x3(), matrix.to_3x3()) for a, b in zip(told_row, row)):
+    return all(abs(a - b) <= 1e-5 * size for again_row, row in zip(again.to_3x3(), matrix.to_3x3()) for a, b in zip(again_row, row))
+
+
+def upright(mesh, matrix):
+    """The mesh and its place; what cannot be said as a place goes into a copy of the mesh."""
+    if is_upright(matrix):
         return mesh, matrix
     mesh = mesh.copy()
     mesh.transform(matrix)
@@ -827,16 +1098,18 @@ def add_object(scene, name, mesh, matrix):
     thing = bpy.data.objects.new(name, mesh)
     scene.collection.objects.link(thing)
     thing.matrix_world = matrix
+    return thing
 
 
 def add_shining(scene, name, mesh, matrix, radiance):
     """A surface that sends out radiance(its area in the world) on the side of its normals."""
-    mesh.transform(matrix)
+    place = unscaled(matrix)
+    mesh.transform(place.inverted() @ matrix)
     if matrix.is_negative:
         mesh.flip_normals()
     area = sum(polygon.area for polygon in mesh.polygons)
     if area == 0:
-        return
+        return None
     material = bpy.data.materials.new(name)
     material.use_nodes = True
     material.use_backface_culling = True
@@ -848,7 +1121,7 @@ def add_shining(scene, name, mesh, matrix, radiance):
     emission.inputs["Strength"].default_value = strength
     links.new(emission.outputs[0], material.node_tree.get_output_node("ALL").inputs["Surface"])
     mesh.materials.append(material)
-    add_object(scene, name, mesh, Matrix())
+    return add_object(scene, name, mesh, place)
 
 
 def area_mesh(light):
@@ -896,17 +1169,19 @@ def spot_profile(light):
     return f"IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {len(rows)} 1 1 2 0 0 0\n1 1 0\n{vertical}\n0\n{candela}\n"
 
 
+def pixels_of(image):
+    pixels = np.empty(len(image.pixels), np.float32)
+    image.pixels.foreach_get(pixels)
+    return pixels
+
+
 def mean_radiance(image):
     """Mean of an equirectangular picture over all directions: rows count by the cosine of their height."""
     width, height = image.size
-    if not width or not height:
-        return (0, 0, 0)
-    pixels = np.empty(width * height * 4, np.float32)
-    image.pixels.foreach_get(pixels)
-    rows = pixels.reshape(height, width, 4)[:, :, :3].astype(float)
+    rows = pixels_of(image).reshape(height, width, 4)[:, :, :3].astype(float)
     if not image.is_float and image.colorspace_settings.name == "sRGB":
         rows = np.where(rows <= 0.04045, rows / 12.92, ((rows + 0.055) / 1.055) ** 2.4)
-    rows = np.nan_to_num(rows, nan=0, posinf=0, neginf=0).mean(axis=1)
+    rows = rows.mean(axis=1)
     weights = np.cos((np.arange(height) + 0.5) / height * math.pi - math.pi / 2)
     return (weights[:, None] * rows).sum(axis=0) / weights.sum()
 

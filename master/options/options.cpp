@@ -184,13 +184,38 @@ void readLive(const RawOptions& raw, Options& o) {
   }
 }
 
+// Kinds of files that --output may name.
+void checkOutput(const Options& o) {
+  const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
+  if (!ends(".exr") && !ends(".hdr") && !isToned(*o.output))
+    failUsage("--output {}: the name must end in .exr, .png, .hdr or .mp4", *o.output);
+  if (isVideo(*o.output) && (isWatched(o) || !(o.animate || o.script)))
+    failUsage("--output {}: a film needs --animate, or a --script with a rate, and no --window",
+              *o.output);
+  if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
+  if (o.denoise == true && isLive(o) && !isWatched(o) && !isToned(*o.output))
+    failUsage("--denoise on, with --script or --animate, needs an --output of .png or .mp4");
+}
+
+// Motion blur.
+void readShutter(const RawOptions& raw, Options& o) {
+  assign(o.shutter, raw.real("shutter", 0, 1));
+  if (o.shutter == 0) return;
+  if (isWatched(o) || !(o.animate || o.script))
+    failUsage("--shutter needs --animate, or a --script with a rate, and no --window or --serve");
+  if (o.animate && *o.stop.frames < 2)
+    failUsage("--shutter: blur is the mean of a picture's frames; give --frames 16, say");
+}
+
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
   o.stats = raw.text("stats");
   if (!o.output && !o.stats && !isWatched(o))
-    failUsage("nothing to do with the picture: give --output FILE (.exr, .png or .hdr)");
-  if (o.animate && !isWatched(o) && (!o.output || !isNumbered(*o.output)))
-    failUsage("--animate needs --output out.####.png (.exr, .hdr): the # become a number");
+    failUsage("nothing to do with the picture: give --output FILE (.exr, .png, .hdr or .mp4)");
+  if (o.animate && !isWatched(o) && !namesSeries(o))
+    failUsage(
+        "--animate needs --output out.####.png (.exr, .hdr), where the # become a number, or "
+        "out.mp4");
   o.saveEvery = raw.real("save-every", 1e-3, kMaxSeconds);
   o.checkpoint = raw.text("checkpoint");
   if (isLive(o) && (o.saveEvery || o.checkpoint))
@@ -201,13 +226,7 @@ void readFiles(const RawOptions& raw, Options& o) {
     failUsage("--verify is for one picture at rest: leave --window, --script and --animate out");
   if (o.saveEvery && !o.output && !o.checkpoint)
     failUsage("--save-every needs --output FILE or --checkpoint FILE");
-  if (!o.output) return;
-  const auto ends = [&](const char* extension) { return o.output->ends_with(extension); };
-  if (!ends(".exr") && !ends(".png") && !ends(".hdr"))
-    failUsage("--output {}: the name must end in .exr, .png or .hdr", *o.output);
-  if (o.aovs && !ends(".exr")) failUsage("--aovs needs an --output that ends in .exr");
-  if (o.denoise == true && isLive(o) && !isWatched(o) && !ends(".png"))
-    failUsage("--denoise on, with --script or --animate, needs an --output that ends in .png");
+  if (o.output) checkOutput(o);
 }
 
 }  // namespace
@@ -229,8 +248,13 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   readDelivery(raw, o);
   readRun(raw, o);
   readLive(raw, o);
+  readShutter(raw, o);
   readFiles(raw, o);
   return o;
+}
+
+bool namesSeries(const Options& o) {
+  return o.output && (isNumbered(*o.output) || isVideo(*o.output));
 }
 
 Settings makeSettings(const Options& options, const Scene& scene) {

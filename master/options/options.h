@@ -55,8 +55,9 @@ struct Options {
   double patience = 120;     // unless somebody looks on, with clients that are all stuck [s]
 
   bool window = false;
-  std::optional<std::string> script;       // file
-  std::optional<AnimationRange> animate;   // then stop.frames is for each picture
+  std::optional<std::string> script;      // file
+  std::optional<AnimationRange> animate;  // then stop.frames is for each picture
+  double shutter = 0;  // of each, open: fraction of the time to the next one, 0 to 1
   std::optional<std::string> photonScene;  // file; nothing: photons meet the scene itself
   PictureView view = PictureView::beauty;
   double frameTime = 100;          // target while something moves [ms]
@@ -64,7 +65,7 @@ struct Options {
 
   StopRule stop;  // 64 frames if no flag says otherwise
 
-  std::optional<std::string> output;      // .exr, .png or .hdr
+  std::optional<std::string> output;      // .exr, .png, .hdr or .mp4
   std::optional<double> saveEvery;        // while it converges [s]
   std::optional<std::string> checkpoint;  // file, of a run that is not live
   bool aovs = false;
@@ -98,16 +99,25 @@ inline bool sharesNeighbours(const Options& o, Method method, PictureView view) 
          !isPainted(view) && !factsOf(method).isUnfiltered;
 }
 
+// Whether an output is a film, or holds colours to be looked at, not light.
+inline bool isVideo(const std::string& output) { return output.ends_with(".mp4"); }
+inline bool isToned(const std::string& output) {
+  return output.ends_with(".png") || isVideo(output);
+}
+
+// Whether --output takes pictures one after another.
+bool namesSeries(const Options& o);
+
 // Whether a picture gets a last touch (image/denoise.h): by default those that people look at. Its
 // guides are the layers, which neither filtered tiles nor methods without filter bring.
 inline bool denoises(const Options& o, Method method) {
-  const bool isSeen = isWatched(o) || (o.output && o.output->ends_with(".png"));
+  const bool isSeen = isWatched(o) || (o.output && isToned(*o.output));
   const bool hasGuides = !o.filterAtClients && !factsOf(method).isUnfiltered;
   return hasGuides && o.denoise.value_or(isSeen && o.preset != Preset::paper);
 }
 
 // Whether a live run has no use for radiance, unless it sums frames up.
-inline bool wantsCodesOnly(const Options& o) { return !o.output || o.output->ends_with(".png"); }
+inline bool wantsCodesOnly(const Options& o) { return !o.output || isToned(*o.output); }
 
 // `cores`: of this machine; one local client for each is the default.
 Options parseOptions(int argc, const char* const* argv, const Variable& variable, int cores);

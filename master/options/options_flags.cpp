@@ -64,8 +64,12 @@ constexpr Flag kRun[] = {
     {"until-error", "E",
      "stop when the relative standard error is below E; looked at after 16, 32, 64... frames"},
     {"animate", "T0:T1:FPS",
-     "play the scene's animation from T0 to T1 [s] into --output out.####.exr, --frames N for each "
-     "picture; with --window or --serve over and over"},
+     "play the scene's animation from T0 to T1 [s] into --output out.####.exr or out.mp4, --frames "
+     "N "
+     "for each picture; with --window or --serve over and over"},
+    {"shutter", "S",
+     "motion blur of --animate and --script: a picture's frames are spread over the fraction S of "
+     "the time to the next picture, 0 to 1 (default 0)"},
     {"photon-scene", "FILE",
      "a simpler scene, glTF or OBJ, that the photon map's photons meet in place of SCENE; the "
      "lamps "
@@ -83,7 +87,7 @@ constexpr Flag kRun[] = {
     {"serve-key", "FILE", "PEM: the private key of --serve-certificate"},
     {"script", "FILE",
      "replay the camera paths and edits of a JSON file (docs/script.md), in real time or, if it "
-     "says so and nobody looks on, into --output out.####.png"},
+     "says so and nobody looks on, into --output out.####.png or out.mp4"},
     {"frame-time", "MS",
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"step-time", "MS",
@@ -121,7 +125,9 @@ constexpr Flag kCluster[] = {
     {"isa", "NAME", "instruction set of local clients: auto, avx2 or avx512 (default auto)"},
 };
 constexpr Flag kFiles[] = {
-    {"output", "FILE", "the picture: .exr (linear), .hdr (linear) or .png"},
+    {"output", "FILE",
+     "the picture: .exr (linear), .hdr (linear) or .png; of --animate and --script also a film, "
+     ".mp4, which needs the program ffmpeg"},
     {"save-every", "S",
      "write the picture, and the checkpoint, each S seconds while it converges; a run without a "
      "window that makes one picture does so by SIGUSR1, too"},

@@ -9,12 +9,15 @@
 #include "common/image/image_file.h"
 #include "master/options/numbered_name.h"
 #include "master/output/stats.h"
+#include "master/output/video_file.h"
 
 namespace ninefold {
 
 void checkFiles(const Options& options) {
   const bool isSeries = !isWatched(options) && (options.animate || options.script);
-  if (options.output)
+  if (options.output && isVideo(*options.output))
+    checkVideo(*options.output);
+  else if (options.output)
     checkOutputPath(isSeries && isNumbered(*options.output) ? numbered(*options.output, 0)
                                                             : *options.output);
   if (options.checkpoint) checkWritable(*options.checkpoint);

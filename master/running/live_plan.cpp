@@ -36,15 +36,7 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
     return supersede();
   }
   if (state == state_) return std::nullopt;
-  Settings asSeenFromHere = state.settings;
-  asSeenFromHere.camera = state_.settings.camera;
-  asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
-  if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
-  if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
-  state_ = state;
-  changed_ = now;
-  if (!dirty_) firstUnshown_ = now;
-  dirty_ = true;
+  follow(state, now);
   if (!setup_.motion) {
     plan_ = planOfRest();
     states_.restart();
@@ -56,6 +48,45 @@ std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   quality_.begin();
   lightCameras_.clear();
   return supersede();
+}
+
+// The state is another one from now on.
+void LivePlan::follow(const LiveState& state, Time now) {
+  Settings asSeenFromHere = state.settings;
+  asSeenFromHere.camera = state_.settings.camera;
+  asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
+  if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
+  if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
+  state_ = state;
+  changed_ = now;
+  if (!dirty_) firstUnshown_ = now;
+  dirty_ = true;
+}
+
+uint32_t LivePlan::openShutter() {
+  moments_ = 0;
+  plan_ = planOfRest();
+  states_.restart();
+  open_.clear();
+  return nextFrame_;
+}
+
+std::optional<int64_t> LivePlan::wantedMoment() const {
+  const bool hasRoom = plan_.opened() == moments_ && open_.size() < kInMotion;
+  return hasRoom ? moments_ : std::nullopt;
+}
+
+void LivePlan::expose(const LiveState& state, Time now) {
+  if (!(state == state_)) {
+    follow(state, now);
+    states_.restart(static_cast<uint32_t>(*moments_));
+  }
+  ++*moments_;
+}
+
+std::optional<int64_t> LivePlan::framesLeft() const {
+  const std::optional<int64_t> all = moments_ ? moments_ : setup_.frames;
+  return all ? std::optional(*all - plan_.opened()) : std::nullopt;
 }
 
 // The plan goes on with the frames that are given up.
@@ -71,12 +102,13 @@ uint32_t LivePlan::giveUp() {
   dirty_ = moving_;
   plan_ = planOfRest();
   states_.giveUp();
+  if (moments_) moments_ = 0;
   return nextFrame_;
 }
 
 std::optional<LiveFrame> LivePlan::next(Time now) {
   if (moving_) return nextInMotion(now);
-  if (setup_.frames && plan_.opened() >= *setup_.frames) return std::nullopt;
+  if (const auto left = framesLeft(); left && *left <= 0) return std::nullopt;
   const std::optional<uint32_t> version = states_.versionOfFrame(false);
   if (!version) return std::nullopt;
   LiveFrame frame = open(now);
@@ -92,10 +124,9 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 }
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
-  std::optional<int64_t> framesLeft;
-  if (setup_.frames && !moving_) framesLeft = *setup_.frames - plan_.opened();
+  const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
   const Duration time = setup_.stepTime.value_or(quality_.target() / 2);
-  const auto step = states_.nextStep(nextFrame_, moving_, framesLeft, time);
+  const auto step = states_.nextStep(nextFrame_, moving_, left, time);
   if (!step) return std::nullopt;
   step_ = {step->key, step->units, moving_, now, {}};
   ++nextFrame_;

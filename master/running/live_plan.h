@@ -17,6 +17,9 @@
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
 // In motion the open frame is finished, else a hand that never rests would never see one.
 //
+//   shutter  Motion blur. Each frame at rest shows a moment of its own, as expose says, and the film
+//            sums them up. One is opened for each, at most kInMotion are open.
+//
 // A change of look alone (LiveState::look, its planes) rests on: open frames are opened anew with
 // the new look, and the film keeps all that are complete. Pick planes in motion are no change at
 // all.
@@ -94,8 +97,15 @@ class LivePlan {
   // Does nothing if that is shown already. If open frames are not wanted any more, gives the first
   // one that still is.
   std::optional<uint32_t> change(const LiveState& state, Time now);
+  // A picture whose shutter is open begins: no frame is opened before expose. Gives the first frame
+  // that will be wanted.
+  uint32_t openShutter();
+  // The number of the moment, from 0, that there is room for; nothing while there is none.
+  std::optional<int64_t> wantedMoment() const;
+  // One frame more, which shows that.
+  void expose(const LiveState& state, Time now);
   // The open frames cannot be rendered any more, and others shall show the same. Gives the first of
-  // those.
+  // those. A picture with a shutter begins again.
   uint32_t giveUp();
   void setTarget(Duration target) { quality_.setTarget(target); }
   // Of frames that open from now on. No change of the picture. Frames with planes come as layers.
@@ -123,6 +133,8 @@ class LivePlan {
     FramePlan before;  // the plan without it and those after it
   };
   std::optional<uint32_t> supersede();
+  void follow(const LiveState& state, Time now);
+  std::optional<int64_t> framesLeft() const;
   LiveFrame open(Time now);
   uint8_t planes() const;
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
@@ -139,6 +151,7 @@ class LivePlan {
   LiveStep step_;  // the latest one that was opened
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
+  std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   bool moving_ = false, dirty_ = false;
   bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;

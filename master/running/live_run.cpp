@@ -108,15 +108,52 @@ void LiveRun::wantPicks(bool on) {
 
 void LiveRun::edit(const SceneEdit& edit) {
   const std::lock_guard editing(editing_);
+  change(noted(edit));
+}
+
+// What is left to do under the lock; needs editing_. An edit of nothing is none.
+std::function<void()> LiveRun::noted(const SceneEdit& edit) {
+  if (edit.empty()) return [] {};
   tellOfShapes(edit);
   merge(all_, edit);
   std::optional<Needs> needs;  // found before others have to wait
   if (!edit.materials.empty()) needs = needsOf(edited(*job_.scene, all_), settings().environment);
-  change([&] {
+  return [this, edit, needs] {
     merge(unsent_, edit);
     ++edits_;
     if (needs) needs_ = *needs;
-  });
+  };
+}
+
+void LiveRun::openShutter() {
+  uint32_t firstWanted = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    firstWanted = plan_.openShutter();
+    open_.clear();
+  }
+  machine_.supersede(firstWanted);
+}
+
+std::optional<int64_t> LiveRun::wantedMoment() const {
+  const std::lock_guard lock(mutex_);
+  return plan_.wantedMoment();
+}
+
+void LiveRun::expose(const std::optional<Camera>& camera, const SceneEdit& edit) {
+  const std::lock_guard editing(editing_);
+  const auto apply = noted(edit);
+  std::optional<uint32_t> voidSteps;
+  {
+    const std::lock_guard lock(mutex_);
+    if (camera) wanted_.camera = *camera;
+    apply();
+    setDelivery();
+    plan_.expose(newest(), Clock::now());
+    voidSteps = plan_.takeVoidSteps();
+  }
+  if (voidSteps) machine_.cluster().cancelSteps(*voidSteps);
+  machine_.cluster().wake();
 }
 
 // Needs editing_. Once for each mesh: an animation changes it with every picture.

@@ -71,6 +71,12 @@ class LiveRun {
   // Needs checkEdit.
   void edit(const SceneEdit& edit);
 
+  // Motion blur, for a picture of Pace::frames frames (live_plan.h): opens the shutter; the moment
+  // that the next frame shall show; shows it.
+  void openShutter();
+  std::optional<int64_t> wantedMoment() const;
+  void expose(const std::optional<Camera>& camera, const SceneEdit& edit);
+
   LiveState state() const;    // the newest
   Settings settings() const;  // as wanted at rest
   Needs needs() const;        // of the scene as it is now
@@ -95,6 +101,7 @@ class LiveRun {
   void gatherFrames();
   void change(const std::function<void()>& apply);
   void tellOfShapes(const SceneEdit& edit) const;
+  std::function<void()> noted(const SceneEdit& edit);
   LiveState newest() const;
   LiveLook lookAt(const LiveFrame& frame) const;
   Delivery delivery(bool summedUp) const;

@@ -6,15 +6,13 @@
 #include <thread>
 
 #include "common/base/log.h"
-#include "common/image/image_file.h"
-#include "master/assembly/picture.h"
-#include "master/options/numbered_name.h"
 #include "master/output/output_files.h"
 #include "master/output/stats.h"
 #include "master/running/cluster_setup.h"
 #include "master/running/invitation.h"
 #include "master/running/latency_log.h"
 #include "master/running/live_run.h"
+#include "master/running/picture_series.h"
 #include "master/running/script_player.h"
 #include "master/running/shots.h"
 
@@ -22,7 +20,7 @@ namespace ninefold {
 namespace {
 
 constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
-constexpr Duration kStep = milliseconds(4);   // between two looks at the script
+constexpr Duration kStep = milliseconds(4);   // between two looks at the script or its shutter
 
 // Codes are made as for a window, so that latencies are those that a person at one would feel.
 // An exposure that is not known yet is made of radiance.
@@ -41,18 +39,19 @@ class ScriptRun {
       : options_(options),
         job_(makeJob(options)),
         player_(*scriptOf(options, *job_.scene), job_.scene, job_.settings.camera),
+        series_(options, job_.exposure, script().rate),
         log_(Clock::now()),
         live_(options, job_, loadKeys(options), paceOf(options, job_, script()),
               [this](const std::shared_ptr<const Shown>& shown) { take(shown); }) {}
 
   int run() {
-    if ((script().rate || script().shots) && (!options_.output || !isNumbered(*options_.output)))
-      fail("a script with a rate or shots needs --output out.####.png for its pictures");
+    checkScript();
     live_.setView(options_.view);
     moveTo(0);
     live_.start();
     script().rate ? renderPictures() : playInRealTime();
     live_.stop("the script is done");
+    series_.finish();
     if (const auto failure = live_.cluster().failure()) fail("{}", *failure);
     return live_.cluster().signal() == 0 ? 0 : 128 + live_.cluster().signal();
   }
@@ -69,6 +68,18 @@ class ScriptRun {
   }
 
   const Script& script() const { return player_.script(); }
+
+  void checkScript() const {
+    if ((script().rate || script().shots) && !namesSeries(options_))
+      fail("a script with a rate or shots needs --output out.####.png for its pictures");
+    const bool needsRate = options_.shutter > 0 || (options_.output && isVideo(*options_.output));
+    if (needsRate && !script().rate)
+      fail("a film, and --shutter, need a script with a rate: \"rate\": 25, say");
+    if (options_.shutter > 0 && script().frames < 2)
+      fail(
+          "--shutter: blur is the mean of a picture's frames; give the script \"frames\": 16, say");
+  }
+
   bool isOver() const { return live_.cluster().signal() != 0 || live_.cluster().failure(); }
 
   void moveTo(double time) {
@@ -90,14 +101,42 @@ class ScriptRun {
 
   void renderPictures() {
     for (int i = 0; i < script().pictures() && !isOver(); ++i) {
-      moveTo(i / *script().rate);
-      const LiveState wanted = live_.state();
-      const auto shown = waitFor(still_, [&](const Shown& s) { return s.state == wanted; });
+      const auto shown = options_.shutter > 0 ? blurred(i) : still(i);
       if (shown == nullptr) return;
-      const std::string path = numbered(*options_.output, i);
-      write(path, *shown);
+      const std::string path = series_.write(i, *shown);
       log("picture {} of {} in {}", i + 1, script().pictures(), path);
     }
+  }
+
+  std::shared_ptr<const Shown> still(int picture) {
+    moveTo(picture / *script().rate);
+    const LiveState wanted = live_.state();
+    return waitFor(still_, [&](const Shown& s) { return s.state == wanted; });
+  }
+
+  // Motion blur: frame k of N shows the moment in the middle of the k-th part of the time for which
+  // the shutter is open, from the picture's moment on.
+  std::shared_ptr<const Shown> blurred(int picture) {
+    {
+      const std::lock_guard lock(mutex_);
+      still_ = nullptr;
+    }
+    live_.openShutter();
+    while (!isOver()) {
+      exposeWanted(picture);
+      std::unique_lock lock(mutex_);
+      if (still_ != nullptr) return still_;
+      arrived_.wait_for(lock, kStep);
+    }
+    return nullptr;
+  }
+
+  void exposeWanted(int picture) {
+    const auto k = live_.wantedMoment();
+    if (!k || *k >= script().frames) return;
+    const double open = (static_cast<double>(*k) + 0.5) / script().frames;
+    const auto step = player_.moveTo((picture + options_.shutter * open) / *script().rate);
+    live_.expose(step.camera, step.edit);
   }
 
   void playInRealTime() {
@@ -126,9 +165,8 @@ class ScriptRun {
 
   // Needs the lock.
   void takeShotsFrom(Time start) {
-    shots_.emplace(start, *script().shots, script().pictures(), [this](int i, const Shown& shown) {
-      write(numbered(*options_.output, i), shown);
-    });
+    shots_.emplace(start, *script().shots, script().pictures(),
+                   [this](int i, const Shown& shown) { series_.write(i, shown); });
   }
 
   // Needs no new picture: what is there stays on the screen.
@@ -150,36 +188,15 @@ class ScriptRun {
     const std::lock_guard lock(mutex_);
     if (latest_ == nullptr)
       return warn("stopped before any picture was complete: nothing is written");
-    if (options_.output && !script().shots) write(*options_.output, *latest_);
+    if (options_.output && !script().shots) series_.writeAlone(*latest_);
     if (options_.stats)
       writeStats(*options_.stats, log_.json(options_.scene, live_.cluster().tally()));
   }
 
-  void write(const std::string& path, const Shown& shown) {
-    if (path.ends_with(".png") && !job_.exposure)
-      writeExposed(path, shown);
-    else if (path.ends_with(".png"))
-      writePng(path, shown.image->display);
-    else
-      writeImage(path, {shown.image->radiance, {}, {}});
-  }
-
-  // By the first picture for all, so that nothing flickers.
-  void writeExposed(const std::string& path, const Shown& shown) {
-    Tone tone;
-    if (!isFalseColor(shown.view)) {
-      if (!exposure_) exposure_ = exposureByPicture(shown.image->radiance);
-      tone = {*exposure_, options_.toneCurve};
-    }
-    DisplayImage codes;
-    ToneMap(tone).apply(shown.image->radiance, codes);
-    writePng(path, codes);
-  }
-
   const Options& options_;
-  std::optional<float> exposure_;  // [EV] by the first picture, if the job has none
   Job job_;
   ScriptPlayer player_;
+  PictureSeries series_;
   std::mutex mutex_;
   std::condition_variable arrived_;
   LatencyLog log_;                               // guarded by mutex_

@@ -38,8 +38,9 @@ class StatePlan {
 
   // Other settings, or another scene. True if the open step is void.
   bool change(const Settings& settings, bool sceneChanged);
-  // Frames at rest begin anew: what was made for those before lights none of them.
-  void restart() { ready_.clear(), ++series_, index_ = 0; }
+  // What was made so far lights none of the frames at rest that follow: those of a series that
+  // begins, or goes on with its frame `index` in another state of the scene.
+  void restart(uint32_t index = 0) { ready_.clear(), ++series_, index_ = index; }
   // Frames at rest go on behind the first `frames` of a series. `version`: that lit the last of
   // them, if it is needed afterwards, else 0.
   void resume(uint32_t frames, uint32_t version);

@@ -260,5 +260,16 @@ TEST_F(WrittenFiles, WhatMayNotBeReplacedIsNot) {
   EXPECT_EQ(modeOf(path("c")), 0600u);
 }
 
+TEST_F(WrittenFiles, AnotherProgramMayWriteWhatIsPublished) {
+  folder_.write("a", "old");
+  WrittenFile file(path("a"));
+  std::ofstream(file.beside()) << "by another";
+  EXPECT_EQ(contentOf(path("a")), "old");
+  file.takeWhatIsThere();
+  file.publish();
+  EXPECT_EQ(contentOf(path("a")), "by another");
+  EXPECT_EQ(entries(), 1u);
+}
+
 }  // namespace
 }  // namespace ninefold

@@ -1,6 +1,6 @@
 """Renders that go wrong, one after another, and what Blender says of them: run inside Blender for blender_test.py.
 
-    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- wrong|long|cluster|passes|animation FOLDER
+    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- wrong|long|cluster|passes|animation|moves|many|pictures FOLDER
 
 Prints for each render a line: OUTCOME {"what", "error" or "result", "mean"}.
 """
@@ -13,7 +13,7 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from blender_scenes import base_scene, lamp, pixels_of_result, rectangle, with_shader  # noqa: E402
+from blender_scenes import base_scene, lamp, link, pixels_of_result, rectangle, with_shader  # noqa: E402
 
 FOLDER = pathlib.Path(sys.argv[-1])
 
@@ -60,9 +60,42 @@ def go_wrong(scene):
     wrong("no end", settings, "frames", 0)
     wrong("no client", settings, "local_clients", 0)
     wrong("no key", settings, "listen", "0.0.0.0:4700")
+    wrong("no address", settings, "listen", "here")
+    wrong("an address of another machine", settings, "listen", "192.0.2.1:4700")
     wrong("no such option", settings, "more", "--brightness 3")
     wrong("an open quotation", settings, "more", "--stats 'a")
     render("all right")
+
+
+def look_outside(scene):
+    """Pictures of what is outside that are none, or odd ones."""
+    tree = scene.world.node_tree
+    background, source = tree.nodes["Background"], tree.nodes.new("ShaderNodeTexEnvironment")
+    background.inputs["Strength"].default_value = 1
+    tree.links.new(source.outputs["Color"], background.inputs["Color"])
+
+    def made(width, height, value):
+        image = bpy.data.images.new("made", width, height, float_buffer=True)
+        pixels = np.ones((height, width, 4), np.float32)
+        pixels[0, 0, 1] = value
+        image.pixels.foreach_set(pixels.ravel())
+        image.pack()
+        return image
+
+    def broken(kind, suffix):
+        image, path = made(64, 32, 1), FOLDER / f"broken.{suffix}"
+        scene.render.image_settings.file_format = kind
+        image.save_render(str(path), scene=scene)
+        path.write_bytes(path.read_bytes()[:100])
+        return bpy.data.images.load(str(path))
+
+    for what, image in (("not a number", made(16, 8, float("nan"))), ("infinite", made(16, 8, float("inf"))),
+                        ("negative", made(16, 8, -1)), ("one pixel", made(1, 1, 1)), ("two pixels", made(2, 1, 1)),
+                        ("truncated HDR", broken("HDR", "hdr")), ("truncated EXR", broken("OPEN_EXR", "exr")),
+                        ("large", bpy.data.images.new("large", 16384, 8192))):
+        source.image = image
+        render(what)
+        bpy.data.images.remove(image)
 
 
 def take_long(scene):
@@ -119,5 +152,60 @@ def animate(scene):
     print("FRAMES", json.dumps(means), flush=True)
 
 
+def key(owner, name, *values):
+    """One frame after another."""
+    for frame, value in enumerate(values, 1):
+        setattr(owner, name, value)
+        owner.keyframe_insert(name, frame=frame)
+
+
+def render_frames(scene, last):
+    scene.frame_start, scene.frame_end = 1, last
+    scene.render.filepath = str(FOLDER / "frame")
+    scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
+    bpy.ops.render.render(animation=True)
+
+
+def pixels(path):
+    return np.array(bpy.data.images.load(str(path)).pixels[:]).reshape(36, 48, 4)[::-1, :, :3]
+
+
+def move(scene):
+    """Only places change in four frames: of things, one of them squeezed by its parent, of lamps of all kinds, of the camera. Then
+    each frame by itself."""
+    key(bpy.data.objects["step"], "location", (0, 0, 1), (1, 0, 1), (1, 1, 1.5), (-1, 0, 1))
+    key(bpy.data.objects["step"], "scale", (1, 1, 1), (1, 1, 1), (0.5, 1, 1), (1, 2, 1))
+    key(bpy.data.objects["sun"], "rotation_euler", (0, 0, 0), (0.5, 0, 0), (0, 0.5, 0), (0, 0, 1))
+    key(scene.camera, "location", (0, 0, 14), (1, 0, 14), (0, 1, 13), (0, 0, 12))
+    hand = link("hand", None)
+    key(hand, "rotation_euler", (0, 0, 0), (0, 0, 0.4), (0, 0, 0.8), (0, 0, 1.2))
+    for thing in (lamp("area", "AREA", (2, 1, 2), (20, 0, 0), energy=60.0, size=0.5),
+                  lamp("ball", "POINT", (-2, 1, 2), energy=60.0, shadow_soft_size=0.2),
+                  lamp("spot", "SPOT", (0, -2, 3), (20, 0, 0), energy=200.0, shadow_soft_size=0.0),
+                  rectangle("child", bpy.data.materials["grey"], 1, 1, (2, -1, 0.5))):
+        thing.parent = hand
+    scene.ninefold.frames = 64
+    render_frames(scene, 4)
+    for frame in range(1, 5):
+        scene.frame_set(frame)
+        render(f"still {frame}")
+        moved, still = pixels(FOLDER / f"frame{frame:04}.exr"), pixels(FOLDER / f"still_{frame}.exr")
+        print("MOVED", json.dumps({"mean": float(still.mean()), "difference": float(abs(moved - still).mean())}), flush=True)
+
+
+def move_for_long(scene):
+    """Prints a line for each frame that is done."""
+    key(bpy.data.objects["step"], "location", *[(i / 100, 0, 1) for i in range(300)])
+    scene.ninefold.frames = 8
+    bpy.app.handlers.render_post.append(lambda *_: print("FRAME", scene.frame_current, flush=True))
+    try:
+        render_frames(scene, 300)
+    except RuntimeError as error:
+        print("OUTCOME", json.dumps({"what": "many", "error": str(error)}), flush=True)
+    bpy.app.handlers.render_post.clear()
+    render("after that")
+
+
 if __name__ == "__main__":
-    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate}[sys.argv[-2]](make_scene())
+    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate, "moves": move, "pictures": look_outside,
+     "many": move_for_long}[sys.argv[-2]](make_scene())

@@ -433,5 +433,76 @@ TEST_F(LivePlanTest, JobsGrowOnlyWhenSomethingDiffers) {
   EXPECT_EQ(done().order.job, rest);
 }
 
+// --- motion blur ---
+
+class ShutterTest : public LivePlanTest {
+ protected:
+  ShutterTest() { plan = LivePlan(stillSetup(), now), plan.openShutter(); }
+  static LivePlan::Setup stillSetup() {
+    LivePlan::Setup s = setup();
+    s.motion = false, s.frames = 4;
+    return s;
+  }
+  void expose(float x) {
+    LiveState state = plan.state();
+    state.settings.camera.eye.x = x;
+    plan.expose(state, now);
+  }
+};
+
+TEST_F(ShutterTest, EachMomentGetsOneFrameOfOneFilm) {
+  FramePlan still(5 * 0.02f, 9, true);
+  for (uint32_t k = 0; k < 4; ++k) {
+    ASSERT_EQ(plan.wantedMoment(), k);
+    EXPECT_FALSE(plan.next(now)) << "before its moment";
+    expose(static_cast<float>(k));
+    EXPECT_FALSE(plan.wantedMoment()) << "until the frame is open";
+    const LiveFrame frame = done();
+    EXPECT_FALSE(plan.next(now)) << "of the same moment";
+    EXPECT_EQ(frame.rested, k);
+    EXPECT_EQ(frame.order.settings.camera.eye.x, static_cast<float>(k));
+    EXPECT_EQ(frame.order.key.randomization, still.next().randomization);
+    EXPECT_FALSE(frame.moving);
+  }
+}
+
+TEST_F(ShutterTest, FramesOfTwoMomentsAreOpenAtMost) {
+  expose(0);
+  const LiveFrame first = opened();
+  EXPECT_EQ(plan.wantedMoment(), 1);
+  expose(1);
+  opened();
+  EXPECT_FALSE(plan.wantedMoment());
+  finish(first);
+  EXPECT_EQ(plan.wantedMoment(), 2);
+}
+
+TEST_F(ShutterTest, AMomentLikeTheOneBeforeIsAFrame) {
+  expose(3);
+  done();
+  expose(3);
+  EXPECT_EQ(done().rested, 1);
+}
+
+TEST_F(ShutterTest, TheNextPictureBeginsAnew) {
+  expose(0);
+  const LiveFrame left = opened();
+  plan.openShutter();
+  EXPECT_FALSE(plan.completed(left.order.key.frame, now));
+  EXPECT_EQ(plan.wantedMoment(), 0);
+  expose(0);
+  EXPECT_EQ(done().rested, 0);
+}
+
+TEST_F(ShutterTest, WhenAllClientsAreGoneThePictureBeginsAnewWithItsFirstMoment) {
+  expose(0);
+  done();
+  expose(1);
+  opened();
+  plan.giveUp();
+  EXPECT_EQ(plan.wantedMoment(), 0);
+  EXPECT_FALSE(plan.next(now));
+}
+
 }  // namespace
 }  // namespace ninefold

@@ -146,6 +146,24 @@ TEST(OptionsRefused, AnAnimationNeedsARangeAndNumberedPictures) {
   EXPECT_NE(complaint("a.glb --animate 0:1:25 --filter-at clients"), "");
 }
 
+TEST(OptionsRefused, AFilmAndBlurAreOfAnimations) {
+  EXPECT_EQ(complaint("a.glb --animate 0:1:25 --output a.mp4 --shutter 0.5", {}, false), "");
+  EXPECT_EQ(complaint("a.glb --script s.json --output a.mp4 --shutter 1", {}, false), "");
+  EXPECT_NE(complaint("a.glb --output a.mp4", {}, false).find("a film needs"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --window --output a.mp4", {}, false).find("a film needs"),
+            std::string::npos);
+  for (const char* bad : {"-0.1", "1.1", "nan", "half"})
+    EXPECT_NE(complaint(fmt::format("a.glb --script s.json --shutter {}", bad)).find("--shutter"),
+              std::string::npos)
+        << bad;
+  EXPECT_NE(complaint("a.glb --shutter 0.5").find("--shutter needs"), std::string::npos);
+  EXPECT_NE(complaint("a.glb --window --script s.json --shutter 0.5").find("--shutter needs"),
+            std::string::npos);
+  EXPECT_NE(complaint("a.glb --animate 0:1:25 --output a.mp4 --frames 1 --shutter 1", {}, false)
+                .find("--frames"),
+            std::string::npos);
+}
+
 TEST(OptionsRefused, AWindowIsNotHeadless) {
   EXPECT_NE(complaint("a.glb --window --headless"), "");
   EXPECT_NE(complaint("a.glb --window --serve 127.0.0.1:0"), "");
