@@ -3,6 +3,7 @@ import hashlib
 import json
 import pathlib
 import random
+import re
 import socket
 import subprocess
 import sys
@@ -15,6 +16,7 @@ from soak_lib.watch import Memory, files_of, processes_of
 from soak_lib.weather import Weather
 
 SIZE = "160x120"
+DATE = re.compile(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d")  # in a file, of when it was made
 GROWTH = 4e6  # bytes that a settled process may take more: pages that malloc keeps after a burst, no more by the hour
 EDITS = [{"from": 1, "to": 4, "object": "short block", "by": [0.05, 0, 0.02]},
          {"from": 4, "to": 8, "object": "short block", "by": [-0.04, 0, 0], "turn": 30},
@@ -198,6 +200,7 @@ class Watched(Session):
     """A live session: a script edits, browsers come and go and take turns. At the end all rests."""
     name = "a live session with browsers"
     FILES = Session.FILES | {"s.json"}
+    FILMS = 20  # that are looked at
 
     def master(self):
         (self.place.folder / "s.json").write_text(json.dumps({"seconds": 10, "events": EDITS}))
@@ -237,7 +240,7 @@ class Watched(Session):
             return False
 
     def at_the_end(self, master, clients=None):
-        """Digests of the film's radiance at rest, by the number of frames that it is the mean of."""
+        """Digests of the film's radiance at rest, from its first frame on, as one sees it."""
         viewer = self.view()
         viewer.look_until(lambda head: head.get("control") == head["you"])
         for message in "view beauty", "exposure 0", "camera 1":
@@ -245,14 +248,13 @@ class Watched(Session):
         viewer.look_until(lambda head: head["view"] == "beauty" and not head["moving"] and head["frames"] > 12)
         viewer.send("camera 0")
         viewer.look_until(lambda head: head["frames"] < 4)  # the film begins
-        digests, frames = {}, 0
-        while frames < 24:
+        digests = set()
+        while len(digests) < self.FILMS:
             viewer.files.clear()
             viewer.send("download exr")
             head = viewer.look_until(lambda head: "file" in head)
             if not head["moving"]:
-                frames = head["frames"]
-                digests[frames] = hashlib.sha256(viewer.files[head["file"]]).hexdigest()
+                digests.add(hashlib.sha256(DATE.sub(b"", viewer.files[head["file"]])).hexdigest())
         viewer.close()
         end(master)
         if clients:
@@ -267,10 +269,9 @@ class Watched(Session):
         return self.at_the_end(master)
 
     def is_same(self, outcome, peace):
-        """Of the numbers of frames that were seen both times."""
-        both = set(outcome) & set(peace)
-        check(both, f"{self.name}: no two pictures of as many frames were seen: {sorted(outcome)}, {sorted(peace)}")
-        return all(outcome[frames] == peace[frames] for frames in both)
+        """Neither sees the film at all frames; what both saw is enough, as films that differ have nothing in common."""
+        tell(f"{self.name}: {len(outcome & peace)} of {len(outcome)} films seen again in peace")
+        return len(outcome & peace) >= self.FILMS // 2
 
 
 def soak(seconds, seed):

@@ -77,7 +77,7 @@ class Weather:
         self.stranger(self.place.other_client, "cluster.key", "runs Ninefold")
 
     def wrong_key(self, _):
-        self.stranger(BIN / "ninefold-client", "wrong.key", "wrong key")
+        self.stranger(BIN / "ninefold-client", "wrong.key", "does not accept this key")
 
     def stranger(self, program, key, says):
         self.strangers.append((self.place.start(program, "--master", f"127.0.0.1:{self.port}", "--key-file", key, "--threads", 1,

@@ -97,7 +97,7 @@ class Discovery(LanTest):
         master = self.announced()
         stranger = self.start(*self.at(1), BIN / "ninefold-client", "--key-file", self.new_key("wrong.key"))
         self.assertEqual(stranger.ends(), 1, stranger.text)
-        self.assertIn("wrong key", stranger.text)
+        self.assertIn("does not accept this key", stranger.text)
         master.close()
 
     def test_without_masters_or_avahi_there_is_one_line(self):
