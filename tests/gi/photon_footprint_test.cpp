@@ -49,8 +49,8 @@ TEST(PhotonFootprint, OfABoardNarrowerThanTheDisk) {
   EXPECT_NEAR(footprint(b, Vec3(0), Vec3(0, 1, 0), 0.5f), area / (double(kPi) * r * r), 0.02);
 }
 
-// Receivers on a wall across a corner do not accept the photon; those on a slope of 45 degrees do,
-// and it is longer than its shadow on the disk.
+// Receivers on a wall across a corner do not accept the photon; those on a slope of 45 degrees do
+// as long as they are near its tangent plane, and they are longer than their shadow on the disk.
 TEST(PhotonFootprint, WallsAcrossDoNotCountSlopesDo) {
   SceneBuilder wall = square();
   wall.quad(wall.material(testing::matte(Vec3(0.5f))), Vec3(0.1f, -1, -1), Vec3(0, 2, 0),
@@ -61,17 +61,29 @@ TEST(PhotonFootprint, WallsAcrossDoNotCountSlopesDo) {
   const int matte = slope.material(testing::matte(Vec3(0.5f)));
   slope.quad(matte, Vec3(0, 0, -1), Vec3(0, 0, 2), Vec3(1, 1, 0));
   slope.quad(matte, Vec3(-1, 1, -1), Vec3(0, 0, 2), Vec3(1, -1, 0));
-  // Within the sphere each side holds half a disk, whatever its slope.
-  EXPECT_NEAR(footprint(slope, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 0.04);
+  // Within the sphere each side holds a strip of half a disk, up to r/8 high, sqrt(2) r/8 wide.
+  const double a = std::sqrt(2.0) / 8;
+  EXPECT_NEAR(footprint(slope, Vec3(0), Vec3(0, 1, 0), 0.5f),
+              2 * (a * std::sqrt(1 - a * a) + std::asin(a)) / double(kPi), 0.04);
 }
 
-// A table over a floor: both accept the photon within r, the table's underside does not.
-TEST(PhotonFootprint, AllLayersCountOnce) {
+// A sheet on a floor, a thousandth of r above it: the light that falls on the sheet is its alone.
+TEST(PhotonFootprint, WhatLiesUnderASheetTakesNoShare) {
+  SceneBuilder b = square();
+  b.quad(b.material(testing::matte(Vec3(0.5f))), Vec3(-1, 5e-4f, -1), Vec3(0, 0, 2), Vec3(1, 0, 0));
+  EXPECT_NEAR(footprint(b, Vec3(-0.5f, 5e-4f, 0), Vec3(0, 1, 0), 0.4f), 1, 1e-3);
+  // Partly on the sheet, partly beside it: neither is lost.
+  EXPECT_NEAR(footprint(b, Vec3(-0.1f, 5e-4f, 0), Vec3(0, 1, 0), 0.5f), 1, 1e-3);
+  EXPECT_NEAR(footprint(b, Vec3(0.1f, 0, 0), Vec3(0, 1, 0), 0.5f), 1, 1e-3);
+}
+
+// A table over a floor, farther above it than r/8: each has its own light.
+TEST(PhotonFootprint, ATableTakesNoShareOfTheFloor) {
   SceneBuilder b = square();
   const int matte = b.material(testing::matte(Vec3(0.5f)));
   b.box(matte, Vec3(-1, 0.1f, -1), Vec3(1, 0.11f, 1), false);
-  const double r = 0.5, floor = 1 - 0.11 * 0.11 / (r * r);  // disk where the sphere meets the floor
-  EXPECT_NEAR(footprint(b, Vec3(0, 0.11f, 0), Vec3(0, 1, 0), 0.5f), 1 + floor, 0.06);
+  EXPECT_NEAR(footprint(b, Vec3(0, 0.11f, 0), Vec3(0, 1, 0), 0.5f), 1, 1e-3);
+  EXPECT_NEAR(footprint(b, Vec3(0), Vec3(0, 1, 0), 0.5f), 1, 1e-3);
 }
 
 // Water over the floor of a pool takes no share of the light that falls on the floor.

@@ -117,15 +117,17 @@ struct PacketFlux {
 };
 
 // Adds a photon to the lanes of the receivers that accept it.
-void addPhoton(const Photon& photon, float r2, const Receivers& x, size_t first, size_t count,
+void addPhoton(const Photon& photon, Metres r, const Receivers& x, size_t first, size_t count,
                PacketFlux& sum, size_t lane) {
+  const float r2 = r * r, height = kPhotonHeight * r;
 #pragma GCC ivdep
   for (size_t i = 0; i < count; ++i) {
     const float dx = photon.position.x - x.px[first + i], dy = photon.position.y - x.py[first + i],
                 dz = photon.position.z - x.pz[first + i];
     const float cosine = photon.normal.x * x.gx[first + i] + photon.normal.y * x.gy[first + i] +
                          photon.normal.z * x.gz[first + i];
-    const bool near = dx * dx + dy * dy + dz * dz <= r2;
+    const float off = dx * photon.normal.x + dy * photon.normal.y + dz * photon.normal.z;
+    const bool near = (dx * dx + dy * dy + dz * dz <= r2) & (std::abs(off) <= height);
     const float one = near & (cosine > kPhotonNormalCosine) ? 1.0f : 0.0f;
     sum.r[lane + i] += one * photon.flux.x;
     sum.g[lane + i] += one * photon.flux.y;
@@ -141,10 +143,9 @@ void addFlux(const Transport& t, const PhotonGrid& grid, const Receivers& x, siz
     low = glm::min(low, x.position(first + i));
     high = glm::max(high, x.position(first + i));
   }
-  const float r2 = grid.radius() * grid.radius();
   const bool done = grid.near(low, high, [&](const Photon& photon) {
     if (t.allows(photon.diffuseBefore + pathVertices))
-      addPhoton(photon, r2, x, first, count, sum, lane);
+      addPhoton(photon, grid.radius(), x, first, count, sum, lane);
   });
   if (done) return;
   const size_t half = count / 2;

@@ -15,17 +15,18 @@ Vec2 diskPoint(int i, float turn) {
 }
 
 constexpr int kMostLayers = 8;
-constexpr float kLayerGap = 1e-4f;  // [r] behind a hit the search goes on
+constexpr float kLayerGap = 1e-3f;  // [height] behind a hit the search goes on
 
-// Along -n from the height of r above the disk to r below it.
+// Along -n from as far above the disk as receivers may be to as far below it.
 RayPacket raysThrough(const ShadingPoint& at, Metres r, float turn) {
   const Basis basis(at.ng);
+  const Metres height = kPhotonHeight * r;
   RayPacket rays;
   for (int i = 0; i < kPacket; ++i) {
     const Vec2 d = r * diskPoint(i, turn);
     const Vec3 above =
-        at.surface.position + d.x * basis.tangent + d.y * basis.bitangent + r * at.ng;
-    rays.set(static_cast<size_t>(i), above, -at.ng, 0, 2 * r);
+        at.surface.position + d.x * basis.tangent + d.y * basis.bitangent + height * at.ng;
+    rays.set(static_cast<size_t>(i), above, -at.ng, 0, 2 * height);
   }
   return rays;
 }
@@ -53,12 +54,10 @@ float photonFootprint(const Transport& t, const ShadingPoint& at, Metres r, floa
     t.tracer.closest16(rays, active, hits);
     for (int i = 0; i < kPacket; ++i) {
       if ((active >> i & 1u) == 0) continue;
-      if (!hits[i]) {
-        active &= ~(1u << i);
-        continue;
-      }
-      covered += acceptance(t, at, r, t.tracer.surface(hits[i]));
-      rays.nearT[i] = hits[i].t + kLayerGap * r, rays.farT[i] = 2 * r;
+      const float accepted = hits[i] ? acceptance(t, at, r, t.tracer.surface(hits[i])) : 0.0f;
+      covered += accepted;
+      if (!hits[i] || accepted > 0) active &= ~(1u << i);
+      rays.nearT[i] = hits[i].t + kLayerGap * kPhotonHeight * r;
     }
   }
   return std::max(covered, 1.0f) / kPacket;

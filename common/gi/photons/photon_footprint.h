@@ -4,16 +4,18 @@
 //
 //   f = A/(pi r^2),   A = area of the surface that accepts the photon
 //
-// A packet of rays along -n through a fixed pattern on the disk estimates f. Each ray counts 1/cos
-// of the normal to n at every layer that it meets: what is under a table accepts light as the table
-// does. Receivers accept a photon within r, with normals within 60 degrees, and only with a D lobe:
-// not clear glass or bare metal.
+// Receivers accept a photon within r, no farther than r/8 off its tangent plane, with normals within
+// 60 degrees, and only with a D lobe: not clear glass or bare metal. A packet of rays along -n
+// through a fixed pattern on the disk, from r/8 above it to r/8 below, estimates f. Each counts
+// 1/cos of the normal to n where it first meets what accepts the photon: what lies below that (a
+// wall behind a lamp, a floor under a carpet) is not seen, and takes no share of the light.
 //
 // Source:  boundary bias of density estimates: Jensen 2001, 7.6; the division conserves energy for
 //          each photon alone.
 // Proved:  tests/gi (caustic energy balance; a narrow board, layers, glass).
 // Fails:   f is known to 1/16; other meshes' sheets that are wound the wrong way do not count. Both
-//          go with r.
+//          go with r. What lies less than r/8 under a sheet gets the sheet's caustic where it looks
+//          out from under it.
 // Threads: reentrant.   Errors: none.
 #pragma once
 
@@ -23,6 +25,7 @@
 namespace ninefold {
 
 inline constexpr float kPhotonNormalCosine = 0.5f;
+inline constexpr float kPhotonHeight = 0.125f;  // [r] off the photon's tangent plane
 
 // f >= 1/16 for a photon that landed at `at`. `turn` in [0, 1) turns the pattern. Adds its
 // rays to the photon rays.
