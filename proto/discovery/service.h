@@ -19,7 +19,6 @@ inline constexpr const char* kReleaseKey = "release";
 struct FoundMaster {
   std::string name, release;  // printable; what a stranger says
   Endpoint at;                // an address, no name
-  bool operator==(const FoundMaster& other) const = default;
 };
 
 }  // namespace ninefold
