@@ -13,7 +13,7 @@ import time
 from browser import Closed, Viewer
 from programs import BIN, SCENES, Program, signal
 from soak_lib.watch import Memory, files_of, processes_of
-from soak_lib.weather import Weather
+from soak_lib.weather import GUESTS, Weather
 
 SIZE = "160x120"
 DATE = re.compile(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d")  # in a file, of when it was made
@@ -57,8 +57,8 @@ class Place:
         self.programs.append(Program(command, self.folder))
         return self.programs[-1]
 
-    def master(self, *options, scene="cornell"):
-        return self.start(BIN / "ninefold-master", SCENES / f"{scene}.glb", "--size", SIZE, "--local-clients", 1, "--listen",
+    def master(self, *options, clients=1):
+        return self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--size", SIZE, "--local-clients", clients, "--listen",
                           f"127.0.0.1:{self.port}", "--key-file", "cluster.key", *options)
 
     def forget(self, program):
@@ -158,7 +158,8 @@ class Still(Session):
         return stats["frames"], stats["image_hash"]
 
     def peace(self, outcome):
-        master = self.place.master("--output", "a.exr", "--stats", "stats.json", "--frames", outcome[0])
+        master = self.place.master("--output", "a.exr", "--stats", "stats.json", "--frames", outcome[0],
+                                   clients=GUESTS)
         check(master.process.wait() == 0, master.text)
         return outcome[0], json.loads((self.place.folder / "stats.json").read_text())["image_hash"]
 
@@ -170,11 +171,11 @@ class Pictures(Session):
     def is_expected(self, file):
         return super().is_expected(file) or file == "s.json" or file.endswith(".png")
 
-    def master(self, name):
+    def master(self, name, **more):
         repeated = [event | {key: event[key] + 10 * turn for key in ("from", "to", "at") if key in event}
                     for turn in range(500) for event in EDITS]
         (self.place.folder / "s.json").write_text(json.dumps({"seconds": 5000, "rate": 2, "frames": 4, "events": repeated}))
-        return self.place.master("--script", "s.json", "--exposure", 0, "--output", f"{name}.#####.png")
+        return self.place.master("--script", "s.json", "--exposure", 0, "--output", f"{name}.#####.png", **more)
 
     def picture(self, name, number):
         return hashlib.sha256((self.place.folder / f"{name}.{number:05}.png").read_bytes()).hexdigest()
@@ -189,7 +190,7 @@ class Pictures(Session):
         return [self.picture("weather", i) for i in range(count)]
 
     def peace(self, outcome):
-        master = self.master("peace")
+        master = self.master("peace", clients=GUESTS)
         while f"picture {len(outcome)} of" not in master.text and master.process.poll() is None:
             time.sleep(0.05)
         end(master)
