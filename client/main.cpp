@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "client/identity.h"
+#include "client/master_search.h"
 #include "client/program.h"
 #include "common/base/log.h"
 #include "common/base/program.h"
@@ -40,10 +41,11 @@ int print(const std::string& text) {
   return 0;
 }
 
-int run(const Options& options) {
+int run(Options options) {
   if (options.local()) dieWithTheMaster();
   nameLog(options.local() ? "client " + options.name : "client");
   const auto key = takeKey(options);
+  if (options.master.empty() && !options.masterFile) options.master = addressText(findOnlyMaster());
   EventLoop loop;
   Program program(loop, options, introduce(options), key, openCache(options));
   const int status = program.run();
@@ -57,10 +59,10 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace ninefold;
   return runProgram("ninefold-client", [&] {
-    const client::Options options = client::parseOptions(
+    client::Options options = client::parseOptions(
         argc, argv, processVariable, static_cast<int>(std::thread::hardware_concurrency()));
     if (options.help) return client::print(client::helpText());
     if (options.version) return client::print(versionText("ninefold-client"));
-    return client::run(options);
+    return client::run(std::move(options));
   });
 }

@@ -24,7 +24,9 @@ struct Flag {
 };
 
 constexpr Flag kFlags[] = {
-    {"master", "ADDR:PORT", "the master to render for, as it says when it starts"},
+    {"master", "ADDR:PORT",
+     "the master to render for, as it says when it starts (default: the only one that announces "
+     "itself on this network)"},
     {"master-file", "FILE",
      "in place of --master: a file with its addresses, which its --address-file writes; may come "
      "later"},
@@ -123,8 +125,6 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
 
   options.master = get(values, "master").value_or("");
   if (const auto file = get(values, "master-file")) options.masterFile = *file;
-  if (options.master.empty() && !options.masterFile)
-    failUsage("--master ADDR:PORT is missing; the master says it when it starts");
   if (!options.master.empty() && options.masterFile)
     failUsage("--master and --master-file exclude each other");
   options.threads = getNumber(values, "threads", std::clamp(cores, 1, 1024), 1, 1024);
@@ -143,7 +143,7 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
 
 std::string helpText() {
   std::ostringstream text;
-  text << "Usage: ninefold-client --master ADDR:PORT --key-file FILE [options]\n\n"
+  text << "Usage: ninefold-client [--master ADDR:PORT] --key-file FILE [options]\n\n"
           "Renders for a ninefold-master. Everything else, the scene included, comes from there.\n"
           "\n"
        << publicFlags()

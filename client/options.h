@@ -15,7 +15,7 @@ namespace ninefold::client {
 
 struct Options {
   bool help = false, version = false;  // print that and end; nothing else counts
-  std::string master;                  // address:port; empty: masterFile has it
+  std::string master;  // address:port; empty: masterFile has it, or it is looked for
   std::optional<std::filesystem::path> masterFile;
   int threads = 1;  // 1..1024
   std::optional<std::filesystem::path> keyFile;

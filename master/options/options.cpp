@@ -88,6 +88,7 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
   assign(o.patience, raw.real("patience", 0, kMaxSeconds));
   o.keyFile = raw.text("key-file");
   o.addressFile = raw.text("address-file");
+  o.announce = raw.isOn("announce");
   o.hosts = raw.text("hosts");
   constexpr std::array kIsas{"auto", "avx2", "avx512"};
   if (const auto isa = raw.choice("isa", kIsas)) o.isa = kIsas[*isa];
@@ -98,6 +99,10 @@ void readCluster(const RawOptions& raw, int cores, Options& o) {
         "--hosts {} needs --listen ADDR:PORT where they reach this machine, for example "
         "0.0.0.0:4700",
         *o.hosts);
+  if (isHere && o.announce)
+    failUsage(
+        "--announce needs --listen ADDR:PORT where others reach this machine, for example "
+        "0.0.0.0:4700");
   if (!isHere && !o.keyFile)
     failUsage(
         "--listen {} reaches beyond this machine and needs --key-file FILE; make one with "

@@ -48,6 +48,7 @@ struct Options {
   std::string listen = "127.0.0.1:0";  // ADDR:PORT
   std::optional<std::string> keyFile;
   std::optional<std::string> addressFile;  // gets the addresses at which it listens
+  bool announce = false;                   // on the LAN, by DNS-SD
   std::optional<std::string> hosts;        // file: where ssh starts clients
   int waitClients = 1;
   double verify = 0;         // fraction of results that a second client does again

@@ -78,8 +78,8 @@ constexpr Flag kRun[] = {
      "which of the file's animations plays (default: the first; the log names them)"},
     {"window", nullptr, "walk, select and edit in a window; --output then gets the last picture"},
     {"serve", "ADDR:PORT",
-     "the same in browsers (docs/browser.md); port 0 takes a free one; prints the address to open. "
-     "Beyond this machine, e.g. 0.0.0.0:8443, with TLS and a token in the printed address"},
+     "the same in browsers (docs/browser.md); port 0 takes a free one; prints the address to open, "
+     "which has a token. Beyond this machine, e.g. 0.0.0.0:8443, with TLS"},
     {"serve-certificate", "FILE",
      "PEM, with --serve-key: the certificate to show (default: one made on the spot, its "
      "fingerprint "
@@ -104,6 +104,9 @@ constexpr Flag kCluster[] = {
      "(default 127.0.0.1:0)"},
     {"address-file", "FILE",
      "write there where the master listens, ADDR:PORT lines, for --master-file of clients"},
+    {"announce", nullptr,
+     "with --listen beyond this machine: tell the network this machine's name, port and release by "
+     "DNS-SD (Avahi), so that clients need no --master; they still need the key"},
     {"hosts", "FILE",
      "start a client on each of these machines by ssh, HOST [PROGRAM] a line, again when it ends"},
     {"key-file", "FILE", "cluster key; needed to listen beyond this machine"},

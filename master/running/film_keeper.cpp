@@ -56,6 +56,7 @@ std::optional<FilmKeeper::Begun> FilmKeeper::resume() {
   base_.frames = 0;
   if (verifies_) picture_.keep(base_.film);
   if (!keeps_) return std::nullopt;
+  lock_.emplace(*options_.checkpoint);
   auto file = readCheckpoint(*options_.checkpoint, copy_.job, {picture_.keptBytes(), needsState_});
   if (!file) return std::nullopt;
   try {

@@ -18,7 +18,9 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 
+#include "common/base/file_lock.h"
 #include "master/assembly/picture.h"
 #include "master/output/checkpoint.h"
 #include "master/running/job.h"
@@ -31,7 +33,8 @@ class FilmKeeper {
  public:
   FilmKeeper(const Options& options, const Job& job, PictureMaker& picture);
 
-  // What the file has is put into the picture. Nothing: there is no file.
+  // What the file has is put into the picture. Nothing: there is no file. From now on no other run
+  // has it.
   struct Begun {
     int64_t frames = 0;
     double seconds = 0;
@@ -68,7 +71,8 @@ class FilmKeeper {
   const Job& job_;
   PictureMaker& picture_;
   const bool keeps_, verifies_;
-  const bool needsState_;  // what comes after a frame needs the version that lit it
+  const bool needsState_;         // what comes after a frame needs the version that lit it
+  std::optional<FileLock> lock_;  // on the file
   Checkpoint copy_, base_;
   std::optional<Checkpoint> candidate_;
   uint32_t candidateFrame_ = 0;

@@ -51,6 +51,7 @@ ServerDuty FrameMachine::serverDuty() {
 
 void FrameMachine::start() {
   invite(options_, cluster_.endpoint());
+  if (options_.announce) announcement_.emplace(cluster_.endpoint());
   cluster_.start();
 }
 

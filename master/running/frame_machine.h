@@ -13,6 +13,7 @@
 #include "master/assembly/assembly.h"
 #include "master/options/options.h"
 #include "master/serving/cluster.h"
+#include "proto/discovery/announcement.h"
 
 namespace ninefold {
 
@@ -66,6 +67,7 @@ class FrameMachine {
   // In this order: the workers end before the cluster that they report to.
   Cluster cluster_;
   Assembly assembly_;
+  std::optional<Announcement> announcement_;
 };
 
 }  // namespace ninefold

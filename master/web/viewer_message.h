@@ -1,6 +1,6 @@
 // viewer_message.h: what a browser says: one message, one line of words. Pure.
 //
-//   hello [TOKEN]                     first; the token where one is asked for
+//   hello [TOKEN]                     first; without a token it is refused as with a wrong one
 //   size W H                          of the picture on its screen: the units of X and Y
 //   key down|up KEY HELD              KEY: WindowEvent::key
 //   button down|up NAME X Y HELD      NAME: left, right, middle; X Y: from the picture's upper left

@@ -55,10 +55,9 @@ std::string newToken() {
   return text;
 }
 
-bool isRightToken(std::string_view given, const std::optional<std::string>& wanted) {
-  if (!wanted) return true;
-  return given.size() == wanted->size() &&
-         CRYPTO_memcmp(given.data(), wanted->data(), given.size()) == 0;
+bool isRightToken(std::string_view given, std::string_view wanted) {
+  return given.size() == wanted.size() &&
+         CRYPTO_memcmp(given.data(), wanted.data(), given.size()) == 0;
 }
 
 std::string_view bearerOf(std::string_view authorization) {

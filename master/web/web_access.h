@@ -4,12 +4,11 @@
 // which names the site that the browser believes to be at, nor the Origin header, which names the
 // page that asks. So both must name us: a Host is an address, a name of this machine, or a name of
 // the certificate; an Origin, if there is one, is our scheme and the same Host.
-// Who holds no browser and sends no Origin still needs the token, where there is one.
+// Who holds no browser and sends no Origin still needs the token.
 //
 // Threads: plain values.   Errors: none.   Proved: tests/web/web_access_test.cpp.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,8 +31,8 @@ bool isOurOrigin(std::string_view origin, std::string_view host, const WebIdenti
 
 // 64 hex digits.
 std::string newToken();
-// In a time that does not depend on where they differ. None is wanted: any is right.
-bool isRightToken(std::string_view given, const std::optional<std::string>& wanted);
+// In a time that does not depend on where they differ.
+bool isRightToken(std::string_view given, std::string_view wanted);
 // The token of an Authorization header ("Bearer TOKEN"); empty if it has none.
 std::string_view bearerOf(std::string_view authorization);
 

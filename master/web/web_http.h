@@ -20,7 +20,7 @@ inline constexpr const char* kLivePath = "/live";  // of the WebSocket
 
 struct WebSite {
   WebIdentity identity;
-  std::optional<std::string> token;
+  std::string token;
   const std::string* metrics = nullptr;
 };
 

@@ -34,8 +34,8 @@ namespace ninefold {
 struct WebSetup {
   Endpoint listen;
   WebIdentity identity;
-  std::shared_ptr<WebTls> tls;       // null: none
-  std::optional<std::string> token;  // nothing: none is asked for
+  std::shared_ptr<WebTls> tls;  // null: none
+  std::string token;
 };
 
 // Another viewer is in control, or none is: what was held is let go.

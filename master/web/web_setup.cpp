@@ -46,7 +46,7 @@ WebSetup webSetup(const Options& options) {
     setup.tls = loadWebTls(*options.serveCertificate, *options.serveKey);
   else if (isOpen)
     setup.tls = makeWebTls(withAddresses(setup.identity.names, host));
-  if (isOpen) setup.token = newToken();
+  setup.token = newToken();
   setup.identity.isSecure = setup.tls != nullptr;
   if (options.serveCertificate)
     setup.identity.names.insert(setup.identity.names.end(), setup.tls->names.begin(),
@@ -61,9 +61,9 @@ std::vector<std::string> webInvitation(const Options& options, const WebSetup& s
   if (hosts.empty()) hosts = {"127.0.0.1"};  // no interface is up
   std::vector<std::string> lines;
   for (const std::string& at : hosts)
-    lines.push_back(fmt::format("{} {}://{}/{}", lines.empty() ? "serving at" : "or at",
+    lines.push_back(fmt::format("{} {}://{}/#token={}", lines.empty() ? "serving at" : "or at",
                                 setup.tls ? "https" : "http", addressText({at, port}),
-                                setup.token ? "#token=" + *setup.token : ""));
+                                setup.token));
   if (setup.tls && !options.serveCertificate)
     lines.push_back(
         "browsers will warn of the certificate, which was made for this run; its SHA-256 is " +

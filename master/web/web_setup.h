@@ -1,6 +1,6 @@
 // web_setup.h: --serve: at which address, with which certificate and token, and what people are
-// told of it. On loopback: neither token nor TLS, unless a certificate is given. Beyond it: both,
-// always.
+// told of it. A token always: other users of this machine reach loopback, too. TLS beyond loopback,
+// and where a certificate is given.
 // Errors: Error that names the flag.   Threads: pure but for the key and the token.
 // Proved: tests/web/web_setup_test.cpp.
 #pragma once

@@ -190,14 +190,17 @@ class ServeTest(ClusterTest):
     def serve(self, *options, address="127.0.0.1:0", scene="table_room"):
         self.master = self.start(BIN / "ninefold-master", SCENES / f"{scene}.glb", "--size", self.SIZE, "--serve",
                                  address, "--local-clients", 1, *options)
-        found = self.master.waits_for(r"serving at (https?)://(\S+):(\d+)/(?:#token=(\S+))?")
-        self.port, self.token = int(found.group(3)), found.group(4) or ""
+        found = self.master.waits_for(r"serving at (https?)://(\S+):(\d+)/#token=(\S+)")
+        self.port, self.token = int(found.group(3)), found.group(4)
         return found
 
     def view(self, **more):
-        viewer = Viewer("127.0.0.1", self.port, **more)
+        viewer = Viewer("127.0.0.1", self.port, **{"token": self.token} | more)
         self.addCleanup(viewer.close)
         return viewer
+
+    def metrics(self, **more):
+        return request("127.0.0.1", self.port, "/metrics", Authorization=f"Bearer {self.token}", **more)
 
     def at_rest(self, viewer, frames=2):
         return viewer.look_until(lambda head: head.get("frames", 0) >= frames and not head["moving"])

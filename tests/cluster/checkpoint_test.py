@@ -101,6 +101,19 @@ class Checkpoint(ClusterTest):
         self.SIZE = "40x36"
         self.refused(self.keeps(), "width is 48 there, 40 here")
 
+    def test_two_masters_do_not_keep_one_file(self):
+        calm = self.render("--local-clients", 2, frames=4)
+        first = self.keeps(*OFTEN, "--seconds", 1000, frames=None)
+        first.waits_for(r"progress: \d+% frame [2-9]")
+        second = self.keeps(frames=4)
+        self.assertEqual(second.ends(), 1, second.text)
+        self.assertIn("run.checkpoint is in use by another run; end that, or give another file", second.lines[-1])
+        self.send(first.process.pid, signal.SIGKILL)
+        first.ends()
+        (self.folder / "run.checkpoint").unlink()
+        self.assertEqual(self.finish(self.keeps(frames=4))["image_hash"], calm["image_hash"])
+        self.assertEqual([file.name for file in self.folder.iterdir() if file.name.endswith(".lock")], [])
+
     def test_damaged_files_are_refused_in_one_line(self):
         file = self.folder / "run.checkpoint"
         self.finish(self.keeps(frames=2))

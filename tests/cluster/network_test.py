@@ -1,13 +1,13 @@
 """Clients that come over the network: late, with the wrong key, or not clients at all."""
 import os
 import random
-import shutil
 import socket
 import subprocess
 import threading
 import time
 import unittest
 
+from lan import LanTest, ip
 from programs import BIN, ClusterTest, signal
 
 
@@ -147,33 +147,7 @@ class Network(ClusterTest):
         self.assertTrue(any((self.folder / "cache").iterdir()))
 
 
-def ip(*arguments):
-    subprocess.run(["ip", *arguments], check=True, capture_output=True)
-
-
-@unittest.skipUnless(os.geteuid() == 0 and shutil.which("ip"), "needs root and ip(8)")
-class Lan(ClusterTest):
-    """Master and client on hosts of their own: network namespaces joined by a virtual cable."""
-
-    def setUp(self):
-        super().setUp()
-        self.hosts = [f"nf{os.getpid()}{side}" for side in "ab"]
-        try:
-            for host in self.hosts:
-                ip("netns", "add", host)
-                self.addCleanup(subprocess.run, ["ip", "netns", "del", host], capture_output=True)
-            a, b = self.hosts
-            ip("-n", a, "link", "add", "lan", "type", "veth", "peer", "lan", "netns", b)
-            for number, host in enumerate(self.hosts, 1):
-                ip("-n", host, "addr", "add", f"10.77.0.{number}/24", "dev", "lan")
-                ip("-n", host, "link", "set", "lan", "up")
-                ip("-n", host, "link", "set", "lo", "up")
-        except subprocess.CalledProcessError as error:
-            self.skipTest(f"no network namespaces here: {error.stderr.decode().strip()}")
-
-    def on(self, host):
-        return ["ip", "netns", "exec", self.hosts[host]]
-
+class Lines(LanTest):
     def test_an_empty_client_on_another_host_gets_the_scene_and_renders(self):
         here = self.render("--local-clients", 1, scene="table_room", frames=4)
         self.new_key()

@@ -108,6 +108,16 @@ def is_running(pid):
         return False
 
 
+def own_memory(pid):
+    """Bytes that no file stands behind; None if the process has ended."""
+    try:
+        status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    except OSError:
+        return None
+    found = re.search(r"RssAnon:\s+(\d+) kB", status)
+    return 1024 * int(found.group(1)) if found else None
+
+
 class ClusterTest(unittest.TestCase):
     """Starts programs in a temporary folder; ends them all when the test is over."""
     maxDiff = None
@@ -160,4 +170,4 @@ class ClusterTest(unittest.TestCase):
         os.kill(pid, sig)
 
 
-__all__ = ["BIN", "SCENES", "ClusterTest", "eventually", "is_running", "methods", "signal"]
+__all__ = ["BIN", "SCENES", "ClusterTest", "eventually", "is_running", "methods", "own_memory", "signal"]

@@ -1,4 +1,4 @@
-"""Who is turned away by a master that serves browsers, and what makes it safe beyond loopback."""
+"""Who is turned away by a master that serves browsers, and what makes it safe here and beyond loopback."""
 import hashlib
 import re
 import ssl
@@ -100,7 +100,26 @@ class TurnsAway(ServeTest):
         self.assertEqual(half.recv(1), b"")  # after its deadline
 
 
-class BeyondLoopback(ServeTest):
+class Secrets(ServeTest):
+    def expect_token(self, **more):
+        """Without it there are no numbers and no pictures."""
+        wrong = "0" * 64
+        self.assertEqual(request("127.0.0.1", self.port, "/metrics", **more)[0], 401)
+        self.assertEqual(request("127.0.0.1", self.port, "/metrics", Authorization=f"Bearer {wrong}", **more)[0], 401)
+        self.assertEqual(self.metrics(**more)[0], 200)
+        for token in "", wrong, self.token[:-1]:
+            viewer = self.view(token=token, **more)
+            with self.assertRaises(Closed) as closed:
+                viewer.receive()
+            self.assertIn("wrong token", str(closed.exception))
+        self.expect_line("wrong token")
+        self.at_rest(self.view(**more))
+
+    def test_other_users_of_this_machine_have_no_token(self):
+        self.serve()
+        self.assertEqual(len(self.token), 64)
+        self.expect_token()
+
     def test_token_and_tls(self):
         found = self.serve(address="0.0.0.0:0")
         self.assertEqual(found.group(1), "https")
@@ -113,21 +132,7 @@ class BeyondLoopback(ServeTest):
         certificate = ssl.DER_cert_to_PEM_cert(shown)  # good for this address
         self.assertEqual(request("127.0.0.1", self.port, certificate=certificate)[0], 200)
 
-        self.assertEqual(request("127.0.0.1", self.port, "/metrics", certificate)[0], 401)
-        wrong = "0" * 64
-        bearer = {"Authorization": f"Bearer {wrong}"}
-        self.assertEqual(request("127.0.0.1", self.port, "/metrics", certificate, **bearer)[0], 401)
-        bearer = {"Authorization": f"Bearer {self.token}"}
-        self.assertEqual(request("127.0.0.1", self.port, "/metrics", certificate, **bearer)[0], 200)
-
-        for token in "", wrong, self.token[:-1]:
-            viewer = self.view(token=token, certificate=certificate)
-            with self.assertRaises(Closed) as closed:
-                viewer.receive()
-            self.assertIn("wrong token", str(closed.exception))
-        self.expect_line("wrong token")
-        viewer = self.view(token=self.token, certificate=certificate)
-        self.at_rest(viewer)
+        self.expect_token(certificate=certificate)
         plain = open_socket("127.0.0.1", self.port)
         self.addCleanup(plain.close)
         plain.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
@@ -140,7 +145,7 @@ class BeyondLoopback(ServeTest):
                         "2", "-subj", "/CN=x", "-addext", "subjectAltName=DNS:render.test,IP:127.0.0.1", "-keyout",
                         "key.pem", "-out", "cert.pem"], cwd=self.folder, check=True, capture_output=True)
         found = self.serve("--serve-certificate", "cert.pem", "--serve-key", "key.pem")
-        self.assertEqual((found.group(1), self.token), ("https", ""))
+        self.assertEqual(found.group(1), "https")
         certificate = (self.folder / "cert.pem").read_text()
         self.assertEqual(request("127.0.0.1", self.port, certificate=certificate)[0], 200)
         self.assertEqual(request("127.0.0.1", self.port, certificate=certificate, Host="render.test")[0], 200)

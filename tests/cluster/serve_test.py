@@ -66,7 +66,7 @@ class Sees(ServeTest):
         self.at_rest(self.view())
 
         def frames():
-            status, _, body = request("127.0.0.1", self.port, "/metrics")
+            status, _, body = self.metrics()
             self.assertEqual(status, 200)
             found = dict(re.findall(r"^(ninefold_\S+) (\S+)$", body.decode(), re.M))
             self.assertEqual(found["ninefold_viewers"], "1")

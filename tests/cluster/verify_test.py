@@ -1,8 +1,8 @@
 """--verify: who gives wrong results is found, expelled, and leaves no trace in the picture.
 
 The wrong client (wrong_client.cpp) is a real one that adds 1 % of light to one pixel in a thousand, or one amount
-to a unit of a step. Each task of it is wrong, so that it never agrees with anybody: which results are checked is a
-function of the seed, but who is given them is not.
+to a unit of a step. Where the picture is to be healed for certain, each task of it is wrong, so that it never agrees with
+anybody: which results are checked is a function of the seed, but who is given them is not.
 """
 import json
 import unittest
@@ -69,6 +69,29 @@ class Verify(ClusterTest):
         self.wrong_client(address, units=20)
         self.client(address), self.client(address)
         self.assertEqual(self.finish(master)["image_hash"], calm["image_hash"])
+
+    def faulty_run(self, fraction):
+        """A client that errs in one task of twenty, beside two good ones; the statistics, and those of a calm run."""
+        calm = self.render("--local-clients", 2, frames=self.FRAMES)
+        master = self.remote_master("--verify", fraction, clients=3)
+        address = self.address_of(master)
+        wrong = self.wrong_client(address, pixels=200, tasks=20)
+        self.client(address), self.client(address)
+        stats = self.finish(master)
+        wrong.close()
+        return stats, calm
+
+    def test_faults_now_and_then_leave_no_trace_if_all_are_checked(self):
+        stats, calm = self.faulty_run(1)
+        self.assertEqual(stats["image_hash"], calm["image_hash"])
+        self.assertEqual(stats["verify"]["expelled"], min(1, stats["verify"]["wrong"]))
+
+    def test_of_faults_now_and_then_no_checked_one_stays(self):
+        """What nobody checked may (verification_test.cpp says how much); the run must end well, whatever was met."""
+        stats, _ = self.faulty_run(0.3)
+        self.assertEqual(stats["frames"], self.FRAMES)
+        self.assertEqual(stats["verify"]["disputed"], 0)
+        self.assertEqual(stats["verify"]["expelled"], min(1, stats["verify"]["wrong"]))
 
     def test_a_photon_map_with_wrong_photons_is_undone(self):
         self.spoilt_run("--method", "photon-map", "--map-photons", 400, "--map-photons-per-frame", 20, units=1, frames=20)

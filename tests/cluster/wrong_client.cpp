@@ -4,6 +4,7 @@
 //
 //   WRONG_PIXELS   one of so many pixels of a task, or one of fewer, gets 1 % more light; none: no
 //                  pixel does
+//   WRONG_TASKS    only in one of so many tasks; none: in each
 //   WRONG_UNITS    one of so many units of steps has one amount too much; none: no unit has
 #include <algorithm>
 
@@ -59,7 +60,9 @@ void spoil(TileResult& tile, const msg::Result& result, uint64_t oneOf) {
   }
 }
 
-void spoilTask(msg::Result& result, uint64_t oneOf) {
+void spoilTask(msg::Result& result, uint64_t oneOf, uint64_t oneTaskOf) {
+  // Another hash than the one that chooses what is verified.
+  if (hashWords(result.tile, result.phase, result.frame) % oneTaskOf != 0) return;
   const TileShape shape = shapeOf(result.encoded);
   const UnpackedTile unpacked = TileDecoder().unpack(Bytes(result.encoded), shape);
   TileResult tile;
@@ -84,7 +87,9 @@ void spoilUnit(msg::Stepped& result, uint64_t oneOf) {
 Rig wrongRig() {
   Rig rig;
   if (const auto oneOf = variable("WRONG_PIXELS"))
-    rig.afterTask = [oneOf](msg::Result& result) { spoilTask(result, *oneOf); };
+    rig.afterTask = [oneOf, oneTaskOf = variable("WRONG_TASKS").value_or(1)](msg::Result& result) {
+      spoilTask(result, *oneOf, oneTaskOf);
+    };
   if (const auto oneOf = variable("WRONG_UNITS"))
     rig.afterUnit = [oneOf](msg::Stepped& result) { spoilUnit(result, *oneOf); };
   return rig;

@@ -85,6 +85,11 @@ TEST(OptionsRefused, HostsMustReachThisMachine) {
   EXPECT_EQ(complaint("a.glb --hosts h --listen 0.0.0.0:4700 --key-file k"), "");
 }
 
+TEST(OptionsRefused, AnnouncedIsWhatOthersReach) {
+  EXPECT_NE(complaint("a.glb --announce").find("--listen"), std::string::npos);
+  EXPECT_EQ(complaint("a.glb --announce --listen 0.0.0.0:4700 --key-file k"), "");
+}
+
 TEST(OptionsRefused, AFileForThePictureOrTheStatsIsNeeded) {
   EXPECT_NE(complaint("a.glb", {}, false).find("--output"), std::string::npos);
   EXPECT_EQ(complaint("a.glb --stats s.json", {}, false), "");

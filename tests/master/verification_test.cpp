@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "common/sampling/hash.h"
 #include "tests/master/scheduler_bench.h"
 #include "tests/seeds.h"
 
@@ -78,6 +81,37 @@ TEST_F(VerificationTest, TwoThatAgreeVouchForAllBefore) {
   EXPECT_TRUE(books.isTrusted());
   EXPECT_EQ(books.counts().checked, 2u);
   EXPECT_TRUE(wrong().empty());
+}
+
+// A fault that comes and goes: client 1 is wrong in a twentieth of its results, client 2 checks and
+// client 3 settles. What stays wrong is what came before the last agreement, which nobody checked.
+// Of the wrong results each is the first that is checked with probability P, so that (1-P)/P come
+// before it in the mean; all that stay are among them.
+TEST_F(VerificationTest, AFaultNowAndThenLeavesNoMoreThanWhatIsWrongBeforeItIsFound) {
+  constexpr int kRuns = 400;
+  for (const double fraction : {0.1, 0.3, 1.0}) {
+    double left = 0, squares = 0;
+    for (int run = 0; run < kRuns; ++run) {
+      books = {};
+      books.begin(static_cast<uint64_t>(run), fraction);
+      join({1, 2, 3});
+      int sinceAgreed = 0, stays = 0;
+      for (uint32_t frame = 0; wrong().empty(); ++frame) {
+        const bool isWrong = hashWords(uint64_t{frame}, static_cast<uint64_t>(run)) % 20 == 0;
+        sinceAgreed += isWrong ? 1 : 0;
+        give(1, frame, isWrong ? 6 : 5);
+        books.mark();
+        while (check(2, 5) || check(3, 5)) {
+        }
+        if (books.isTrusted()) stays += std::exchange(sinceAgreed, 0);
+      }
+      left += stays, squares += stays * stays;
+    }
+    const double mean = left / kRuns;
+    const double error = std::sqrt((squares / kRuns - mean * mean) / kRuns);
+    EXPECT_LE(mean, (1 - fraction) / fraction + 4 * error);
+    EXPECT_GE(mean, 0.5 * (1 - fraction) / fraction) << "the limit is real";
+  }
 }
 
 TEST_F(VerificationTest, NobodyChecksHimself) {

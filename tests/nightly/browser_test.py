@@ -229,7 +229,8 @@ class Browser(unittest.TestCase):
                 self.assertEqual(file.read_bytes()[:4], magic)
 
         with self.subTest("hand over"):
-            other = Viewer("127.0.0.1", int(re.search(r":(\d+)/", url).group(1)))
+            port, token = re.search(r":(\d+)/#token=(\S+)", url).groups()
+            other = Viewer("127.0.0.1", int(port), token)
             self.addCleanup(other.close)
             other.send("ask")
             other.look_until(lambda head: head["asking"])

@@ -11,20 +11,10 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cluster"))
 
-from programs import ClusterTest, is_running  # noqa: E402
+from programs import ClusterTest, is_running, own_memory  # noqa: E402
 
 FRAMES, SETTLED = 10000, 2000
 GROWTH = 0.8e6  # bytes
-
-
-def own_memory(pid):
-    """Bytes, or None if the process has ended."""
-    try:
-        status = pathlib.Path(f"/proc/{pid}/status").read_text()
-    except OSError:
-        return None
-    found = re.search(r"RssAnon:\s+(\d+) kB", status)
-    return 1024 * int(found.group(1)) if found else None
 
 
 class LongRun(ClusterTest):
