@@ -60,7 +60,8 @@ TEST(FieldSize, IsToldBeforeWithinAFewPercent) {
     for (const auto& [directions, distances] : {std::pair(9, 16), std::pair(19, 32)}) {
       const Settings settings = fieldOf(directions, distances, direct);
       const Made made(scene, settings);
-      const SceneElements elements(scene, settings.elementSize * made.transport.radius, nullptr);
+      const SceneElements elements(made.tracer, settings.elementSize * made.transport.radius,
+                                   nullptr);
       const size_t lamps = direct == FieldDirect::field ? 1 : 0;
       const auto bytes = static_cast<double>(made.method.bytes());
       EXPECT_NEAR(fieldBytes(made.method.field().grid(), {scene, elements, lamps}), bytes,

@@ -57,17 +57,17 @@ class State {
   State& glow(uint32_t material, float radiance) {
     MaterialEdit e = editOfMaterial(scene_, material);
     e.emission = Vec3(radiance);
-    return with({{}, {}, {e}});
+    return with({{}, {}, {e}, {}});
   }
   State& shine(uint32_t light, float intensity) {
     LightEdit e = editOf(scene_, light);
     e.intensity = Vec3(intensity);
-    return with({{}, {e}, {}});
+    return with({{}, {e}, {}, {}});
   }
   State& move(int node, DVec3 by) {
     ObjectEdit e{node, DMat4(1)};
     e.motion[3] = DVec4(by, 1);
-    return with({{e}, {}, {}});
+    return with({{e}, {}, {}, {}});
   }
   const Scene& scene() const { return scene_; }
 
@@ -236,7 +236,7 @@ TEST(Gesture, HighlightsOfALightThatGoesOn) {
   const Scene dark = b.build();
   LightEdit on = editOf(dark, 0);
   on.intensity = Vec3(2);
-  expectSameLight(dark, edited(dark, {{}, {on}, {}}), "a light over metal");
+  expectSameLight(dark, edited(dark, {{}, {on}, {}, {}}), "a light over metal");
 }
 
 TEST(Gesture, ThatBeganInTheDarkGoesByWhatIsThere) {

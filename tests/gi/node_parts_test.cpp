@@ -44,13 +44,6 @@ Seen lookAtFloor(const Tracer& tracer, const SceneElements& elements, uint32_t r
   return seen;
 }
 
-double areaOfFloor(const SceneElements& elements) {
-  double sum = 0;
-  for (uint32_t part = 0; part < elements.parts(0).size(); ++part)
-    sum += static_cast<double>(elements.parts(0).area(part));
-  return sum;
-}
-
 TEST(NodeParts, AreTheFacesOfNodesWhereNothingStands) {
   const Scene scene = floorWith([](SceneBuilder& b, int grey) {
     b.box(grey, Vec3(-0.4f, 0.1f, -0.4f), Vec3(0.4f, 0.5f, 0.4f), false);  // floats

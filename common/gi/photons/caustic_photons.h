@@ -1,8 +1,7 @@
 // caustic_photons.h: photons for the last leg from an S vertex, L S+ D and ...D S+ D.
 //
-//   E(x) = 1/(pi r^2) sum Phi_i/f_i   over photons within r that landed on x's side, no farther than
-//                                     r/8 off x, seen along their normal, normals within 60 degrees
-//                                     [W/m^2]
+//   E(x) = 1/(pi r^2) sum Phi_i/f_i   over photons within r that landed on x's side, at most r/8
+//                                     off x along their normal, normals within 60 degrees [W/m^2]
 //
 //   r   radius of the photons (photon_radii.h): wider for photons that would be bright alone,
 //       narrower where they do not lie evenly, as the first thousand of a set tell

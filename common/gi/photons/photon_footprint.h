@@ -4,8 +4,8 @@
 //
 //   f = A/(pi r^2),   A = area of the surface that accepts the photon
 //
-// Receivers accept a photon within r, no farther than r/8 off its tangent plane, with normals within
-// 60 degrees, and only with a D lobe: not clear glass or bare metal. A packet of rays along -n
+// Receivers accept a photon within r, at most r/8 off its tangent plane, with normals within 60
+// degrees, and only with a D lobe: not clear glass or bare metal. A packet of rays along -n
 // through a fixed pattern on the disk, from r/8 above it to r/8 below, estimates f. Each counts
 // 1/cos of the normal to n where it first meets what accepts the photon: what lies below that (a
 // wall behind a lamp, a floor under a carpet) is not seen, and takes no share of the light.
