@@ -212,14 +212,28 @@ void expectSameLight(const Scene& begun, const Scene& now, const char* what) {
   }
 }
 
-TEST(Gesture, NoEnergyIsLostOrAdded) {
-  const Scene begun = State().shine(kPoint, 0).scene();
-  expectSameLight(begun, State().shine(kPoint, 9).scene(), "a light goes on");
-  expectSameLight(begun, State().shine(kPoint, 0).glow(kLeftLampsMaterial, 2).scene(),
+const Scene& withoutPoint() {
+  static const Scene scene = State().shine(kPoint, 0).scene();
+  return scene;
+}
+
+TEST(Gesture, NoEnergyIsLostOrAddedWhenALightGoesOn) {
+  expectSameLight(withoutPoint(), State().shine(kPoint, 9).scene(), "a light goes on");
+}
+
+TEST(Gesture, NoEnergyIsLostOrAddedWhenALampDims) {
+  expectSameLight(withoutPoint(), State().shine(kPoint, 0).glow(kLeftLampsMaterial, 2).scene(),
                   "a lamp dims");
-  expectSameLight(begun, State().glow(kLeftLampsMaterial, 0).shine(kSpot, 0).scene(),
+}
+
+TEST(Gesture, NoEnergyIsLostOrAddedWhenAllButOneGoOff) {
+  expectSameLight(withoutPoint(), State().glow(kLeftLampsMaterial, 0).shine(kSpot, 0).scene(),
                   "all that was on goes off but for one");
-  expectSameLight(begun, State().shine(kPoint, 0).move(kLeftGlass, DVec3(0.6, 0.9, 0.2)).scene(),
+}
+
+TEST(Gesture, NoEnergyIsLostOrAddedWhenGlassMoves) {
+  expectSameLight(withoutPoint(),
+                  State().shine(kPoint, 0).move(kLeftGlass, DVec3(0.6, 0.9, 0.2)).scene(),
                   "a glass goes under the lamp");
 }
 

@@ -90,7 +90,7 @@ TEST(NodeParts, AreOnOneSideOfAWall) {
 TEST(NodeParts, LeaveOutWhatABoxCovers) {
   for (const auto& [low, high] : {std::pair(Vec3(-0.31f, 0, -0.22f), Vec3(0.28f, 0.4f, 0.3f)),
                                   std::pair(Vec3(0.1f, -0.01f, 0.1f), Vec3(0.17f, 0.4f, 0.2f)),
-                                  std::pair(Vec3(-0.5f, 0.001f, -0.5f), Vec3(0.1f, 0.02f, 0.1f))}) {
+                                  std::pair(Vec3(-0.5f, 1e-4f, -0.5f), Vec3(0.1f, 0.02f, 0.1f))}) {
     const Scene scene =
         floorWith([&](SceneBuilder& b, int grey) { b.box(grey, low, high, false); });
     const Tracer tracer(scene, Isa::automatic);

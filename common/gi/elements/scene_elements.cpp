@@ -57,11 +57,12 @@ void SceneElements::makeBlocks(const Scene& scene, const SceneElements* before) 
   }
 }
 
-// Where something was that moved, and where it is.
+// Where something was that moved or was bent, and where it is.
 std::vector<Bounds> SceneElements::boxesOfChanges(const SceneElements& before) const {
   std::vector<Bounds> boxes;
   for (size_t i = 0; i < instances_.size(); ++i)
-    if (instances_[i].toWorld != before.instances_[i].toWorld)
+    if (instances_[i].toWorld != before.instances_[i].toWorld ||
+        instances_[i].block != before.instances_[i].block)
       boxes.push_back(before.instances_[i].box), boxes.push_back(instances_[i].box);
   return boxes;
 }

@@ -25,6 +25,10 @@ class SceneElements {
   size_t instances() const { return instances_.size(); }
   const ElementBlock& block(size_t instance) const { return *instances_[instance].block; }
   const NodeParts& parts(size_t instance) const { return *instances_[instance].parts; }
+  // The same elements, wherever they are.
+  bool isSameBlock(const SceneElements& other, size_t instance) const {
+    return instances_[instance].block == other.instances_[instance].block;
+  }
   // What lies there, and what stands on it, is the same.
   bool isShared(const SceneElements& other, size_t instance) const {
     return instances_[instance].parts == other.instances_[instance].parts;

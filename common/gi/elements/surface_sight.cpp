@@ -28,7 +28,7 @@ uint8_t SurfaceSight::hides(Vec3 x, Vec3 normal, Vec3 to) const {
 bool SurfaceSight::isCovered(uint32_t instance, uint32_t triangle, Vec2 uv, bool isBack) const {
   const SurfacePoint p = tracer.surface({instance, triangle, uv.x, uv.y, 0});
   const Vec3 away = isBack ? -p.geometricNormal : p.geometricNormal;
-  return tracer.occluded(offsetOrigin(p, away), kAbove * size * away, 1);
+  return tracer.occluded(offsetOrigin(p, away), kTouch * size * away, 1);
 }
 
 }  // namespace ninefold

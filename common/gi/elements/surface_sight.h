@@ -28,7 +28,7 @@ struct SurfaceSight {
 
   // x and `to`: places on the surface; `normal`: at x, unit.
   uint8_t hides(Vec3 x, Vec3 normal, Vec3 to) const;
-  // Something lies on that place of a triangle.
+  // Something lies on that place of a triangle, nearer than kTouch h: no light gets between.
   bool isCovered(uint32_t instance, uint32_t triangle, Vec2 uv, bool isBack) const;
   // visit(where) for what stands between two places: 0 at `from`, 1 at `to`.
   template <typename Visit>
@@ -36,6 +36,7 @@ struct SurfaceSight {
 
  private:
   static constexpr float kAbove = 1 / 32.0f, kBeyond = 1 / 64.0f, kFlat = 0.8f;
+  static constexpr float kTouch = 1e-3f;
   static constexpr int kMostStanding = 4096;
 
   bool isFlat(const Hit& hit, Vec3 normal) const {

@@ -73,7 +73,8 @@ LampPairs::LampPairs(const LampScene& scene, const AreaLamp& lamp, const LampPai
   const bool goesOn = before != nullptr && before->isUsable(scene, lamp, *then);
   std::vector<uint32_t> changed;
   for (uint32_t i = 0; goesOn && i < sides_.size(); ++i) {
-    isKept_[i] = scene.field.isShared(then->field, i) && scene.elements.isShared(then->elements, i);
+    isKept_[i] =
+        scene.field.isShared(then->field, i) && scene.elements.isSameBlock(then->elements, i);
     if (isKept_[i])
       sides_[i] = before->sides_[i];
     else

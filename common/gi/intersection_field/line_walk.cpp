@@ -7,7 +7,7 @@ SceneNodeLines::SceneNodeLines(const LineField& field, const Scene& scene,
                                const SceneElements* elementsBefore, const SceneNodeLines* before) {
   for (uint32_t i = 0; i < field.instances(); ++i) {
     const bool isKept = before != nullptr && field.isShared(*fieldBefore, i) &&
-                        elements.isShared(*elementsBefore, i);
+                        elements.isSameBlock(*elementsBefore, i);
     lines_.push_back(isKept
                          ? before->lines_[i]
                          : std::make_shared<const NodeLines>(field, scene, i, elements.block(i)));
