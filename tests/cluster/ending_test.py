@@ -179,7 +179,7 @@ class Ending(ClusterTest):
             self.assertIn(flag, self.one_line(master))
         client = self.start(BIN / "ninefold-client")
         self.assertEqual(client.ends(), 2)
-        self.assertIn("--master", self.one_line(client))
+        self.assertIn("--key-file", self.one_line(client))
 
     def test_bad_scenes_keys_and_outputs_are_one_line_and_status_1(self):
         (self.folder / "broken.glb").write_bytes(b"glTF\2\0\0\0")

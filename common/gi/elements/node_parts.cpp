@@ -12,7 +12,7 @@ namespace {
 
 // Pieces along the side of an element: to see whether all are alike, and to measure them if not.
 constexpr uint32_t kFewRows = 4, kRows = 10;
-constexpr double kLeast = 1 / 64.0;
+constexpr double kLeast = 1 / 128.0;
 
 using Sides = std::array<uint8_t, 3>;
 using Weights = std::array<float, 3>;
