@@ -29,9 +29,9 @@ class IntersectionField(State):
                                       "--field-directions \\d+ --field-distances \\d+")
 
     def test_so_it_is_in_a_session_in_real_time(self):
-        (self.folder / "s.json").write_text('{"seconds": 1, "events": []}')
-        master = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--size", self.SIZE, "--script", "s.json", *self.METHOD,
-                            "--max-field-memory", 1, "--local-clients", 1, "--output", "a.exr")
+        (self.folder / "s.json").write_text('{"seconds": 30, "events": []}')
+        master = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--size", self.SIZE, "--script", "s.json",
+                            "--method", "intersection-field", "--max-field-memory", 1, "--local-clients", 1, "--output", "a.exr")
         self.assertEqual(master.ends(), 1, master.text)
         self.assertRegex(master.text, "the intersection field would take \\d+ MiB, --max-field-memory is 1")
 

@@ -163,6 +163,17 @@ class ClusterTest(unittest.TestCase):
         self.assertTrue(master.picture.exists())
         return json.loads(master.stats_file.read_text())
 
+    def same_by(self, method, crews, *options, frames):
+        with self.subTest(method):
+            hashes = {}
+            for clients, threads in crews:
+                stats = self.render("--local-clients", clients, "--client-threads", threads, "--method", method,
+                                    *options, scene="table_room", frames=frames)
+                self.assertEqual(stats["method"], method)
+                self.assertTrue(stats["reproducible"])
+                hashes[clients, threads] = stats["image_hash"]
+            self.assertEqual(len(set(hashes.values())), 1, hashes)
+
     def render(self, *options, **more):
         return self.finish(self.master(*options, **more))
 

@@ -1,6 +1,7 @@
 """The same job gives the same bytes, whoever renders it and whatever happens to them.
 
-By every method; but what is about the wire, a frozen process or an instruction set is so by the default one alone.
+What is about the wire, a frozen process or an instruction set, by the default method alone; the number of clients, by every
+method: methods_same_bytes_test.py.
 """
 import pathlib
 import re
@@ -14,34 +15,15 @@ CHOICE = "auto"  # the method that is one of the others
 class SameBytes(ClusterTest):
     LONG = 60  # frames: enough to lose somebody in the middle
 
-    def test_any_number_of_clients_and_threads(self):
-        for method in methods():
-            self.same_by(method, [(1, 1), (2, 1), (5, 1), (1, 2), (2, 2)], frames=2)
-
     def test_light_at_vertices_and_photons_in_a_simpler_scene(self):
         simple = ("--photon-scene", SCENES / "cornell.glb")
         for options in (("--map-estimate", "vertices", "--map-subdivision", 2), simple):
             self.same_by("photon-map", [(1, 1), (2, 1), (1, 2)], *options, frames=2)
 
-    def same_by(self, method, crews, *options, frames):
-        with self.subTest(method):
-            hashes = {}
-            for clients, threads in crews:
-                stats = self.render("--local-clients", clients, "--client-threads", threads, "--method", method,
-                                    *options, scene="table_room", frames=frames)
-                self.assertEqual(stats["method"], method)
-                self.assertTrue(stats["reproducible"])
-                hashes[clients, threads] = stats["image_hash"]
-            self.assertEqual(len(set(hashes.values())), 1, hashes)
-
     def test_compression_does_not_show(self):
         hashes = {level: self.render("--local-clients", 2, "--wire-level", level, frames=3)["image_hash"]
                   for level in ("auto", 0, 1, 5)}
         self.assertEqual(len(set(hashes.values())), 1, hashes)
-
-    def test_filtered_by_clients_any_number_of_them(self):
-        for method in methods():
-            self.same_by(method, [(1, 1), (3, 1), (1, 2)], "--filter-at", "clients", frames=2)
 
     def test_pictures_on_the_way_do_not_show(self):
         expected = self.render("--local-clients", 1, frames=24)["image_hash"]
