@@ -1,8 +1,8 @@
 // file_lock.h: one program at a time has a file, though the file itself is replaced by renaming
 // (written_file.h).
 //
-// The lock is on an empty file beside it, .ninefold.NAME.lock, which goes with this object. One that
-// a killed program left is taken over. NAME is what the name leads to through symbolic links.
+// The lock is on an empty file beside it, .ninefold.NAME.lock, which goes with this object. One
+// that a killed program left is taken over. NAME is what the name leads to through symbolic links.
 //
 // Owner:   who keeps the file.   Threads: one at a time.
 // Errors:  throws Error in one line: another has it; the folder cannot be written.

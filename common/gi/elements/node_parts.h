@@ -1,10 +1,10 @@
 // node_parts.h: what stands on a surface divides its nodes into parts, whose light is their own.
 //
-//   side    of x, towards a corner of its element: 0 if x sees it (surface_sight.h), or sees another
-//           corner that sees it; else what hides it
+//   side    of x, towards a corner of its element: 0 if x sees it (surface_sight.h), or sees
+//           another corner that sees it; else what hides it
 //   part    of a node, on one face of the surface: those places on its elements that have one side
-//   A_part  sum over the middles of kRows^2 alike pieces of each element of w dA; what lies under
-//           something, or is a hole, has no area
+//   A_part  sum over the middles of kRows^2 alike pieces of each element of w dA; what something
+//           touches (surface_sight.h), or is a hole, has no area
 //
 // So light does not leak under a wall that stands on an element, and what a thing covers is no area
 // of what is around it: inside of things are parts of their own, which no light reaches.
@@ -12,8 +12,8 @@
 // Elements on which nothing stands are not divided. Those wholly on one side need no ray, the
 // others up to three short ones for each place that is asked.
 //
-// Parts smaller than kLeast h^2 belong to the node's largest one: alone they would get hardly a
-// photon.
+// Parts smaller than kLeast h^2 belong to the node's largest one: too few pieces tell their area,
+// and they would get hardly a photon.
 //
 // It is that of the scene as it is now: what moves uncovers where it was, and covers where it goes.
 // Hits of photons name triangles and places, so that they need not be traced again for that.

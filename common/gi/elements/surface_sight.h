@@ -1,6 +1,6 @@
 // surface_sight.h: what stands on a surface hides places of it from each other.
 //
-//   way    from x to another place, kAbove h over the surface and kBeyond h further than that place,
+//   way    from x to another place, kAbove h over the surface and kBeyond h beyond that place,
 //          so that what stands exactly there is met from either side
 //   side   of what stands in the way, as x sees it: the main axis of its normal, and whether its
 //          front or its back is met. So the two sides of a wall differ, and so do inside and
