@@ -1,5 +1,7 @@
 #include "client/render_job.h"
 
+#include "common/base/log.h"
+#include "common/gi/method/too_many_lines.h"
 #include "common/gi/whole_state.h"
 #include "common/sampling/whole_tile.h"
 #include "common/scene/methods.h"
@@ -19,8 +21,8 @@ constexpr size_t kFramesKept = 4;
 RenderJob::RenderJob(std::shared_ptr<const TracedScene> scene, uint32_t jobVersion,
                      const Settings& settings, const Delivery& delivery, int threads,
                      const RenderJob* before)
-    : light_(std::make_shared<Light>(std::move(scene), settings, delivery, threads,
-                                     before != nullptr ? before->light_.get() : nullptr)),
+    : light_(lightOf(scene, settings, delivery, threads,
+                     before != nullptr ? before->light_.get() : nullptr)),
       jobVersion_(jobVersion),
       settings_(settings),
       delivery_(delivery),
@@ -39,6 +41,28 @@ RenderJob::RenderJob(const RenderJob& lit, uint32_t jobVersion, const Settings& 
       layerMask_(lit.layerMask_),
       renderer_(light_->renderer, settings),
       toneMap_(Tone{delivery.exposure, delivery.curve}) {}
+
+// A pure function of the scene, its gesture's beginning and the settings, but for what `before`
+// saves.
+std::shared_ptr<RenderJob::Light> RenderJob::lightOf(
+    const std::shared_ptr<const TracedScene>& scene, const Settings& wanted,
+    const Delivery& delivery, int threads, Light* before) {
+  Settings settings = wanted;
+  std::string refusal;
+  for (;;) try {
+      auto light = std::make_shared<Light>(scene, settings, delivery, threads, before);
+      const bool isNews =
+          before == nullptr || before->settings.fieldDirections >= wanted.fieldDirections;
+      if (!refusal.empty() && isNews)
+        warn("after this edit {}; the picture goes on with {} x {}", refusal,
+             settings.fieldDirections, settings.fieldDistances);
+      return light;
+    } catch (const TooManyLines& refused) {
+      if (scene->scene == scene->asFetched || refused.directions == 0) throw;
+      if (refusal.empty()) refusal = refused.what();
+      settings.fieldDirections = refused.directions, settings.fieldDistances = refused.distances;
+    }
+}
 
 RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& its,
                         const Delivery& delivery, int threads, Light* before)

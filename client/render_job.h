@@ -11,6 +11,9 @@
 // Where a method makes its light for a view, jobs of other cameras and sizes share what was worked
 // out about the lamps, but make their own sets.
 //
+// An edit for which --max-field-memory has no room gets as many lines as it has room for, and a
+// warning.
+//
 // Threads: run() at once for different `thread`; each has its own working memory, light sets are
 // shared through the cache.
 // Owner: shared_ptr; tasks in progress keep it alive.
@@ -111,7 +114,7 @@ class RenderJob {
     Light(std::shared_ptr<const TracedScene> scene, const Settings& settings,
           const Delivery& delivery, int threads, Light* before);
     const std::shared_ptr<const TracedScene> scene;
-    const Settings settings;
+    const Settings settings;  // those asked for, but for lines that have no room
     const SurfaceTest filter;
     const uint8_t layerMask;
     const std::shared_ptr<const Renderer> begun;  // of scene->begun
@@ -120,6 +123,10 @@ class RenderJob {
     LightSetCache sets;
     std::vector<std::unique_ptr<Desk>> desks;
   };
+
+  static std::shared_ptr<Light> lightOf(const std::shared_ptr<const TracedScene>& scene,
+                                        const Settings& wanted, const Delivery& delivery,
+                                        int threads, Light* before);
 
   const std::shared_ptr<Light> light_;
   const uint32_t jobVersion_;

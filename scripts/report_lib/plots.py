@@ -129,16 +129,33 @@ def answers(path, responses):
     _finish(figure, path)
 
 
-def bias(path, series, slopes, label="paths of the pool"):
-    """series: {scene: [(paths, bias)]}; slopes: of the line through each, or None; label: of what the bias is over."""
+def bias(path, series, slopes):
+    """series: {scene: [(paths, bias)]}; slopes: of the line through each, or None."""
     figure, axis = plot.subplots(figsize=(4.6, 3.4), layout="constrained")
     for colour, (scene, points) in zip(COLOURS, series.items()):
         seen = [(x, y) for x, y in points if y > 0]
         text = f"{scene}, slope {slopes[scene]:.2f}" if slopes[scene] is not None else scene
         if seen:
             axis.plot(*zip(*seen), "o-", color=colour, markersize=3, linewidth=1, label=text)
-    axis.set(xscale="log", yscale="log", xlabel=label, ylabel="relMSE of the mean")
+    axis.set(xscale="log", yscale="log", xlabel="paths of the pool", ylabel="relMSE of the mean")
     axis.legend(fontsize=7)
+    axis.grid(True, color="0.92")
+    _finish(figure, path)
+
+
+def lines(path, series, across, upwards):
+    """series: {label: [(x, y)]}; both axes by powers of ten. What is not above 0 is left out."""
+    figure, axis = plot.subplots(figsize=(5.6, 3.4), layout="constrained")
+    for colour, (label, points) in zip(COLOURS, series.items()):
+        seen = [(x, y) for x, y in points if y > 0]
+        if seen:
+            axis.plot(*zip(*seen), "o-", color=colour, markersize=3, linewidth=1, label=label)
+    axis.set(xscale="log", yscale="log", xlabel=across, ylabel=upwards)
+    for scale in (axis.xaxis, axis.yaxis):
+        scale.set_major_formatter("{x:g}")
+        low, high = scale.get_view_interval()
+        scale.set_minor_formatter("{x:g}" if high < 5 * low else NullFormatter())
+    axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
     axis.grid(True, color="0.92")
     _finish(figure, path)
 

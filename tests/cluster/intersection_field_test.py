@@ -1,6 +1,8 @@
 """An intersection field in a cluster of real programs: whoever dies and joins, in a run at rest or in the middle of an edit,
 the pictures are those of a run in peace.
 """
+import json
+import re
 import unittest
 
 from programs import BIN, SCENES
@@ -34,6 +36,33 @@ class IntersectionField(State):
                             "--method", "intersection-field", "--max-field-memory", 1, "--local-clients", 1, "--output", "a.exr")
         self.assertEqual(master.ends(), 1, master.text)
         self.assertRegex(master.text, "the intersection field would take \\d+ MiB, --max-field-memory is 1")
+
+    # The tall block of cornell grows by a twist: 37 MiB have room for the field before, not for the one after.
+    TWIST = {"from": 1, "to": 2, "object": "tall block", "twist": 340}
+    SMALL = ("--method", "intersection-field", "--field-photons", 4096, "--max-field-memory", 37)
+    FEWER = ("after this edit the intersection field would take \\d+ MiB, --max-field-memory is 37: raise it, or use "
+             "--field-directions \\d+ --field-distances \\d+; the picture goes on with \\d+ x \\d+")
+
+    def script(self, **more):
+        (self.folder / "s.json").write_text(json.dumps({"seconds": 4, "events": [self.TWIST], **more}))
+        return SCENES / "cornell.glb", "--size", self.SIZE, "--script", "s.json", *self.SMALL
+
+    def test_an_edit_that_makes_it_too_large_goes_on_with_fewer_lines(self):
+        master = self.start(BIN / "ninefold-master", *self.script(), "--local-clients", 1, "--output", "a.png")
+        self.assertEqual(master.ends(), 0, master.text)
+        self.assertEqual(len(re.findall(self.FEWER, master.text)), 1, master.text)
+        self.assertNotIn("is gone", master.text)
+
+    def test_and_all_clients_go_on_with_as_many(self):
+        stills = []
+        for clients in (1, 2):
+            master = self.start(BIN / "ninefold-master", *self.script(rate=1, frames=2), "--local-clients", clients,
+                                "--wait-clients", clients, "--output", f"{clients}.#.png")
+            self.assertEqual(master.ends(), 0, master.text)
+            self.assertRegex(master.text, self.FEWER)
+            stills.append([file.read_bytes() for file in sorted(self.folder.glob(f"{clients}.*.png"))])
+        self.assertEqual(len(stills[0]), 5)
+        self.assertTrue(stills[0] == stills[1])
 
 
 del State  # its own tests run elsewhere

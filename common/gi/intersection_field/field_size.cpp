@@ -2,9 +2,9 @@
 
 #include <numeric>
 
-#include "common/base/error.h"
 #include "common/gi/intersection_field/lamp_pairs.h"
 #include "common/gi/intersection_field/node_lines.h"
+#include "common/gi/method/too_many_lines.h"
 
 namespace ninefold {
 namespace {
@@ -75,10 +75,12 @@ double fieldBytes(const LineGrid& grid, const FieldPlan& plan) {
 
 void checkFieldSize(const LineGrid& grid, const FieldPlan& plan, const Settings& s) {
   const double most = s.maxFieldMemory * 0x1p20;
-  const double bytes = fieldBytes(grid, plan);
+  if (fieldBytes(grid, plan) < most / 2) return;
+  // All clients decide alike, whatever they know already.
+  const FieldPlan fresh{plan.scene, plan.elements, plan.lamps};
+  const double bytes = fieldBytes(grid, fresh);
   if (bytes <= most) return;
   // Runs of large triangles go with N^2 M, of small ones with N^2 M^2; what nodes keep, with none.
-  const FieldPlan fresh{plan.scene, plan.elements, plan.lamps};
   const auto bytesAt = [&](int directions, int distances) {
     return fieldBytes(LineGrid(plan.scene.bounds, directions, distances), fresh);
   };
@@ -92,13 +94,15 @@ void checkFieldSize(const LineGrid& grid, const FieldPlan& plan, const Settings&
     fitting = bytesAt(directions, distances);
     shrink *= 0.95;
   }
+  const bool hasRoom = fitting <= most;
   const std::string remedy =
-      fitting > most
-          ? "--element-size larger, or another method"
-          : fmt::format("--field-directions {} --field-distances {}", directions, distances);
-  fail(
-      "the intersection field would take {:.0f} MiB, --max-field-memory is {}: raise it, or use {}",
-      std::ceil(bytes * 0x1p-20), s.maxFieldMemory, remedy);
+      hasRoom ? fmt::format("--field-directions {} --field-distances {}", directions, distances)
+              : "--element-size larger, or another method";
+  throw TooManyLines(
+      fmt::format("the intersection field would take {:.0f} MiB, --max-field-memory is {}: raise "
+                  "it, or use {}",
+                  std::ceil(bytes * 0x1p-20), s.maxFieldMemory, remedy),
+      hasRoom ? directions : 0, hasRoom ? distances : 0);
 }
 
 }  // namespace ninefold
