@@ -38,7 +38,7 @@ class IntersectionField(State):
         self.assertRegex(master.text, "the intersection field would take \\d+ MiB, --max-field-memory is 1")
 
     # The tall block of cornell grows by a twist: 37 MiB have room for the field before, not for the one after.
-    TWIST = {"from": 1, "to": 2, "object": "tall block", "twist": 340}
+    TWIST = {"from": 0, "to": 4, "object": "tall block", "twist": 340}
     SMALL = ("--method", "intersection-field", "--field-photons", 4096, "--max-field-memory", 37)
     FEWER = ("after this edit the intersection field would take \\d+ MiB, --max-field-memory is 37: raise it, or use "
              "--field-directions \\d+ --field-distances \\d+; the picture goes on with \\d+ x \\d+")
