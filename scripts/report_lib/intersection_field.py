@@ -113,7 +113,8 @@ def _add_surfaces(context, section):
             file = os.path.join(context.folder, "ball.obj")
             with open(file, "w", encoding="utf-8") as out:
                 out.write(ball_in_a_room(radius, rings))
-            made = context.programs.intersection_field(file, "--camera", "0,0,0.9:0,0,0:40", *METHOD, *ROOM)
+            made = context.programs.intersection_field(file, "--camera", "0,0,0.9:0,0,0:40", *METHOD, *_grid(*GRIDS[-1]),
+                                                       *ROOM)
             triangles, surface = made["triangles"] - ROOM_TRIANGLES, made["surface"] - ROOM_SURFACE
             table.data.append({"radius": radius, "surface": surface, "triangles": triangles, "seconds": made["field_seconds"],
                                "bytes": made["field_bytes"]})

@@ -154,7 +154,7 @@ def lines(path, series, across, upwards):
     for scale in (axis.xaxis, axis.yaxis):
         scale.set_major_formatter("{x:g}")
         low, high = scale.get_view_interval()
-        scale.set_minor_formatter("{x:g}" if high < 5 * low else NullFormatter())
+        scale.set_minor_formatter("{x:g}" if high < 12 * low else NullFormatter())
     axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
     axis.grid(True, color="0.92")
     _finish(figure, path)

@@ -85,6 +85,7 @@ LampPairs::LampPairs(const LampScene& scene, const AreaLamp& lamp, const LampPai
   GridLine page;
   page.m = -1;  // none yet
   Places wanted;
+  std::vector<LineHit> hits;
   local.forEachRun([&](GridLine line, uint32_t r) {
     if (!(line == page)) {
       page = line, wanted.reset();
@@ -97,8 +98,8 @@ LampPairs::LampPairs(const LampScene& scene, const AreaLamp& lamp, const LampPai
     for (line.m = run.first; line.m < run.first + run.count; ++line.m) {
       if (!wanted[static_cast<size_t>(line.m)]) continue;
       ++lines_;
-      if (goesOn) look(*then, lamp, line, run, -1);
-      look(scene, lamp, line, run, 1);
+      if (goesOn) look(*then, lamp, line, run, -1, hits);
+      look(scene, lamp, line, run, 1, hits);
     }
   });
 }
@@ -128,9 +129,8 @@ size_t LampPairs::bytes() const {
 }
 
 void LampPairs::look(const LampScene& scene, const AreaLamp& lamp, const GridLine& line,
-                     const LineRun& run, int sign) {
+                     const LineRun& run, int sign, std::vector<LineHit>& hits) {
   const LineGrid& grid = scene.field.grid();
-  std::vector<LineHit> hits;
   scene.field.hitsOf(line, hits);
   const LineHit q{lamp.instance, run.triangle, run.at(line.m)};
   const auto found = std::find(hits.begin(), hits.end(), q);
@@ -184,9 +184,12 @@ void LampPairs::add(const LampScene& scene, const Line& from, const LineHit& hit
   for (size_t c = 0; c < 3; ++c) {
     Sums& sums = sides[2 * place.nodes[c] + (isBack != place.isTurned ? 1 : 0)];
     const double weight = double{from.weight * place.weights[c]};
-    sums.all += sign * toFixed(weight, kQuantum);
+    const int64_t all = sign * toFixed(weight, kQuantum);
+    sums.all += all;
+    if (isBlack(seen)) continue;
     for (int i = 0; i < 3; ++i)
-      sums.seen[static_cast<size_t>(i)] += sign * toFixed(weight * double{seen[i]}, kQuantum);
+      sums.seen[static_cast<size_t>(i)] +=
+          seen[i] == 1 ? all : sign * toFixed(weight * double{seen[i]}, kQuantum);
   }
 }
 

@@ -75,8 +75,9 @@ class LampPairs {
   struct Line;  // through the lamp
 
   bool isUsable(const LampScene& scene, const AreaLamp& lamp, const LampScene& then) const;
+  // `hits`: room for those of the line.
   void look(const LampScene& scene, const AreaLamp& lamp, const GridLine& line, const LineRun& run,
-            int sign);
+            int sign, std::vector<LineHit>& hits);
   void addPairs(const LampScene& scene, const Line& line, int sign);
   void add(const LampScene& scene, const Line& line, const LineHit& hit, Vec3 seen, int sign);
   Sides& own(const LampScene& scene, uint32_t instance);
