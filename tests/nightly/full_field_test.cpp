@@ -4,6 +4,7 @@
 
 #include "common/gi/intersection_field/intersection_field.h"
 #include "common/scene/reader.h"
+#include "common/scene/world.h"
 #include "tests/gi/line_rays.h"
 #include "tests/gi/render.h"
 
