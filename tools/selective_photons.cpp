@@ -149,12 +149,8 @@ Json update(const Renderer& before, const Renderer& after, const Settings& setti
   uint64_t bytes = 0;
   for (const auto& [id, page] : pages.all())
     if (const auto* records = std::get_if<Records>(page.get())) bytes += records->size();
-  return {{"hits", allOf(fresh)},
-          {"amiss", amiss},
-          {"state_bytes", bytes},
-          {"rays", rays.total()},
-          {"elements", elements},
-          {"curve", curve}};
+  return {{"hits", allOf(fresh)}, {"amiss", amiss},       {"state_bytes", bytes},
+          {"rays", rays.total()}, {"elements", elements}, {"curve", curve}};
 }
 
 int run(int argc, char** argv) {
