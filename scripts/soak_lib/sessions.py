@@ -53,6 +53,8 @@ class Place:
         other = release[:-1] + (b"0" if release[-1:] != b"0" else b"1")
         self.other_client.write_bytes((BIN / "ninefold-client").read_bytes().replace(release, other))
         self.other_client.chmod(0o755)
+        check(other in subprocess.run([self.other_client, "--version"], check=True, capture_output=True).stdout,
+              "ninefold-client does not hold its release's name in one piece")
 
     def start(self, *command):
         self.programs.append(Program(command, self.folder))
