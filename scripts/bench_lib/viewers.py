@@ -215,12 +215,12 @@ def main(words):
         print(f"bench_viewers: {failure}", file=sys.stderr)
         return 1
     output.write_table("bench_viewers", "A cluster that is looked at", watched, (
-        f"{SCENE} {options.size} at rest. Replayed: NOT rendering: clients answer with what one real client gave, after F times the time",
-        "that it took. Viewers and clients are on the master's own cores."))
+        f"{SCENE} {options.size} at rest. Replayed: NOT rendering: clients answer with what one real client gave, after F",
+        "times the time that it took. Viewers and clients are on the master's own cores."))
     output.write_table("bench_viewers", "A viewer on a thin line", thin, (
-        f"{SCENE} {options.size}, two local clients that render, the camera moving all along. Age: from the moment at which the exposure that",
-        "comes with a picture was asked for, on the master's machine, to the moment at which the viewer has it all. The picture itself may be one",
-        "frame older."))
+        f"{SCENE} {options.size}, two local clients that render, the camera moving all along. Age: from the moment at which",
+        "the exposure that comes with a picture was asked for, on the master's machine, to the moment at which the viewer has it",
+        "all. The picture itself may be one frame older."))
     return 0
 
 
