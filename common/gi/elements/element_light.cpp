@@ -18,6 +18,13 @@ double quantumOf(const StatePages& pages, const PhotonRows& rows) {
   return fluxQuantum(fluxBand(std::max(brightest, 0x1p-100f)));
 }
 
+// Else all of it is sooner added up than what changed is taken away and added.
+bool sharesMost(const StatePages& a, const StatePages& b, const PhotonRows& rows) {
+  uint32_t shared = 0;
+  for (uint32_t r = 0; r < rows.count(); ++r) shared += rows.isShared(a, b, r);
+  return 2 * shared >= rows.count();
+}
+
 bool hasAny(const std::vector<bool>& wanted) {
   return std::find(wanted.begin(), wanted.end(), true) != wanted.end();
 }
@@ -36,7 +43,8 @@ ElementLight::ElementLight(const Tracer& tracer, const StatePages& pages, const 
       quantum_(quantumOf(pages_, rows_)) {
   const bool goesOn = before != nullptr && before->quantum_ == quantum_ && before->rule_ == rule_ &&
                       before->rows_ == rows_ &&
-                      before->elements_->instances() == elements_->instances();
+                      before->elements_->instances() == elements_->instances() &&
+                      sharesMost(pages_, before->pages_, rows_);
   const Wanted fresh = begin(goesOn ? before : nullptr);
   Wanted kept = fresh;
   kept.flip();
