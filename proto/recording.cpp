@@ -73,12 +73,4 @@ std::vector<Message> readRecording(const std::filesystem::path& file) {
   return messages;
 }
 
-std::vector<msg::Result> readResults(const std::filesystem::path& file) {
-  std::vector<msg::Result> results;
-  for (Message& message : readRecording(file))
-    if (auto* result = std::get_if<msg::Result>(&message)) results.push_back(std::move(*result));
-  if (results.empty()) fail("recording {}: holds no result", file.string());
-  return results;
-}
-
 }  // namespace ninefold

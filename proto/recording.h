@@ -39,6 +39,5 @@ class Recorder {
 
 // In the file's order. A last message that was cut short (a full disk) is left out.
 std::vector<Message> readRecording(const std::filesystem::path& file);
-std::vector<msg::Result> readResults(const std::filesystem::path& file);
 
 }  // namespace ninefold

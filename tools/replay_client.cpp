@@ -4,11 +4,12 @@
 // They load the master and the network as real clients do, at any number, without a core for each.
 // With --pace recorded an answer takes the recorded time; the first task of each light set of a
 // frame takes longer, by what light sets took in the mean. --slower F makes all times F times as
-// long, so that the clients leave the machine to the master. Recorded frames repeat. One thread
-// serves all. Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
+// long, so that the clients leave the machine to the master. Recorded frames repeat, each for tasks
+// that ask for the planes that it has: for a session record one. One thread serves all. Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
 
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "common/sampling/interleave.h"
 #include "proto/connection.h"
@@ -26,18 +27,17 @@ struct Options {
   double slower = 1;
 };
 
-using TaskPlace = std::pair<uint32_t, uint32_t>;  // tile, phase
+using TaskPlace = std::tuple<uint32_t, uint32_t, uint8_t>;  // tile, phase, its ExtraPlanes
 
 // What was recorded, frame by frame.
 class Recorded {
  public:
   explicit Recorded(const std::string& file) {
-    std::map<uint32_t, size_t> numbers;
-    for (msg::Result& result : readResults(file)) {
-      const size_t number = numbers.emplace(result.frame, numbers.size()).first->second;
-      if (number == frames_.size()) frames_.emplace_back();
-      frames_[number].emplace(TaskPlace(result.tile, result.phase), std::move(result));
+    for (Message& message : readRecording(file)) {
+      if (const auto* tasks = std::get_if<msg::Tasks>(&message)) note(*tasks);
+      if (auto* result = std::get_if<msg::Result>(&message)) add(std::move(*result));
     }
+    if (frames_.empty()) fail("recording {}: holds no result", file);
     measureSets();
   }
 
@@ -45,7 +45,7 @@ class Recorded {
   const msg::Result* find(uint32_t frame, const msg::TaskItem& item) const {
     for (size_t tried = 0; tried < frames_.size(); ++tried) {  // the last frame may be incomplete
       const auto& results = frames_[(frame + tried) % frames_.size()];
-      const auto found = results.find({item.tile, item.phase});
+      const auto found = results.find({item.tile, item.phase, item.extraMask});
       if (found != results.end()) return &found->second;
     }
     return nullptr;
@@ -57,6 +57,16 @@ class Recorded {
   Duration setTime() const { return setTime_; }
 
  private:
+  void note(const msg::Tasks& tasks) {
+    for (const msg::TaskItem& item : tasks.items)
+      planes_[{tasks.frame.frame, item.tile, item.phase}] = item.extraMask;
+  }
+  void add(msg::Result&& result) {
+    const uint8_t planes = planes_[{result.frame, result.tile, result.phase}];
+    const size_t number = numbers_.emplace(result.frame, numbers_.size()).first->second;
+    if (number == frames_.size()) frames_.emplace_back();
+    frames_[number].emplace(TaskPlace(result.tile, result.phase, planes), std::move(result));
+  }
   // Mean time of tasks that made their light set, less that of those which found it made.
   void measureSets() {
     std::array<double, 2> sum{}, count{};
@@ -71,6 +81,8 @@ class Recorded {
   }
 
   std::vector<std::map<TaskPlace, msg::Result>> frames_;
+  std::map<uint32_t, size_t> numbers_;                                  // in frames_, of a frame
+  std::map<std::tuple<uint32_t, uint32_t, uint32_t>, uint8_t> planes_;  // of frame, tile, phase
   Duration setTime_{0};
 };
 
@@ -96,7 +108,9 @@ class ReplayClient {
     events.onMessage = [this](Message&& message) {
       std::visit([this](auto& m) { on(m); }, message);
     };
-    events.onClosed = [this](const std::string& reason) { onEnd_(ending_, reason); };
+    events.onClosed = [this](const std::string& reason) {
+      onEnd_(ending_, failure_.empty() ? reason : failure_);
+    };
     connection_->start(std::move(events));
     msg::Hello hello;
     hello.name = fmt::format("replay {}", number_);
@@ -134,13 +148,15 @@ class ReplayClient {
 
   void stop(std::string why) {
     ending_ = Ending::failed;
+    failure_ = why;
     connection_->close(std::move(why));
   }
   void take(const FrameKey& frame, const msg::TaskItem& item, bool urgent) {
     const msg::Result* recorded = recorded_.find(frame.frame, item);
     if (recorded == nullptr)
-      return stop(fmt::format("no result for tile {}, phase {}: recorded of another picture?",
-                              item.tile, item.phase));
+      return stop(
+          fmt::format("no result for tile {}, phase {}, planes {:#x}: recorded of another picture?",
+                      item.tile, item.phase, item.extraMask));
     msg::Result result = *recorded;
     result.jobVersion = job_, result.frame = frame.frame;
     const int set = lightSetOfPhase(static_cast<int>(item.phase), frame.rotation, sets_);
@@ -194,6 +210,7 @@ class ReplayClient {
   std::set<std::pair<uint32_t, int>> made_;  // light sets, by randomization
   std::unique_ptr<EventLoop::Timer> timer_;
   Ending ending_ = Ending::lost;
+  std::string failure_;
 };
 
 // All of them in one loop. A lost connection is dialled again; ends when the master is done.
@@ -241,7 +258,7 @@ class Replay {
       retries_[i] = loop_.after(milliseconds(500), [this, i] { dial(i); });
       return;
     }
-    if (ending == Ending::failed) failure_ = reason;
+    if (ending == Ending::failed && failure_.empty()) failure_ = reason;
     if (--left_ == 0 || ending == Ending::failed) loop_.stop();
   }
 

@@ -1,7 +1,7 @@
 // release.h: what all programs of a cluster are built from. The handshake refuses others.
 //
 // The name holds the project's version, the commit, and a digest of what differs from the commit.
-// cmake/release.cmake writes releaseName() at each build.
+// cmake/release.cmake writes it at each build.
 #pragma once
 
 #include <string>

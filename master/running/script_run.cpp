@@ -61,7 +61,7 @@ class ScriptRun {
   void take(const std::shared_ptr<const Shown>& shown) {
     const std::lock_guard lock(mutex_);
     if (shots_) shots_->take(Clock::now(), latest_);
-    log_.add(*shown);
+    if (options_.stats) log_.add(*shown);
     latest_ = shown;
     if (!shown->frame.moving && shown->frames == script().frames) still_ = shown;
     arrived_.notify_all();

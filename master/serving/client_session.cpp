@@ -142,10 +142,13 @@ void ClientSession::expel(const std::string& reason) {
   finish(reason);
 }
 
-void ClientSession::disconnected() { status_.state = ClientState::lost; }
+void ClientSession::disconnected() {
+  status_.state = ClientState::lost;
+  offered_.reset();  // the session stays among the run's clients; a version's pages need not
+}
 
 void ClientSession::finish(const std::string& reason) {
-  status_.state = ClientState::lost;
+  disconnected();
   push(todo::Finish{reason});
 }
 

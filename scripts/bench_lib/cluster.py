@@ -85,11 +85,12 @@ class Cluster:
         file = os.path.join(self.folder, name + ".recording")
         return file, self.real(scene, [*arguments, "--frames", frames], 1, threads, file)
 
-    def replay(self, scene, arguments, recording, count, pace="full", slower=1):
+    def replay(self, scene, arguments, recording, count, pace="full", slower=1, threads=1):
         """Clients that send a recording."""
         def clients(address):
             return [[program("ninefold-replay-client"), "--master", address, "--key-file", self.key,
-                     "--recording", recording, "--clients", str(count), "--pace", pace, "--slower", str(slower)]]
+                     "--recording", recording, "--clients", str(count), "--pace", pace, "--slower", str(slower),
+                     "--threads", str(threads)]]
         return self.run(scene, [*arguments, "--local-clients", 0, "--wait-clients", count], clients)
 
 

@@ -69,12 +69,15 @@ def folder(parent):
 
 
 @contextlib.contextmanager
-def system(release):
+def system(release, files=None):
+    """With the files of the folder `files`, if any, at their places."""
     tar = empty(release)
     with folder(CACHE) as place:
         place.chmod(0o755)
         run("tar", "-C", place, "-xf", tar)
         shutil.copy("/etc/resolv.conf", place / "etc/resolv.conf")
+        if files:
+            shutil.copytree(files, place, dirs_exist_ok=True)
         # Nothing here must outlive a power cut.
         (place / "etc/dpkg/dpkg.cfg.d/unsafe-io").write_text("force-unsafe-io\n")
         yield System(place)

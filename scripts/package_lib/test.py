@@ -32,10 +32,10 @@ def this_release():
     return platform.freedesktop_os_release()["VERSION_CODENAME"]
 
 
-def build(release, folder):
+def build(release, folder, files):
     if release == this_release():
         return run(ROOT / "scripts/package", folder)
-    with system(release) as place:
+    with system(release, files) as place:
         run("git", "clone", "-q", ROOT, place.path("/root/ninefold"))
         place.run("apt-get update -qq && cd ninefold && scripts/package /root/packages")
         folder.mkdir(parents=True)
@@ -49,8 +49,8 @@ def put_packages(place, folder):
     place.run("apt-get update -qq")
 
 
-def test_client_alone(release, folder):
-    with system(release) as place:
+def test_client_alone(release, folder, files):
+    with system(release, files) as place:
         put_packages(place, folder)
         place.run(PAGE["install-client"])
         came = [name for name in WINDOW if place.has(name)]
@@ -134,8 +134,8 @@ def test_machine(machine):
     check(finish(machine, master(machine, "ssh", local_clients=0), hashes) == ["render1"], "ssh starts the client")
 
 
-def test_all(release, folder):
-    with system(release) as place:
+def test_all(release, folder, files):
+    with system(release, files) as place:
         put_packages(place, folder)
         place.run(PAGE["install"])
         print("== pages", flush=True)
@@ -162,21 +162,24 @@ def main():
     parser = argparse.ArgumentParser(prog="test_packages")
     parser.add_argument("release", nargs="?", choices=["bookworm", "trixie"], default=this_release())
     parser.add_argument("--packages", type=pathlib.Path)
+    parser.add_argument("--files", type=pathlib.Path)
     arguments = parser.parse_args()
     if os.geteuid() != 0 or not shutil.which("debootstrap") or not shutil.which("systemd-nspawn"):
         sys.exit("test_packages: needs root, debootstrap and systemd-container")
+    if arguments.files and not arguments.files.is_dir():
+        sys.exit(f"test_packages: no folder {arguments.files}; give the one that --files copies from")
     folder = arguments.packages
     if folder is None:
         folder = ROOT / "out/packages-test" / arguments.release
         shutil.rmtree(folder, ignore_errors=True)
         print("== build", flush=True)
-        build(arguments.release, folder)
+        build(arguments.release, folder, arguments.files)
     try:
         print("== lintian", flush=True)
         test_lintian(folder)
         print("== client alone", flush=True)
-        test_client_alone(arguments.release, folder)
-        test_all(arguments.release, folder)
+        test_client_alone(arguments.release, folder, arguments.files)
+        test_all(arguments.release, folder, arguments.files)
     except Failure as failure:
         sys.exit(f"test_packages: {failure}")
     print(f"the packages work on {arguments.release}")

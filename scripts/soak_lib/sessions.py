@@ -17,8 +17,8 @@ from soak_lib.weather import GUESTS, Weather
 
 SIZE = "160x120"
 DATE = re.compile(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d")  # in a file, of when it was made
-# Bytes that a settled process may take more: what malloc keeps of bursts, tiles and queues of frozen and slowed clients.
-GROWTH = 16e6
+# Bytes that a settled process may take more: a connected client's 0.3 MB, some kB of each that has left, what malloc keeps.
+GROWTH = 4e6
 EDITS = [{"from": 1, "to": 4, "object": "short block", "by": [0.05, 0, 0.02]},
          {"from": 4, "to": 8, "object": "short block", "by": [-0.04, 0, 0], "turn": 30},
          {"from": 2, "to": 6, "object": "tall block", "turn": -20},
@@ -53,6 +53,8 @@ class Place:
         other = release[:-1] + (b"0" if release[-1:] != b"0" else b"1")
         self.other_client.write_bytes((BIN / "ninefold-client").read_bytes().replace(release, other))
         self.other_client.chmod(0o755)
+        check(other in subprocess.run([self.other_client, "--version"], check=True, capture_output=True).stdout,
+              "ninefold-client does not hold its release's name in one piece")
 
     def start(self, *command):
         self.programs.append(Program(command, self.folder))

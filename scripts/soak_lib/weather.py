@@ -95,9 +95,9 @@ class Weather:
         for guest in self.guests:
             guest.thaw()
             guest.line.pause = 0
-        self.look_at_strangers()
         for program, _ in self.strangers:
-            self.place.forget(program)
+            program.ends()  # a master is there, which tells them
+        self.look_at_strangers()
 
     def end(self):
         for guest in self.guests:

@@ -187,9 +187,9 @@ class Viewer(WebSocket):
 class ServeTest(ClusterTest):
     """A master that serves, and viewers at it."""
 
-    def serve(self, *options, address="127.0.0.1:0", scene="table_room"):
+    def serve(self, *options, address="127.0.0.1:0", scene="table_room", clients=1):
         self.master = self.start(BIN / "ninefold-master", SCENES / f"{scene}.glb", "--size", self.SIZE, "--serve",
-                                 address, "--local-clients", 1, *options)
+                                 address, "--local-clients", clients, *options)
         found = self.master.waits_for(r"serving at (https?)://(\S+):(\d+)/#token=(\S+)")
         self.port, self.token = int(found.group(3)), found.group(4)
         return found

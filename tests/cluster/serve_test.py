@@ -166,5 +166,27 @@ class Acts(ServeTest):
         self.assertEqual(read_png(self.folder / "last.png")[:2], (96, 72))
 
 
+class Replayed(ServeTest):
+    def test_recorded_clients_answer_a_session(self):
+        """Its first frame asks for planes that the others lack: objects and distances, for clicks."""
+        key = "--key-file", "cluster.key"
+        subprocess.run([BIN / "ninefold-master", "--new-key", "cluster.key"], cwd=self.folder, check=True, capture_output=True)
+        self.serve(*key, clients=0)
+        client = self.start(BIN / "ninefold-client", "--master", self.address_of(self.master), *key, "--threads", 1, "--cache",
+                            "none", "--record", "session.recording")
+        self.at_rest(self.view(), 4)
+        self.master.process.send_signal(signal.SIGTERM)
+        self.assertEqual(client.ends(), 0, client.text)
+        self.serve(*key, clients=0)
+        replay = self.start(BIN / "ninefold-replay-client", "--master", self.address_of(self.master), *key, "--recording",
+                            "session.recording", "--clients", 3)
+        viewer = self.view()
+        self.at_rest(viewer, 12)
+        viewer.click(48, 36)
+        viewer.look_until(lambda head: head["selection"])
+        self.master.process.send_signal(signal.SIGTERM)
+        self.assertEqual(replay.ends(), 0, replay.text)
+
+
 if __name__ == "__main__":
     unittest.main()

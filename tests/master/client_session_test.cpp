@@ -52,6 +52,17 @@ class ClientSessionTest : public testing::Test {
     s.takeActions();
     return s;
   }
+  void makeVersions(uint32_t last) {
+    uint64_t hash = 0;
+    for (uint32_t version = 1; version <= last; ++version) {
+      state.open({.number = version, .from = version - 1, .to = version}, 1);
+      msg::Stepped unit;
+      unit.number = version, unit.stateHash = hash;
+      unit.deltas = encodeDeltas({{{0, version}, Records(10, std::byte{1})}});
+      state.take(std::move(unit));
+      hash = state.complete(version).back().hash;
+    }
+  }
 
   std::vector<Blob> blobs = someBlobs();
   JobOffer offer{blobs, Settings(), {}};
@@ -74,15 +85,7 @@ TEST_F(ClientSessionTest, WelcomesAndOffersSceneAndSettings) {
 }
 
 TEST_F(ClientSessionTest, OffersTheOldestStateThatIsNamedAndWhatCameSince) {
-  uint64_t hash = 0;
-  for (uint32_t version = 1; version <= 3; ++version) {
-    state.open({.number = version, .from = version - 1, .to = version}, 1);
-    msg::Stepped unit;
-    unit.number = version, unit.stateHash = hash;
-    unit.deltas = encodeDeltas({{{0, version}, Records(10, std::byte{1})}});
-    state.take(std::move(unit));
-    hash = state.complete(version).back().hash;
-  }
+  makeVersions(3);
   state.forget(2);
   ClientSession s = session();
   s.received(hello(), now);
@@ -98,6 +101,19 @@ TEST_F(ClientSessionTest, OffersTheOldestStateThatIsNamedAndWhatCameSince) {
   EXPECT_TRUE(std::holds_alternative<msg::Configure>(last.message)) << "work may follow it";
   s.received(msg::BlobRequest{offer[0].pages[1].blob.hash, 0}, now);
   EXPECT_EQ(sent<msg::BlobChunk>(s.takeActions()).size(), 1u);
+}
+
+TEST_F(ClientSessionTest, ALostClientKeepsNoVersion) {
+  makeVersions(2);
+  state.forget(1);
+  ClientSession s = session();
+  s.received(hello(), now);
+  const std::weak_ptr<const StateKeeper::Snapshot> offered = state.snapshot();
+  state.forget(2);  // the keeper's own is of another version now
+  state.snapshot();
+  ASSERT_FALSE(offered.expired());
+  s.disconnected();
+  EXPECT_TRUE(offered.expired());
 }
 
 TEST_F(ClientSessionTest, SendsBlobsPieceByPiece) {

@@ -23,9 +23,9 @@ TEST(Recording, IsWholeOnceItIsFinishedAndTheOldOneUntilThen) {
   recorder.finish();
   recorder.add(result(3));  // a worker that has not heard of the end
   recorder.finish();
-  const std::vector<msg::Result> results = readResults(file);
-  ASSERT_EQ(results.size(), 3u);
-  EXPECT_EQ(results[2].frame, 2u);
+  const std::vector<Message> messages = readRecording(file);
+  ASSERT_EQ(messages.size(), 4u);
+  EXPECT_EQ(std::get<msg::Result>(messages[3]).frame, 2u);
 }
 
 TEST(Recording, HoldsWhatTheMasterAskedForInItsOrder) {
