@@ -29,10 +29,10 @@ from programs import BIN, methods  # noqa: E402
 BLENDER = shutil.which("blender")
 DEADLINE = 900  # seconds; only there to end a broken test
 
-# Relative differences of patches. glTF says the same as Cycles, or (docs/blender.md) takes what a dielectric reflects from what
-# it scatters, which Cycles up to Blender 3 does not. The light of a small sphere is noisy: by 2.3 % between two seeds of ours.
+# Relative differences of patches. glTF says the same as Cycles, or (docs/blender.md) takes what a dielectric or a coat reflects from
+# what is scattered below, which Cycles up to Blender 3 does not. The light of a small sphere is noisy: by 2.3 % between two seeds of ours.
 SAME = 0.02
-OTHERWISE = {"principled, usual": 0.08, "specular 1": 0.15, "coat": 0.05, "glass, rough": 0.04, "bounced": 0.06,
+OTHERWISE = {"principled, usual": 0.08, "specular 1": 0.15, "coat": 0.09, "glass, rough": 0.04, "bounced": 0.06,
              "sphere that shines": 0.05}
 
 
