@@ -62,7 +62,7 @@ struct Options {
   std::optional<std::string> photonScene;  // file; nothing: photons meet the scene itself
   PictureView view = PictureView::beauty;
   double frameTime = 100;          // target while something moves [ms]
-  std::optional<double> stepTime;  // of a step of a state, then [ms]; nothing: half of frameTime
+  std::optional<double> stepTime;  // of a step of a state, then [ms]; nothing: by frameTime
 
   StopRule stop;  // 64 frames if no flag says otherwise
 

@@ -92,7 +92,7 @@ constexpr Flag kRun[] = {
      "target while something moves, held by smaller and thinner frames, 1 to 10000 (default 100)"},
     {"step-time", "MS",
      "then, of each step that renews a part of selective photons, 1 to 10000 (default: half of "
-     "frame-time)"},
+     "frame-time, the first one all of it)"},
     {"headless", nullptr, "no window (default)"},
 };
 constexpr Flag kCluster[] = {

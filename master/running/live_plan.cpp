@@ -125,12 +125,19 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
-  const Duration time = setup_.stepTime.value_or(quality_.target() / 2);
-  const auto step = states_.nextStep(nextFrame_, moving_, left, time);
+  const auto step = states_.nextStep(nextFrame_, moving_, left, stepTime());
   if (!step) return std::nullopt;
+  hasStepped_ = moving_;
   step_ = {step->key, step->units, moving_, now, {}};
   ++nextFrame_;
   return StepOrder{open(now).order, step->key, step->units};
+}
+
+// The first step of a gesture may take as long as a whole frame: most of what a click changes is
+// right at once then.
+Duration LivePlan::stepTime() const {
+  const Duration usual = hasStepped_ ? quality_.target() / 2 : quality_.target();
+  return setup_.stepTime.value_or(usual);
 }
 
 std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {

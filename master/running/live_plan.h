@@ -85,7 +85,7 @@ class LivePlan {
     Metres sceneRadius = 0;  // frozen: a photon radius must not change while a thing is dragged
     bool converging = true;
     Duration target = milliseconds(100);
-    std::optional<Duration> stepTime;  // of a step in motion; nothing: half the target
+    std::optional<Duration> stepTime;  // of a step in motion; nothing: by the target
     bool motion = true;  // false: every state is shown as at rest, however long that takes
     std::optional<int64_t> frames;  // of a state at rest; nothing: without end
     Delivery delivery;              // of the first job
@@ -137,6 +137,7 @@ class LivePlan {
   std::optional<int64_t> framesLeft() const;
   LiveFrame open(Time now);
   uint8_t planes() const;
+  Duration stepTime() const;
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
   Settings settingsAt(const Quality& quality) const;
@@ -153,7 +154,8 @@ class LivePlan {
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   bool moving_ = false, dirty_ = false;
-  bool urgent_ = false;  // somebody waits for the next frame at rest
+  bool hasStepped_ = false;  // the latest step was one in motion
+  bool urgent_ = false;      // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
   bool unsettled_ = false;  // it was announced as moving

@@ -148,8 +148,9 @@ TEST_F(LivePlanState, AnEditVoidsAStepOfAllThatShowsTheSceneBefore) {
   EXPECT_EQ(frame().order.key.state, small.key.to);
 }
 
-// Groups of photons: of 100 ms for a frame steps get a half. All 306 units at 1 ms, then 4.
-TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomFor) {
+// Groups of photons: of 100 ms for a frame steps get a half, the first one of a gesture all. All
+// 306 units at 1 ms, then 2, which is 1.5 in the mean.
+TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomForTheFirstOneAsAWhole) {
   LivePlan::Setup paced = setup();
   paced.state.settings.method = Method::selective;
   plan = LivePlan(paced, now);
@@ -157,11 +158,11 @@ TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomFor) {
   edit();
   finish(frame());
   const StepOrder first = step();
-  EXPECT_EQ(first.units, 50);
+  EXPECT_EQ(first.units, 100);
   pass(milliseconds(200));
   plan.stepDone(first.key, now);
   finish(frame());
-  EXPECT_EQ(step().units, 20);
+  EXPECT_EQ(step().units, 33);
 }
 
 TEST_F(LivePlanState, PacedStepsTakeTheTimeThatIsAskedFor) {

@@ -51,7 +51,7 @@ void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const Minor
   Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
                              stream.numbers.place(photon));
   // A lamp may lie in a solid that its light never leaves.
-  const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
+  const MediumStack media = mediaAround(t, start.origin);
   start.flux *= t.shader.squaredIndex(media);
   const bool isOfMinorLamp = t.settings.directVpls > 0 && minor.has(start.lamp);
   walkLightPathBy(

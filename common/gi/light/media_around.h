@@ -1,5 +1,5 @@
 // media_around.h: the solids that a place lies in: those of which a ray from there meets the back
-// face first.
+// face first. A ray that meets no box of a solid is not traced.
 //
 // Threads: pure function.   Errors: none; after 64 surfaces what is behind them does not count.
 #pragma once

@@ -121,6 +121,9 @@ class Shader {
     return materials_[static_cast<size_t>(material)].passes;
   }
 
+  // True if it refracts, and light goes on inside.
+  bool isSolid(int material) const;
+
   // False if the material has no D lobe anywhere: clear glass, metal that keeps its S lobe.
   bool mayBeDiffuse(int material) const {
     return materials_[static_cast<size_t>(material)].diffuse;
@@ -147,7 +150,6 @@ class Shader {
     Reflectance mean{0};     // reflection of the dielectric part
   };
   float indexOf(int material) const;
-  bool isSolid(int material) const;
   Vec3 shadingNormal(const SurfacePoint& surface, Vec3 ng) const;
   void fillOpaque(Bsdf& bsdf, const Material& material, const Prepared& prepared, Vec3 base,
                   float metallic, float alpha, const SurfacePoint& s) const;

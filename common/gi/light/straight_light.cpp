@@ -1,22 +1,16 @@
 #include "common/gi/light/straight_light.h"
 
+#include <algorithm>
+
+#include "common/math/box_rays.h"
 #include "common/math/rounding.h"
 
 namespace ninefold {
 namespace {
 
 bool mayPass(const std::vector<Bounds>& bounds, Vec3 origin, Vec3 segment, float tFar) {
-  const Vec3 inverse = 1.0f / segment;
-  for (const Bounds& b : bounds) {
-    float near = 0, far = tFar;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float t0 = (b.low[axis] - origin[axis]) * inverse[axis];
-      const float t1 = (b.high[axis] - origin[axis]) * inverse[axis];
-      near = std::max(near, std::min(t0, t1)), far = std::min(far, std::max(t0, t1));
-    }
-    if (near <= far) return true;
-  }
-  return false;
+  return std::ranges::any_of(bounds,
+                             [&](const Bounds& b) { return meetsBox(b, origin, segment, tFar); });
 }
 
 }  // namespace

@@ -40,11 +40,13 @@ Bounds boundsOf(const Scene& scene, const Instance& instance) {
   return bounds;
 }
 
-std::vector<Bounds> boundsOfPassing(const Scene& scene, const Shader& shader) {
+// Of the instances whose material is wanted.
+template <typename IsWanted>
+std::vector<Bounds> boundsOfAll(const Scene& scene, const IsWanted& isWanted) {
   constexpr size_t kMost = 16;  // more are one
   std::vector<Bounds> each;
   for (const Instance& instance : scene.instances)
-    if (shader.mayPassStraight(scene.meshes[static_cast<size_t>(instance.mesh)].material))
+    if (isWanted(scene.meshes[static_cast<size_t>(instance.mesh)].material))
       each.push_back(boundsOf(scene, instance));
   if (each.size() <= kMost) return each;
   Bounds all;
@@ -70,7 +72,8 @@ Transport::Transport(const Tracer& t, const Settings& s, const Transport* begun)
       bound(s.bound / std::max(radius * radius, 1e-30f)),
       farRounding(kRayRounding * 2 * t.scene().bounds.radius()),
       targets(aimTargets(t.scene(), shader, isLit(begun) ? &begun->targets : nullptr)),
-      straightBounds(boundsOfPassing(t.scene(), shader)) {}
+      straightBounds(boundsOfAll(scene, [&](int m) { return shader.mayPassStraight(m); })),
+      solidBounds(boundsOfAll(scene, [&](int m) { return shader.isSolid(m); })) {}
 
 float Transport::lightBound(uint32_t emitter) const {
   if (!settings.compensate) return bound;  // as in the paper: nothing gives back what is cut off

@@ -38,6 +38,7 @@ struct Transport {
   Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
   std::vector<AimTarget> targets;
   std::vector<Bounds> straightBounds;  // of what lets light pass straight on; few
+  std::vector<Bounds> solidBounds;     // of solids that transmit; few
 
   // Bound of the geometry term G at an area emitter [1/m^2]; b without compensation.
   //

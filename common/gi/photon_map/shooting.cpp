@@ -56,7 +56,7 @@ void shootStream(const Transport& t, size_t stream, uint32_t randomization, uint
     Particle start =
         emitParticle(t, stream, numbers.sampler.get2D(index, 0), numbers.sampler.get2D(index, 2));
     // A lamp may lie in a solid that its light never leaves.
-    const MediumStack media = t.needs.transmission ? mediaAround(t, start.origin) : MediumStack();
+    const MediumStack media = mediaAround(t, start.origin);
     start.flux *= t.shader.squaredIndex(media);
     walkLightPath(
         t, start, media, 0, numbers.sampler, index, kWalkDimension, rays, [&](const Arrival& a) {
