@@ -135,8 +135,7 @@ void GltfMaterials::readLayers(const tinygltf::Material& from, Material& m) {
       warn("material '{}': its coat follows the bumps below it; glTF means a smooth one",
            from.name);
   }
-  if (!transmits(m) || (m.coat == 0 && isBlack(m.sheenColor))) return;
-  warn("material '{}': coat and sheen are left out, as light passes through it", from.name);
+  warnOfLostLayers(m);
 }
 
 template <typename Info>

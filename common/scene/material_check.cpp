@@ -78,6 +78,11 @@ void clampFactors(Material& m, const std::string& what) {
   clampFactor(m.coatRoughness, 1, what, "clear coat's roughness");
 }
 
+void warnOfLostLayers(const Material& m) {
+  if (!transmits(m) || (m.coat == 0 && isBlack(m.sheenColor))) return;
+  warn("material '{}': coat and sheen are left out, as light passes through it", m.name);
+}
+
 void checkMaterial(const Scene& scene, const Material& m, const std::string& what) {
   constexpr float kAny = std::numeric_limits<float>::max();
   checkColour(m.baseColor, 1, what, "base colour");

@@ -12,6 +12,9 @@ namespace ninefold {
 // give a warning that names `what`.
 void clampFactors(Material& material, const std::string& what);
 
+// Coat and sheen are layers of opaque materials.
+void warnOfLostLayers(const Material& material);
+
 void checkMaterial(const Scene& scene, const Material& material, const std::string& what);
 
 }  // namespace ninefold

@@ -27,6 +27,7 @@ struct NumberKey {
 constexpr NumberKey kNumbers[] = {
     {"ns", &MtlMaterial::Ns},       {"ni", &MtlMaterial::Ni}, {"d", &MtlMaterial::d},
     {"tr", &MtlMaterial::Tr},       {"pr", &MtlMaterial::Pr}, {"pm", &MtlMaterial::Pm},
+    {"ps", &MtlMaterial::Ps},       {"pc", &MtlMaterial::Pc}, {"pcr", &MtlMaterial::Pcr},
     {"illum", &MtlMaterial::illum},
 };
 
@@ -42,10 +43,10 @@ constexpr MapKey kMaps[] = {
     {"bump", &MtlMaterial::bump},    {"map_bump", &MtlMaterial::bump},
 };
 
-// Exporters write these for every material. At zero, sheen, coat and anisotropy say nothing; the
-// coat's roughness and the anisotropy's angle say nothing alone.
-constexpr const char* kNothingAtZero[] = {"ps", "pc", "aniso"};
-constexpr const char* kNothingAlone[] = {"pcr", "anisor"};
+// Exporters write these for every material. At zero anisotropy says nothing; its angle says nothing
+// alone.
+constexpr const char* kNothingAtZero = "aniso";
+constexpr const char* kNothingAlone = "anisor";
 
 template <typename Table>
 auto find(const Table& table, const std::string& key) {
@@ -53,11 +54,6 @@ auto find(const Table& table, const std::string& key) {
   const auto* found =
       std::find_if(std::begin(table), end, [&](const auto& e) { return key == e.key; });
   return found == end ? nullptr : found;
-}
-
-template <typename Keys>
-bool contains(const Keys& keys, const std::string& key) {
-  return std::find(std::begin(keys), std::end(keys), key) != std::end(keys);
 }
 
 class Parser {
@@ -114,7 +110,7 @@ void Parser::statement(std::string_view word, std::string_view rest, MtlMaterial
   if (const auto* c = find(kColours, key)) return colour(word, rest, m.*c->value);
   if (const auto* n = find(kNumbers, key)) return number(word, rest, m.*n->value);
   if (const auto* map = find(kMaps, key)) return readMap(word, rest, m.*map->value);
-  if (contains(kNothingAlone, key) || (contains(kNothingAtZero, key) && isAllZero(rest))) return;
+  if (key == kNothingAlone || (key == kNothingAtZero && isAllZero(rest))) return;
   unread_.add(word, lines_.number());
 }
 

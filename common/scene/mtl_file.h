@@ -21,7 +21,8 @@ struct MtlMaterial {
   std::string name;
   std::optional<Vec3> Kd, Ks, Ke, Ka, Tf;
   std::optional<float> Ns, Ni, d, Tr;
-  std::optional<float> Pr, Pm;  // roughness and metallic, as Blender writes them
+  std::optional<float> Pr, Pm;       // roughness and metallic, as Blender writes them
+  std::optional<float> Ps, Pc, Pcr;  // sheen, clear coat, roughness of the coat
   std::optional<float> illum;
   MtlMap mapKd, mapKs, mapKe, mapD, mapPr, mapPm, norm, bump;
 };

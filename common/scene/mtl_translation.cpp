@@ -126,6 +126,14 @@ void makePhysical(const Reading& r, Material& m) {
   m.solid = m.transmission > 0;
 }
 
+void addLayers(const MtlMaterial& from, Material& m) {
+  constexpr float kSheenRoughness = 0.5f;
+  m.sheenColor = Vec3(clamped(from.Ps.value_or(0)));
+  if (!isBlack(m.sheenColor)) m.sheenRoughness = kSheenRoughness;
+  m.coat = clamped(from.Pc.value_or(0));
+  if (m.coat > 0) m.coatRoughness = clamped(from.Pcr.value_or(0));
+}
+
 bool isPhysical(const MtlMaterial& from) { return from.Pr || from.Pm || from.mapPr || from.mapPm; }
 
 }  // namespace
@@ -152,6 +160,7 @@ Material translate(const MtlMaterial& from) {
     makeReflecting(r, m);
   else
     makeGloss(r, r.Ks, m);
+  addLayers(from, m);
   if (!glass) m.opacity = r.opacity;
   if (m.opacity < 1) m.alphaMode = AlphaMode::blend;
   m.emission = colourUnder(from.mapKe, from.Ke, kAny);

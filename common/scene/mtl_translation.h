@@ -31,6 +31,9 @@
 //   its map, else 0), roughness Pr (1 under its map, else by Ns), Ks of an ordinary surface (0.5 if
 //   absent), transmission = mean Tf, tinted by Kd, blended by o; illum says nothing.
 //
+//   Ps, Pc, Pcr: layers over what is opaque, whatever else it is. White sheen Ps, of roughness 0.5,
+//   as MTL has none for it; a clear coat Pc of roughness Pcr, smooth if absent.
+//
 //   d and Tr both: d counts. Tr 1 alone is opaque, with a warning: MeshLab writes opacity as Tr,
 //   and nobody would write what cannot be seen at all.
 //   map_d, map_Pr ...: obj_textures.h.

@@ -3,6 +3,7 @@
 #include "common/base/error.h"
 #include "common/base/log.h"
 #include "common/scene/file_search.h"
+#include "common/scene/material_check.h"
 #include "common/scene/mtl_translation.h"
 #include "common/scene/text_lines.h"
 
@@ -74,6 +75,7 @@ const ObjMaterials::Source* ObjMaterials::find(const std::string& name) const {
 Material ObjMaterials::translated(const Source& source) try {
   Material m = translate(source.material);
   textures_.addMaps(source.material, source.beside, m);
+  warnOfLostLayers(m);
   return m;
 } catch (const Error& e) {
   fail("material '{}': {}", source.material.name, e.what());

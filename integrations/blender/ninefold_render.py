@@ -57,6 +57,7 @@ PATIENCE = 20        # of an interrupted master, before it is killed [s]
 FAR = 1e10           # Blender's depth where nothing is
 PICTURES = "none|COLOR|FILE"  # in the help of a master that takes pictures of what is outside
 EXPORT_FLAG = "--ninefold-export"
+OPEN = 0.5  # of the second that a frame of the exported animation takes: its shutter, whatever Blender's
 
 Pass = collections.namedtuple("Pass", "name channels id type source")
 COMBINED = Pass("Combined", 4, "RGBA", "COLOR", ("R", "G", "B"))
@@ -232,7 +233,7 @@ def master_command(master, flags, settings, scene, exported, folder, passes):
     """The command line; refuses what cannot come to an end."""
     s, (width, height) = settings, exported["size"]
     command = [master, scene, "--size", f"{width}x{height}", "--seed", str(s.seed), "--method", s.method,
-               "--output", str(folder / ("picture.####.exr" if exported["frames"] > 1 else "picture.exr")),
+               "--output", str(folder / ("picture.####.exr" if is_played(exported) else "picture.exr")),
                "--environment", exported["environment"], "--local-clients", str(s.local_clients)]
     if not (s.frames or s.seconds or s.error):
         raise Trouble("nothing ends the render: set frames, a time limit or a noise limit")
@@ -243,8 +244,10 @@ def master_command(master, flags, settings, scene, exported, folder, passes):
         if value:
             command += [flag, f"{value:.7g}" if isinstance(value, float) else str(value)]
     usual = {"--light-units": "radiometric"}
-    if exported["frames"] > 1:
-        usual["--animate"] = f"0:{exported['frames'] - 1}:1"
+    if is_played(exported):
+        usual["--animate"] = f"0:{exported['frames'] - 1 + exported['shutter']}:1"
+        if exported["shutter"]:
+            command += ["--shutter", str(exported["shutter"])]
     else:
         usual["--save-every"] = str(EVERY)
     for flag, value in usual.items():
@@ -278,18 +281,35 @@ class Job:
         self.layer = depsgraph.view_layer.name
         self.master = master
         settings = [getattr(scene.ninefold, name) for name in NinefoldSettings.__annotations__]
-        self.alike = (scene.name, self.layer, master, engine.resolution_x, engine.resolution_y, *settings)
+        self.alike = (scene.name, self.layer, master, engine.resolution_x, engine.resolution_y,
+                      shutter_of(scene), *settings)
 
 
 def frames_ahead(scene):
     return list(range(scene.frame_current, scene.frame_end + 1, scene.frame_step))
 
 
-def is_sequence(scene):
-    """Whether the master can make the animation's pictures one after another: by a number of frames, in one layer, radiance
-    alone."""
+def can_play(scene):
+    """Whether the master can make pictures by playing an animation: by a number of frames, in one layer, radiance alone."""
     s = scene.ninefold
-    return s.frames and not (s.seconds or s.error or s.passes or s.denoise) and sum(l.use for l in scene.view_layers) == 1
+    limited = s.seconds or s.error or s.passes or s.denoise
+    return bool(s.frames) and not limited and sum(l.use for l in scene.view_layers) == 1
+
+
+def is_played(exported):
+    return exported["frames"] > 1 or exported["shutter"] > 0
+
+
+def shutter_of(scene):
+    """When the shutter opens, is half through and closes, in frames after a picture's own. None without motion blur."""
+    render = scene.render
+    if not render.use_motion_blur:
+        return None
+    # It was Cycles' own before Blender 4.2.
+    owner = render if hasattr(render, "motion_blur_position") else getattr(scene, "cycles", None)
+    length = render.motion_blur_shutter
+    opens = {"START": 0, "END": -length}.get(getattr(owner, "motion_blur_position", "CENTER"), -length / 2)
+    return opens, opens + length / 2, opens + length
 
 
 class Sequence:
@@ -365,15 +385,16 @@ class NinefoldEngine(bpy.types.RenderEngine):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="ninefold-"))
         try:
             flags = flags_of(job.master, os.path.getmtime(job.master))
-            frames = frames_ahead(depsgraph.scene) if self.is_animation and is_sequence(depsgraph.scene) else []
+            frames = frames_ahead(depsgraph.scene) if self.is_animation and can_play(depsgraph.scene) else [job.frame]
             exported = self.export(folder, depsgraph, PICTURES in flags, frames)
             for warning in exported["warnings"]:
                 self.report({"WARNING"}, f"Ninefold: {warning}")
             passes = PASSES if settings.passes else ()
             command = master_command(job.master, flags, settings, str(folder / "scene.gltf"), exported, folder, passes)
-            if exported["frames"] > 1:
+            if is_played(exported):
                 Sequence.latest = Sequence(job, Program(command, cwd=folder), folder, frames[:exported["frames"]], exported["crop"])
-                self.show_next(Sequence.latest, job)
+                if self.show_next(Sequence.latest, job):
+                    Sequence.end()
                 return
             with Program(command, cwd=folder) as program:
                 self.gather(program, folder / "picture.exr", exported["crop"], passes, depsgraph.view_layer.name)
@@ -386,7 +407,8 @@ class NinefoldEngine(bpy.types.RenderEngine):
         left, bottom, width, height = sequence.crop
         result = self.begin_result(0, 0, width, height, layer=job.layer)
         try:
-            self.update_stats("", f"Rendering {len(sequence.frames)} frames of an animation")
+            if len(sequence.frames) > 1:
+                self.update_stats("", f"Rendering {len(sequence.frames)} frames of an animation")
             picture = sequence.wait_for(job.frame, self)
             self.show(result, picture, sequence.crop)
         except (Cancelled, Trouble):
@@ -401,8 +423,8 @@ class NinefoldEngine(bpy.types.RenderEngine):
         camera = scene.camera
         if camera is None or camera.type != "CAMERA":
             raise Trouble("the scene has no camera")
-        if camera.data.type != "PERSP":
-            raise Trouble(f"camera {camera.name} is not perspective: only such cameras can be rendered")
+        if camera.data.type not in {"PERSP", "ORTHO"}:
+            raise Trouble(f"camera {camera.name} is panoramic: make it perspective or orthographic")
         if scene.render.pixel_aspect_x != scene.render.pixel_aspect_y:
             raise Trouble("pixels must be square: set both aspects in the output's format to 1")
 
@@ -415,7 +437,8 @@ class NinefoldEngine(bpy.types.RenderEngine):
         bpy.data.libraries.write(str(copy), {scene}, path_remap="ABSOLUTE", fake_user=True)
         order = {"blend": str(copy), "scene": scene.name, "layer": depsgraph.view_layer.name, "frame": scene.frame_current,
                  "subframe": scene.frame_subframe, "resolution": [self.resolution_x, self.resolution_y],
-                 "folder": str(folder), "pictures": pictures, "frames": frames[1:]}
+                 "folder": str(folder), "pictures": pictures, "frames": frames[1:],
+                 "blur": can_play(depsgraph.scene) and depsgraph.scene.ninefold.frames > 1}
         trust = "--enable-autoexec" if bpy.context.preferences.filepaths.use_scripts_auto_execute else "--disable-autoexec"
         command = [bpy.app.binary_path, "--background", "--factory-startup", trust, "--python-exit-code", "1", "--python",
                    os.path.abspath(__file__), "--", EXPORT_FLAG, json.dumps(order)]
@@ -570,7 +593,8 @@ def unregister():
 # ---------------------------------------------------------------- what runs in a Blender of its own
 
 class Exporter:
-    """Writes the scene of a .blend copy as `folder`/scene.gltf, and export.json: {size, crop, environment, warnings}.
+    """Writes the scene of a .blend copy as `folder`/scene.gltf, and export.json: {size, crop, environment, warnings, frames,
+    shutter}.
 
     What a render sees is made anew as plain meshes, one a mesh and material, placed as often as it is seen: so the glTF exporter
     needs to know nothing of modifiers, instances, poses and parents. Lamps, camera and what else it does not say as Cycles
@@ -594,7 +618,7 @@ class Exporter:
             self.prepare(material)
         depsgraph = bpy.context.evaluated_depsgraph_get()
         camera = scene.camera.evaluated_get(depsgraph).data
-        size, crop, fov = frame_of(camera, scene.render, self.order["resolution"])
+        size, crop, lens = frame_of(camera, scene.render, self.order["resolution"])
         self.warn_of_the_rest(scene, camera)
         environment = self.environment_of(scene.world)
         first = self.what_is_there(scene)
@@ -603,18 +627,18 @@ class Exporter:
         bpy.context.window.scene = plain
         self.write(plain)
         bpy.context.window.scene = scene
-        poses = [first.places, *self.places_ahead(scene, first)]
+        frames = self.frames(scene, first)
         path = self.files / "scene.gltf"
         gltf = json.loads(path.read_text())
-        self.complete(gltf, fov)
-        self.animate(gltf, poses)
+        self.complete(gltf, lens)
+        self.animate(gltf, first.places, frames)
         path.write_text(json.dumps(gltf))
         (self.files / "export.json").write_text(json.dumps(
-            {"size": size, "crop": crop, "environment": environment, "warnings": self.warnings, "frames": len(poses)}))
+            {"size": size, "crop": crop, "environment": environment, "warnings": self.warnings, "frames": len(frames),
+             "shutter": OPEN if len(frames[0]) > 1 else 0}))
 
     def warn_of_the_rest(self, scene, camera):
-        for is_on, what in ((camera.dof.use_dof, "depth of field"), (scene.render.use_motion_blur, "motion blur"),
-                            (scene.render.film_transparent, "transparent film")):
+        for is_on, what in ((camera.dof.use_dof, "depth of field"), (scene.render.film_transparent, "transparent film")):
             if is_on:
                 self.warn(f"there is no {what}: it is left out")
 
@@ -669,7 +693,7 @@ class Exporter:
         shapes = {}
         for thing, matrix in self.seen(depsgraph):
             places.append(matrix)
-            if not self.order["frames"]:  # nobody compares
+            if not (self.order["frames"] or scene.render.use_motion_blur):  # nobody compares
                 continue
             if thing.type == "LIGHT":
                 there.append(self.lamp_values(thing.data.original, matrix))
@@ -680,14 +704,41 @@ class Exporter:
             there.append((thing.name, shapes[key], materials_of(thing), None if is_upright(matrix) else tuple(map(tuple, matrix))))
         return Seen(there, places + [camera.matrix_world.copy()])
 
-    def places_ahead(self, scene, first):
-        """Of the frames that follow, as long as nothing but places changes."""
-        for frame in self.order["frames"]:
-            scene.frame_set(frame)
+    def frames(self, scene, first):
+        """Places of this frame and those that follow, as long as nothing but places changes: of each at its moments, which are
+        one, or three where it is blurred."""
+        moments = self.moments(scene)
+        if moments == (0,) and not self.order["frames"]:
+            return [[first.places]]
+        found = []
+        for frame in (self.order["frame"] + self.order["subframe"], *self.order["frames"]):
+            places = self.places_at(scene, first, [frame + moment for moment in moments])
+            if places is None:
+                break
+            found.append(places)
+        if not found and len(moments) > 1:
+            self.warn("motion blur is of places alone: it is left out where something else changes while the shutter is open")
+        moves = any(places != first.places for frame in found for places in frame)
+        return found if moves or len(found) > 1 else [[first.places]]
+
+    def moments(self, scene):
+        """Of a picture, in frames after its own."""
+        shutter = shutter_of(scene)
+        if shutter and not self.order["blur"]:
+            self.warn("motion blur needs two frames or more, and no limit of time or noise, passes, denoising or second view layer: "
+                      "it is left out")
+        return shutter if shutter and self.order["blur"] else (0,)
+
+    def places_at(self, scene, first, times):
+        """None if something else differs from what is there first."""
+        found = []
+        for time in times:
+            scene.frame_set(math.floor(time), subframe=time - math.floor(time))
             seen = self.what_is_there(scene)
             if seen.there != first.there:
-                return
-            yield seen.places
+                return None
+            found.append(seen.places)
+        return found
 
     def realise(self, plain, depsgraph):
         """All that is seen, in the scene `plain`, and lamps that are none there in `punctual`; all in `parts`, in their order."""
@@ -858,7 +909,7 @@ class Exporter:
         known = bpy.ops.export_scene.gltf.get_rna_type().properties.keys()
         bpy.ops.export_scene.gltf(**{name: value for name, value in wanted.items() if name in known})
 
-    def complete(self, gltf, fov):
+    def complete(self, gltf, lens):
         """What the exporter does not say, or not as Cycles means it."""
         gltf["asset"]["generator"] = "Ninefold for Blender"  # lamps are in W/sr, whoever wrote the rest
         for material in gltf.get("materials", []):
@@ -880,29 +931,32 @@ class Exporter:
             roots.append(part.node)
             nodes.append(node)
 
-        gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": fov, "znear": 0.01}}]
+        gltf["cameras"] = [lens]
         add_node(self.parts[-1], {"name": "camera", "camera": 0})
         for light, intensity, part in self.punctual:
             add_node(part, {"name": light.name, "extensions": self.punctual_light(gltf, light, intensity)})
 
-    def animate(self, gltf, poses):
-        """Gives camera and lamps their place, and all parts that move those of the later poses, one a second."""
-        for part, place in zip(self.parts, poses[0]):
+    def animate(self, gltf, first, frames):
+        """Gives camera and lamps their place, and all parts that move those of the frames, one a second. The camera counts as
+        moving, as a master plays nothing where nothing does."""
+        for part, place in zip(self.parts, first):
             if part.node is not None and part.name is None:
                 gltf["nodes"][part.node].update(zip(PATHS, told(part.place(place))))
+        poses = [places for moments in frames for places in moments]
         if len(poses) == 1:
             return
         data, samplers, channels = Accessors(gltf), [], []
-        times = data.add([[i] for i in range(len(poses))])
+        within = [OPEN * k / 2 for k in range(len(frames[0]))]
+        times = data.add([[i + t] for i in range(len(frames)) for t in within])
         for part, places in zip(self.parts, zip(*poses)):
-            if part.node is None or all(place == places[0] for place in places):
+            rests = part is not self.parts[-1] and all(place == places[0] for place in places)
+            if part.node is None or rests:
                 continue
             gltf["nodes"][part.node].pop("matrix", None)
             for path, values in zip(PATHS, zip(*(told(part.place(place)) for place in places))):
                 samplers.append({"input": times, "output": data.add(values)})
                 channels.append({"sampler": len(samplers) - 1, "target": {"node": part.node, "path": path}})
-        if channels:
-            gltf["animations"] = [{"name": "frames", "samplers": samplers, "channels": channels}]
+        gltf["animations"] = [{"name": "frames", "samplers": samplers, "channels": channels}]
         (self.files / "places.bin").write_bytes(data.bytes)
         gltf.setdefault("buffers", []).append({"uri": "places.bin", "byteLength": len(data.bytes)})
 
@@ -1032,12 +1086,13 @@ def show_layers(layer):
 
 
 def frame_of(camera, render, resolution):
-    """(size, crop, vertical angle) of the picture that holds the wanted one.
+    """(size, crop, glTF's camera) of the picture that holds the wanted one.
 
     The master's line of sight goes through the middle of its picture. A shifted lens or a border asks for a part beside it: the
     picture gets as large as to hold that, and is cropped [left, bottom, width, height]; to a quarter of a pixel.
 
         p = sensor / (lens n)   tangent of a pixel, n pixels along the sensor's side that counts
+        p = scale / n           its side, of an orthographic camera [m]
         x0 = shift n - width/2 + border   of the wanted part's left edge, in pixels from the line of sight"""
     width, height = resolution
     fit = camera.sensor_fit if camera.sensor_fit != "AUTO" else ("HORIZONTAL" if width >= height else "VERTICAL")
@@ -1061,7 +1116,13 @@ def frame_of(camera, render, resolution):
         part.append(last - first)
     if max(size) > MOST_PIXELS:
         raise Trouble(f"the picture has {size[0]}x{size[1]} pixels, with what the shift needs; at most are {MOST_PIXELS} a side")
-    return size, start + part, 2 * math.atan(sensor / (camera.lens * along) * size[1] / 2)
+    if camera.type == "ORTHO":
+        pixel = camera.ortho_scale / along
+        xmag, ymag = (pixel * n / 2 for n in size)
+        return size, start + part, {"type": "orthographic",
+                                    "orthographic": {"xmag": xmag, "ymag": ymag, "znear": 0, "zfar": 1e6}}
+    angle = 2 * math.atan(sensor / (camera.lens * along) * size[1] / 2)
+    return size, start + part, {"type": "perspective", "perspective": {"yfov": angle, "znear": 0.01}}
 
 
 def told(matrix):

@@ -135,10 +135,7 @@ ChildProcess::Ending VideoFile::waitForEnd() {
 void VideoFile::failWith(const std::string& how) {
   file_.takeWhatIsThere();
   file_.reserve(file_.size() + 2 * kLeastRoom);
-  fail(
-      "cannot write {}: {} {}; its own line above tells why; pictures can be had instead: --output "
-      "out.####.png",
-      name_, kProgram, how);
+  fail("cannot write {}: {} {}; its own line above, if any, tells why", name_, kProgram, how);
 }
 
 }  // namespace ninefold

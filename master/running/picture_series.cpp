@@ -1,14 +1,25 @@
 #include "master/running/picture_series.h"
 
+#include <filesystem>
+
+#include "common/base/error.h"
+#include "common/base/log.h"
 #include "common/image/image_file.h"
 #include "master/assembly/picture.h"
 #include "master/options/numbered_name.h"
 
 namespace ninefold {
+namespace {
+
+std::string nameOfKept(const std::string& film, int number) {
+  return numbered(film + ".####.png", number);
+}
+
+}  // namespace
 
 std::string PictureSeries::write(int number, const Shown& shown) {
   if (isVideo(*options_.output)) {
-    addToFilm(codesOf(shown));
+    addToFilm(number, codesOf(shown));
     return *options_.output;
   }
   const std::string path = numbered(*options_.output, number);
@@ -17,7 +28,21 @@ std::string PictureSeries::write(int number, const Shown& shown) {
 }
 
 void PictureSeries::finish() {
-  if (film_) film_->finish();
+  if (kept_ == 0) return;
+  if (broken_) failWithPictures(*broken_);
+  try {
+    film_->finish();
+  } catch (const Error& e) {
+    failWithPictures(e.what());
+  }
+  for (int i = 0; i < kept_; ++i) std::filesystem::remove(nameOfKept(*options_.output, i));
+}
+
+void PictureSeries::failWithPictures(const std::string& why) const {
+  fail(
+      "{}; nothing is lost, this makes the film: ffmpeg -framerate {} -i {}.%04d.png -frames:v {} "
+      "{}",
+      why, *rate_, *options_.output, kept_, *options_.output);
 }
 
 void PictureSeries::writeFile(const std::string& path, const Shown& shown) {
@@ -27,9 +52,18 @@ void PictureSeries::writeFile(const std::string& path, const Shown& shown) {
     writeImage(path, {shown.image->radiance, {}, {}});
 }
 
-void PictureSeries::addToFilm(const DisplayImage& codes) {
-  if (!film_) film_.emplace(*options_.output, codes.width, codes.height, *rate_);
-  film_->add(codes);
+void PictureSeries::addToFilm(int number, const DisplayImage& codes) {
+  writePng(nameOfKept(*options_.output, number), codes);
+  ++kept_;
+  if (broken_) return;
+  try {
+    if (!film_) film_.emplace(*options_.output, codes.width, codes.height, *rate_);
+    film_->add(codes);
+  } catch (const Error& e) {
+    film_.reset();
+    broken_ = e.what();
+    warn("{}; the pictures go on as {}.####.png", *broken_, *options_.output);
+  }
 }
 
 // Made with the frame, if its exposure was known then.

@@ -2,6 +2,9 @@
 // all into one film. Colours of a script without an exposure are by its first picture, so that
 // nothing flickers.
 //
+//   film x.mp4   each picture is also x.mp4.####.png until the film is whole. If ffmpeg fails, the
+//                rest becomes .png alone, and finish tells how a film is made of them.
+//
 // Threads: one at a time.   Errors: Error that names the file.
 // Proved:  tests/cluster/script_test.py, film_test.py.
 #pragma once
@@ -25,12 +28,13 @@ class PictureSeries {
   std::string write(int number, const Shown& shown);
   // The only one.
   void writeAlone(const Shown& shown) { writeFile(*options_.output, shown); }
-  // Last: a film is there from now on.
+  // Last: a film is there from now on, or throws and its pictures stay.
   void finish();
 
  private:
   void writeFile(const std::string& path, const Shown& shown);
-  void addToFilm(const DisplayImage& codes);
+  void addToFilm(int number, const DisplayImage& codes);
+  [[noreturn]] void failWithPictures(const std::string& why) const;
   const DisplayImage& codesOf(const Shown& shown);
 
   const Options& options_;
@@ -38,6 +42,8 @@ class PictureSeries {
   const std::optional<double> rate_;
   DisplayImage codes_;
   std::optional<VideoFile> film_;
+  int kept_ = 0;                       // pictures of the film
+  std::optional<std::string> broken_;  // why there is no film any more
 };
 
 }  // namespace ninefold

@@ -7,6 +7,7 @@ picture itself as .png. Two scenes are a board of bays, one thing in each, seen 
 
     lamps      each bay, between black walls, has a lamp of its own above a grey floor
     surfaces   each bay has a surface, under a sun and an evenly bright sky
+    parallel   the surfaces, by an orthographic camera
     outside    a mirror ball fills the picture; it shows a picture of what is outside, turned
 """
 import json
@@ -21,8 +22,8 @@ from mathutils import Euler
 COLUMNS, ROWS = 4, 4
 HEIGHT = 14          # of the camera [m]; a bay is 2 m wide
 SIZE = (96, 96)
-SAMPLES = {"lamps": 1536, "surfaces": 1024, "outside": 64}   # of Cycles
-FRAMES = {"lamps": 512, "surfaces": 512, "outside": 64}     # of Ninefold
+SAMPLES = {"lamps": 1536, "surfaces": 1024, "parallel": 1024, "outside": 64}  # of Cycles
+FRAMES = {"lamps": 512, "surfaces": 512, "parallel": 512, "outside": 64}      # of Ninefold
 
 
 def principled(name, **inputs):
@@ -187,6 +188,12 @@ def make_surfaces():
     return list(materials)
 
 
+def make_parallel():
+    camera = bpy.context.scene.camera.data
+    camera.type, camera.ortho_scale = "ORTHO", 2 * COLUMNS
+    return make_surfaces()
+
+
 def make_outside():
     """A mirror ball; its patches have no names of their own."""
     ball("mirror", with_shader("mirror", "ShaderNodeBsdfGlossy", (1, 1, 1), 0.0), 6, (0, 0, 0))
@@ -265,7 +272,7 @@ def patches(picture, names, right):
 def main():
     engine, name, folder = sys.argv[sys.argv.index("--") + 1:]
     scene = base_scene()
-    names = {"lamps": make_lamps, "surfaces": make_surfaces, "outside": make_outside}[name]()
+    names = {"lamps": make_lamps, "surfaces": make_surfaces, "parallel": make_parallel, "outside": make_outside}[name]()
     set_engine(scene, engine, name)
     bpy.ops.render.render()
     picture = pixels_of_result(scene, pathlib.Path(folder), f"{engine}_{name}")

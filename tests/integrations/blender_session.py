@@ -1,8 +1,8 @@
 """Renders that go wrong, one after another, and what Blender says of them: run inside Blender for blender_test.py.
 
-    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- wrong|long|cluster|passes|animation|moves|many|pictures FOLDER
+    blender -b --factory-startup --addons ninefold_render --python blender_session.py -- SESSION FOLDER
 
-Prints for each render a line: OUTCOME {"what", "error" or "result", "mean"}.
+SESSION is a name at the end of this file. Prints for each render a line: OUTCOME {"what", "error" or "result", "mean"}.
 """
 import json
 import pathlib
@@ -52,7 +52,7 @@ def go_wrong(scene):
         setattr(owner, name, right)
 
     wrong("no camera", scene, "camera", None)
-    wrong("no perspective", camera.data, "type", "ORTHO")
+    wrong("a panorama", camera.data, "type", "PANO")
     wrong("no square pixels", scene.render, "pixel_aspect_x", 2)
     wrong("a far shift", camera.data, "shift_x", 200)
     wrong("no program", preferences, "master", "/nowhere/ninefold-master")
@@ -189,8 +189,33 @@ def move(scene):
     for frame in range(1, 5):
         scene.frame_set(frame)
         render(f"still {frame}")
-        moved, still = pixels(FOLDER / f"frame{frame:04}.exr"), pixels(FOLDER / f"still_{frame}.exr")
-        print("MOVED", json.dumps({"mean": float(still.mean()), "difference": float(abs(moved - still).mean())}), flush=True)
+        compare(frame)
+
+
+def blur(scene):
+    """Three frames with motion blur, then each by itself, then what has no blur: with a limit of noise, and of a sun that goes out."""
+    key(bpy.data.objects["step"], "location", (0, 0, 1), (2, 0, 1), (4, 1, 1))
+    scene.render.use_motion_blur = True
+    scene.ninefold.frames = 64
+    render_frames(scene, 3)
+    for frame in range(1, 4):
+        scene.frame_set(frame)
+        render(f"still {frame}")
+        compare(frame)
+    scene.frame_set(2)
+    scene.ninefold.error = 20
+    render("limited")
+    scene.ninefold.error = 0
+    key(bpy.data.lights["sun"], "energy", 2.0, 0.0)
+    render("changing")
+    blurred, sharp = pixels(FOLDER / "still_2.exr"), pixels(FOLDER / "limited.exr")
+    print("BLUR", float(abs(blurred - sharp).max()), flush=True)
+
+
+def compare(frame):
+    """The picture of an animation and the still of the same moment."""
+    moved, still = pixels(FOLDER / f"frame{frame:04}.exr"), pixels(FOLDER / f"still_{frame}.exr")
+    print("MOVED", json.dumps({"mean": float(still.mean()), "difference": float(abs(moved - still).mean())}), flush=True)
 
 
 def move_for_long(scene):
@@ -207,5 +232,5 @@ def move_for_long(scene):
 
 
 if __name__ == "__main__":
-    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate, "moves": move, "pictures": look_outside,
-     "many": move_for_long}[sys.argv[-2]](make_scene())
+    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate, "moves": move, "blurred": blur,
+     "pictures": look_outside, "many": move_for_long}[sys.argv[-2]](make_scene())

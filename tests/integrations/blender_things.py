@@ -3,7 +3,7 @@
     blender -b --factory-startup --addons ninefold_render --python blender_things.py -- ENGINE FOLDER
 
 Everything shines in a colour of its own and nothing lights anything else, so that a pixel tells which thing it sees. Writes
-FOLDER/ENGINE_things.npz: a picture for each of VIEWS, and the second frame of the animation.
+FOLDER/ENGINE_things.npz: a picture for each of VIEWS.
 """
 import math
 import pathlib
@@ -25,7 +25,15 @@ VIEWS = {
     "border": dict(border=(0.25, 0.75, 0.0, 0.5)),
     "half the resolution": dict(percent=50),
     "turned": dict(turn=(10, 5, 30)),
+    "orthographic": dict(scale=9),
+    "orthographic, tall": dict(size=(36, 48), scale=9),
+    "orthographic, fit to the height, shifted": dict(fit="VERTICAL", scale=6, shift=(0.25, -0.125)),
+    "orthographic, border": dict(border=(0.25, 0.75, 0.0, 0.5), scale=9),
+    "orthographic, turned": dict(turn=(10, 5, 30), scale=7),
     "second frame": dict(frame=2),
+    "blurred from the frame on": dict(shutter=(1, "START")),
+    "blurred about the frame": dict(frame=2, shutter=(1.2, "CENTER")),
+    "blurred up to the frame": dict(frame=2, shutter=(0.5, "END")),
 }
 
 
@@ -111,12 +119,15 @@ def look(scene, view):
     camera, render = scene.camera, scene.render
     render.resolution_x, render.resolution_y = view.get("size", (48, 36))
     render.resolution_percentage = view.get("percent", 100)
+    camera.data.type, camera.data.ortho_scale = "ORTHO" if "scale" in view else "PERSP", view.get("scale", 1)
     camera.data.sensor_fit = view.get("fit", "AUTO")
     camera.data.shift_x, camera.data.shift_y = view.get("shift", (0, 0))
     camera.rotation_euler = [math.radians(t) for t in view.get("turn", (0, 0, 0))]
     render.use_border = render.use_crop_to_border = "border" in view
     if "border" in view:
         render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = view["border"]
+    render.use_motion_blur = "shutter" in view
+    render.motion_blur_shutter, scene.cycles.motion_blur_position = view.get("shutter", (0.5, "CENTER"))
     scene.frame_set(view.get("frame", 1))
 
 

@@ -169,11 +169,29 @@ TEST_F(ObjMaterial, PhysicallyBasedGlass) {
   EXPECT_EQ(m.ior, 1.45f);
 }
 
+TEST_F(ObjMaterial, SheenAndCoatLieOverWhatIsOpaque) {
+  for (const char* other : {"", "Pr 0.5\n", "illum 3\nKs 1 1 1\n"}) {
+    const Material m =
+        material(std::string("Kd 0.5 0.1 0.1\nPs 0.25\nPc 0.5\nPcr 0.125\n") + other);
+    EXPECT_EQ(m.sheenColor, Vec3(0.25f)) << other;
+    EXPECT_EQ(m.sheenRoughness, 0.5f) << other;
+    EXPECT_EQ(m.coat, 0.5f) << other;
+    EXPECT_EQ(m.coatRoughness, 0.125f) << other;
+  }
+  const Material none = material("Kd 1 1 1\nPs 0\nPc 0\nPcr 0.03\n");
+  EXPECT_FALSE(hasCoat(none) || hasSheen(none));
+  EXPECT_EQ(none.coatRoughness, 0);
+  EXPECT_EQ(material("Kd 1 1 1\nPc 7\n").coat, 1);
+  EXPECT_CONTAINS(logOf("Kd 1 1 1\nPr 0\nTf 1 1 1\nPc 1\n"),
+                  "material 'm': coat and sheen are left out, as light passes through it");
+}
+
 TEST_F(ObjMaterial, WhatIsNotModelledIsNamedInOneWarning) {
   EXPECT_CONTAINS(
-      logOf("Ka 1 1 1\nKd 1 1 1\nPr 0\nPs 0.5\nPc 0\naniso 0.1\nrefl x.png\ndisp y.png\nwrong 1\n"),
-      "material library 'a.mtl': not modelled and left out: Ka (line 2), Ps (line 5), aniso (line "
-      "7), disp (line 9), refl (line 8), wrong (line 10)\n");
+      logOf("Ka 1 1 1\nKd 1 1 1\nPr 0\nPc 0\naniso 0.1\nrefl x.png\ndisp y.png\nwrong 1\n"),
+      "material library 'a.mtl': not modelled and left out: Ka (line 2), aniso (line 6), disp "
+      "(line "
+      "8), refl (line 7), wrong (line 9)\n");
   const std::string nothing =
       logOf("Ka 0 0 0\nKd 1 1 1\nPs 0 # x\nPc 0\nPcr 0.03\naniso 0\nanisor 0\n");
   EXPECT_EQ(nothing.find("left out"), std::string::npos) << nothing;
