@@ -239,9 +239,7 @@ void Program::runUnit(const RenderJob& job, const act::StartSteps& action, uint3
     if (rig_.afterUnit) rig_.afterUnit(done);
     watchdog_.end(thread);
     if (recorder_) recorder_->add(done);
-    later([this, line = action.line, done = std::move(done)]() mutable {
-      session_.unitFinished(line, std::move(done));
-    });
+    add({action.line, false, std::move(done)});
   } catch (const std::exception& error) {
     watchdog_.end(thread);
     later([this, line = fmt::format("{}: {}", describe(), error.what())] {
@@ -260,9 +258,7 @@ void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& i
     if (rig_.afterTask) rig_.afterTask(done.result);
     watchdog_.end(thread);
     if (recorder_) recorder_->add(done.result);
-    const auto next = [this] { return workers_.nextFrame(); };
-    if (results_.add({order.line, order.urgent, std::move(done)}, next, now()))
-      later([this] { handOver(); });
+    add({order.line, order.urgent, std::move(done)});
   } catch (const std::exception& error) {  // no memory, most likely
     watchdog_.end(thread);
     later([this, line = fmt::format("frame {}, tile {}, phase {}: {}", order.frame.frame, item.tile,
@@ -270,10 +266,21 @@ void Program::runTask(RenderJob& job, const Order& order, const msg::TaskItem& i
   }
 }
 
+// On a worker's thread.
+void Program::add(ResultGroup::Finished&& finished) {
+  const auto next = [this] { return workers_.nextFrame(); };
+  if (results_.add(std::move(finished), next, now())) later([this] { handOver(); });
+}
+
 void Program::handOver() {
-  for (auto& [line, urgent, done] : results_.take(now())) {
-    wireLevel_.finished(done.rawBytes, std::chrono::nanoseconds(done.result.busyNs));
-    session_.taskFinished(line, std::move(done.result), now());
+  for (ResultGroup::Finished& finished : results_.take(now())) {
+    if (auto* unit = std::get_if<msg::Stepped>(&finished.done)) {
+      session_.unitFinished(finished.line, std::move(*unit));
+      continue;
+    }
+    auto& task = std::get<RenderJob::Done>(finished.done);
+    wireLevel_.finished(task.rawBytes, finished.busy());
+    session_.taskFinished(finished.line, std::move(task.result), now());
   }
   if (connection_) level_ = wireLevel_.choose(connection_->lineRate(), threads_);
 }

@@ -79,6 +79,7 @@ class Program {
   };
   void runTask(RenderJob& job, const Order& order, const msg::TaskItem& item, int thread);
   void runUnit(const RenderJob& job, const act::StartSteps& steps, uint32_t unit, int thread);
+  void add(ResultGroup::Finished&& finished);
   void handOver();
   void drop(const std::function<bool(uint32_t number, bool isStep)>& isVoid);
   bool keep(const Message& message);

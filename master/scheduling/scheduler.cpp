@@ -134,6 +134,7 @@ void Scheduler::openStep(uint32_t number, uint32_t firstUnit, int units, double 
   NINEFOLD_CHECK(number >= nextFrame_);
   NINEFOLD_CHECK(units > 0);
   frames_.emplace(number, SchedulerFrame(number, firstUnit, units, rays));
+  pool_.setResultsWait(kResultsTogether);
   nextFrame_ = number + 1;
 }
 

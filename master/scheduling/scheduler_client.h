@@ -4,7 +4,7 @@
 // Credit: how many tasks a client may hold, between two numbers,
 //     low = T + ceil(T (r+w)/t)      high = low + max(ceil(T/2), ceil(T w/t))
 //   T  threads      t  time of a task, a moving average of what it reports      r  round trip
-//   w  how long a result waits for others (kResultsTogether; 0 while frames are urgent)
+//   w  how long a result waits for others (kResultsTogether; 0 while the newest frame is urgent)
 // T tasks are worked on, T (r+w)/t more are on their way: so a client never pauses. It is refilled
 // up to high whenever it falls to low: tasks travel in groups, as results do. A group has at most
 // kMaxGroup T tasks, all together kMaxPerThread T: a frame waits for all that its slowest client

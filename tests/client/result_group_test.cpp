@@ -27,8 +27,8 @@ class ResultGroupTest : public testing::Test {
   static ResultGroup::Finished resultOf(Task task) {
     ResultGroup::Finished finished;
     finished.urgent = task.urgent;
-    finished.done.result.frame = task.frame;
-    finished.done.result.busyNs = static_cast<uint64_t>(1e6 * task.took);
+    auto& result = std::get<RenderJob::Done>(finished.done).result;
+    result.frame = task.frame, result.busyNs = static_cast<uint64_t>(1e6 * task.took);
     return finished;
   }
   static Time at(double ms) {
@@ -53,6 +53,17 @@ TEST_F(ResultGroupTest, GoesAtOnceWithTheLastTaskOfAFrame) {
   EXPECT_EQ(take(1.5), 2u);
   EXPECT_TRUE(add({.frame = 8}, std::nullopt, 1.6));
   EXPECT_EQ(take(1.6), 1u);
+}
+
+TEST_F(ResultGroupTest, UnitsOfAStepWaitForEachOther) {
+  const auto unit = [&](std::optional<uint32_t> next, double ms) {
+    return group_.add(
+        {0, false, msg::Stepped{.number = 9}}, [next] { return next; }, at(ms));
+  };
+  EXPECT_FALSE(unit(9, 1));
+  EXPECT_FALSE(unit(9, 2));
+  EXPECT_TRUE(unit(10, 3)) << "a frame comes next";
+  EXPECT_EQ(take(3), 3u);
 }
 
 TEST_F(ResultGroupTest, UrgentResultsAndThoseOfLongTasksDoNotWait) {
