@@ -57,8 +57,10 @@ TEST_F(ResultGroupTest, GoesAtOnceWithTheLastTaskOfAFrame) {
 
 TEST_F(ResultGroupTest, UnitsOfAStepWaitForEachOther) {
   const auto unit = [&](std::optional<uint32_t> next, double ms) {
+    msg::Stepped stepped;
+    stepped.number = 9;
     return group_.add(
-        {0, false, msg::Stepped{.number = 9}}, [next] { return next; }, at(ms));
+        {0, false, stepped}, [next] { return next; }, at(ms));
   };
   EXPECT_FALSE(unit(9, 1));
   EXPECT_FALSE(unit(9, 2));
