@@ -8,6 +8,7 @@
 
 #include "common/sampling/sampler.h"
 #include "common/tracing/tracer.h"
+#include "tests/gi/line_rays.h"
 #include "tests/gi/make_scene.h"
 #include "tests/gi/render.h"
 #include "tests/seeds.h"
@@ -30,46 +31,13 @@ Scene roomOf(DVec3 boxAt = DVec3(0.3, -0.6, 0.2)) {
   return scene;
 }
 
-// Hits of the line's whole length by rays, one after the other.
-std::vector<Hit> tracedHits(const Tracer& tracer, Vec3 origin, Vec3 way) {
-  std::vector<Hit> hits;
-  for (float done = 0; hits.size() < 100;) {
-    Hit hit = tracer.closest(origin + done * way, way, 100);
-    if (!hit) break;
-    hit.t += done, done = hit.t + 1e-5f;
-    hits.push_back(hit);
-  }
-  return hits;
-}
-
-// The same surfaces at the same places. A line within `kNear` of an edge, or along a surface, may
-// meet one triangle or the other; such lines are few.
 TEST(LineField, HasTheHitsThatRaysFind) {
-  constexpr float kNear = 2e-4f;
   const Scene scene = roomOf();
   const Tracer tracer(scene, Isa::automatic);
   const LineField field(LineGrid(scene.bounds, 9, 16), scene, nullptr);
-  const LineGrid& grid = field.grid();
-  std::vector<LineHit> hits;
-  size_t all = 0, unlike = 0;
-  for (uint32_t number = 0; number < grid.lines(); number += 7) {
-    const GridLine line = grid.lineOf(number);
-    const Vec3 way = grid.directionOf(line);
-    const Vec3 origin = grid.pointAt(line, 0) - 5.0f * way;
-    field.hitsOf(line, hits);
-    const std::vector<Hit> traced = tracedHits(tracer, origin, way);
-    ++all;
-    bool isLike = hits.size() == traced.size();
-    for (size_t k = 0; isLike && k < hits.size(); ++k) {
-      const float t = 5 + hits[k].t * grid.lengthOf(line);
-      const Vec3 n = tracer.frontNormal(hits[k].instance, hits[k].triangle);
-      const float reach = kNear / std::max(std::abs(glm::dot(n, way)), 1e-3f);
-      isLike = hits[k].instance == traced[k].instance && std::abs(t - traced[k].t) < reach;
-    }
-    unlike += isLike ? 0 : 1;
-  }
-  EXPECT_GT(all, 10000u);
-  EXPECT_LT(unlike, all / 500) << "of " << all;
+  const testing::LineCounts counts = testing::heldAgainstRays(field, tracer, 7);
+  EXPECT_GT(counts.all, 10000u);
+  EXPECT_LT(counts.unlike, counts.all / 500) << "of " << counts.all;
 }
 
 // A closed surface is crossed in and out by turns, by every line, whatever edges it passes: no line
