@@ -143,7 +143,7 @@ Duration LivePlan::stepTime() const {
 std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {
   states_.done(step, now - step_.opened);
   if (!(step_.key == step)) return std::nullopt;
-  step_.done = now;
+  step_.done = stepEnded_ = now;
   return step_;
 }
 
@@ -240,7 +240,8 @@ std::optional<LiveFrame> LivePlan::completed(uint32_t frame, Time now) {
   open_.erase(found);
   // The time since it was opened, the end of the frame before included. Frames that nobody waits
   // for share the cluster with others: their time tells nothing.
-  if (done.order.urgent) quality_.took(done.quality, now - done.opened);
+  const Duration waited = std::max(stepEnded_ - done.opened, Duration(0));
+  if (done.order.urgent) quality_.took(done.quality, now - done.opened - waited, waited);
   return done;
 }
 

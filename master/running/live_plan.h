@@ -150,6 +150,7 @@ class LivePlan {
   FramePlan plan_;
   StatePlan states_;
   LiveStep step_;  // the latest one that was opened
+  Time stepEnded_{};
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter

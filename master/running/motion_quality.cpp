@@ -35,8 +35,8 @@ std::string MotionQuality::describe(Quality q) {
   return size + (size.empty() || light.empty() ? "" : ", ") + light;
 }
 
-bool MotionQuality::fits(Quality q) const {
-  return !full_ || *full_ * cost(q) <= kMargin * seconds(target_);
+bool MotionQuality::fits(Quality q, Duration waited) const {
+  return !full_ || *full_ * cost(q) + seconds(waited) <= kMargin * seconds(target_);
 }
 
 void MotionQuality::begin() {
@@ -45,17 +45,16 @@ void MotionQuality::begin() {
   couldBeBetter_ = 0;
 }
 
-void MotionQuality::took(Quality quality, Duration time) {
+void MotionQuality::took(Quality quality, Duration time, Duration waited) {
   const double full = seconds(time) / cost(quality);
   full_ = full_ ? (1 - kLearn) * *full_ + kLearn * full : full;
   if (!(quality == current_)) return;  // of another gesture, or at rest
   const Quality better{std::max(0, current_.size - 1), current_.light};
-  const double mean = *full_ * cost(current_);
-  if (seconds(time) > kTooLate * seconds(target_) ||
-      std::min(seconds(time), mean) > kTooLong * seconds(target_)) {
+  const double all = seconds(time + waited), mean = *full_ * cost(current_) + seconds(waited);
+  if (all > kTooLate * seconds(target_) || std::min(all, mean) > kTooLong * seconds(target_)) {
     couldBeBetter_ = 0;
     current_.size = std::min(current_.size + 1, static_cast<int>(kSizes.size()) - 1);
-  } else if (current_.size > 0 && fits(better)) {
+  } else if (current_.size > 0 && fits(better, waited)) {
     if (++couldBeBetter_ < kPatience) return;
     couldBeBetter_ = 0;
     current_ = better;

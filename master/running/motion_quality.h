@@ -44,7 +44,8 @@ class MotionQuality {
   void begin();  // of a gesture
   Quality current() const { return current_; }
   // A frame that somebody waited for was done in this quality; the first at rest counts, too.
-  void took(Quality quality, Duration time);
+  // `waited`: before that, for other work of the clients, which a smaller frame does not shorten.
+  void took(Quality quality, Duration time, Duration waited = {});
 
   Duration target() const { return target_; }
   void setTarget(Duration target) { target_ = target; }
@@ -54,7 +55,7 @@ class MotionQuality {
   static std::string describe(Quality quality);
 
  private:
-  bool fits(Quality quality) const;
+  bool fits(Quality quality, Duration waited = {}) const;
 
   Duration target_;
   std::optional<double> full_;  // learned time of a full frame [s]

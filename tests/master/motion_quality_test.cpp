@@ -125,5 +125,22 @@ TEST(Scaled, KeepsAtLeastOneOfWhatThereIs) {
   EXPECT_EQ(scaled(640, 0.75), 480);
 }
 
+// A step of a method's state goes before each frame. Frames get what it leaves of the target: small
+// ones would be no sooner.
+TEST(MotionQuality, WhatAFrameWaitedForDoesNotMakeItSmall) {
+  MotionQuality quality(milliseconds(100));
+  quality.took({}, milliseconds(20), milliseconds(55));
+  quality.begin();
+  for (int i = 0; i < 20; ++i)
+    quality.took(quality.current(), timeOf(quality.current(), 0.02), milliseconds(55));
+  EXPECT_EQ(quality.current(), Quality{});
+  for (int i = 0; i < 20; ++i)
+    quality.took(quality.current(), timeOf(quality.current(), 0.1), milliseconds(55));
+  const Quality small = quality.current();
+  EXPECT_LT(seconds(timeOf(small, 0.1)), 0.05);
+  for (int i = 0; i < 20; ++i) quality.took(quality.current(), timeOf(quality.current(), 0.02));
+  EXPECT_EQ(quality.current(), Quality{}) << "nothing to wait for any more";
+}
+
 }  // namespace
 }  // namespace ninefold
