@@ -26,8 +26,8 @@ TEXT = [
     "ninefold-selective-photons makes a pool, edits the scene, and traces the groups again in the order that the method gives them, "
     "in one thread. Found: of all hits that the edit displaces or dims, the share that is right again; theirs counts photons. Light "
     "straight from lamps is not in the pool, so hits are those of light that has bounced.",
-    "The published pilots belong to groups and are traced with them. Here all pilots, one of R photons, go first; that is the flat "
-    "beginning of each curve. Dotted: groups by chance. Their Figure 5: with the object lit directly 288 and 10,080 groups do alike; lit "
+    "The published pilots belong to groups and are traced with them. Here pilots, one of R photons, and groups go by turns, as "
+    "long as there are pilots; the first groups go before any pilot has told of the edit. Dotted: groups by chance. Their Figure 5: with the object lit directly 288 and 10,080 groups do alike; lit "
     "indirectly, 10,080 do better. Their Figure 7: 16 is about the best R. They trace changed paths twice, which costs them up to 25 %; "
     "here hits are kept, and nothing is traced twice.",
     "Bias: relMSE against the reference that stays when frames are averaged, over the size of elements; of two runs of unlike seeds "
