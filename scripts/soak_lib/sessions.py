@@ -275,7 +275,7 @@ class Watched(Session):
     def is_same(self, outcome, peace):
         """Neither sees the film at all frames; what both saw is enough, as films that differ have nothing in common."""
         tell(f"{self.name}: {len(outcome & peace)} of {len(outcome)} films seen again in peace")
-        return len(outcome & peace) >= self.FILMS // 2
+        return len(outcome & peace) >= self.FILMS // 4
 
 
 def soak(seconds, seed):
