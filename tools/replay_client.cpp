@@ -4,8 +4,9 @@
 // They load the master and the network as real clients do, at any number, without a core for each.
 // With --pace recorded an answer takes the recorded time; the first task of each light set of a
 // frame takes longer, by what light sets took in the mean. --slower F makes all times F times as
-// long, so that the clients leave the machine to the master. Recorded frames repeat, each for tasks
-// that ask for the planes that it has: for a session record one. One thread serves all. Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
+// long, so that the clients leave the machine to the master. Recorded frames repeat. A frame
+// answers tasks that ask for the planes that it has. So a session needs the recording of a session.
+// One thread serves all. Exit status: 0 the master is done, 1 a failure, 2 wrong usage.
 
 #include <map>
 #include <set>

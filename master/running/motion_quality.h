@@ -9,10 +9,12 @@
 //   e = kEyeShare   eye paths, the filter, and the shadow rays that thinning does not save because
 //                   roulette has left them out already (gi/vpl/vpl_roulette.h)
 //
-// The time of a full frame is learned from every frame that is timed. When a gesture begins, the
-// first step is taken that is predicted to keep the target: size falls to 5/16 before the light is
-// thinned, which saves little. The light then stays until the gesture ends, so that nothing
-// flickers. The size still follows the clock: down at once, when a frame is late or frames are long
+// The time of a full frame is learned from every frame that is timed. What a frame waited for, such
+// as a step of a method's state, is not part of that time. It counts against the target.
+//
+// When a gesture begins, the first step is taken that is predicted to keep the target: size falls
+// to 5/16 before the light is thinned, which saves little. The light then stays until the gesture
+// ends, so that nothing flickers. The size still follows the clock: down at once, when a frame is late or frames are long
 // in the mean; up, when three frames in a row say so.
 //
 // Threads: plain value.   Errors: none.   Proved: tests/master/motion_quality_test.cpp.

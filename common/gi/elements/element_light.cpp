@@ -18,7 +18,8 @@ double quantumOf(const StatePages& pages, const PhotonRows& rows) {
   return fluxQuantum(fluxBand(std::max(brightest, 0x1p-100f)));
 }
 
-// Else all of it is sooner added up than what changed is taken away and added.
+// Whether half of the rows or more are the same. If not, it is quicker to add up all rows than to
+// take away and add those that changed.
 bool sharesMost(const StatePages& a, const StatePages& b, const PhotonRows& rows) {
   uint32_t shared = 0;
   for (uint32_t r = 0; r < rows.count(); ++r) shared += rows.isShared(a, b, r);
