@@ -14,8 +14,8 @@
 //
 // When a gesture begins, the first step is taken that is predicted to keep the target: size falls
 // to 5/16 before the light is thinned, which saves little. The light then stays until the gesture
-// ends, so that nothing flickers. The size still follows the clock: down at once, when a frame is late or frames are long
-// in the mean; up, when three frames in a row say so.
+// ends, so that nothing flickers. The size still follows the clock: down at once, when a frame is
+// late or frames are long in the mean; up, when three frames in a row say so.
 //
 // Threads: plain value.   Errors: none.   Proved: tests/master/motion_quality_test.cpp.
 #pragma once
