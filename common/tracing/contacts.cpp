@@ -22,19 +22,6 @@ int opacity(const Material& m) {
   return isSolid(m) ? 1 : 2;
 }
 
-// Calls visit(instance, triangle) for every triangle whose box is near p.
-template <typename Visit>
-void forEachNear(const Hierarchies& parts, Vec3 p, float radius, Visit visit) {
-  RTCPointQuery query{p.x, p.y, p.z, 0, radius};
-  RTCPointQueryContext context;
-  rtcInitPointQueryContext(&context);
-  const auto callback = [](RTCPointQueryFunctionArguments* found) {
-    (*static_cast<Visit*>(found->userPtr))(found->geomID, found->primID);
-    return false;
-  };
-  for (RTCScene part : parts) rtcPointQuery(part, &query, &context, callback, &visit);
-}
-
 Vec3 lowOf(const Tracer::Corners& t) { return glm::min(t.a, glm::min(t.b, t.c)); }
 Vec3 highOf(const Tracer::Corners& t) { return glm::max(t.a, glm::max(t.b, t.c)); }
 
@@ -73,13 +60,34 @@ bool isInside(glm::dvec2 uv) {
 
 }  // namespace
 
+// Calls visit(instance, triangle) for every triangle whose box is near p.
+template <typename Visit>
+void Contacts::forEachNear(Vec3 p, float radius, Visit visit) const {
+  RTCPointQuery query{p.x, p.y, p.z, 0, radius};
+  RTCPointQueryContext context;
+  rtcInitPointQueryContext(&context);
+  uint32_t mask = 0;
+  auto visitSeen = [&](uint32_t instance, uint32_t triangle) {
+    if ((mask & bits_->of(instance)) != 0) visit(instance, triangle);
+  };
+  const auto callback = [](RTCPointQueryFunctionArguments* found) {
+    (*static_cast<decltype(visitSeen)*>(found->userPtr))(found->geomID, found->primID);
+    return false;
+  };
+  for (const SeenPart& part : parts_) {
+    mask = part.mask;
+    rtcPointQuery(part.hierarchy, &query, &context, callback, &visitSeen);
+  }
+}
+
 Contacts::Contacts(const Scene& scene, const Geometries& geometries,
                    const std::vector<AlphaMask>& masks, const Hierarchies& parts,
-                   const Contacts* before)
+                   const MaskBits& bits, const Contacts* before)
     : scene_(&scene),
       geometries_(geometries),
       masks_(&masks),
       parts_(parts),
+      bits_(&bits),
       margin_(kMargin * scene.bounds.radius()),
       from_(geometries.size()),
       touching_(geometries.size()) {
@@ -148,7 +156,7 @@ Contacts::Marks Contacts::findFrom(uint32_t instance) const {
       marks.emplace_back(instance, i);
       marks.emplace_back(otherInstance, otherTriangle);
     };
-    forEachNear(parts_, 0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_, visit);
+    forEachNear(0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_, visit);
   }
   return marks;
 }
@@ -171,7 +179,7 @@ std::vector<Contacts::Contact> Contacts::at(const Hit& hit, Vec3 p) const {
       return;
     found.push_back({instance, triangle, u, v, sameSide, distance + error});
   };
-  forEachNear(parts_, p, margin_, visit);
+  forEachNear(p, margin_, visit);
   // One face of each side of an instance, also on the edge between two.
   const auto key = [](const Contact& c) { return std::tuple(c.instance, c.sameSide, c.triangle); };
   std::sort(found.begin(), found.end(),
@@ -213,7 +221,7 @@ Vec3 Contacts::clearOf(Vec3 p, Vec3 direction) const {
       side = direction;
     moved = offsetOrigin(moved, f.normal, 2 * error, side);
   };
-  forEachNear(parts_, p, margin_, visit);
+  forEachNear(p, margin_, visit);
   return moved;
 }
 

@@ -35,7 +35,7 @@ class Contacts {
   // `parts` hold all geometries, are committed, and number their triangles as the geometries do.
   // `before`: of the same scene before an edit, or null.
   Contacts(const Scene& scene, const Geometries& geometries, const std::vector<AlphaMask>& masks,
-           const Hierarchies& parts, const Contacts* before);
+           const Hierarchies& parts, const MaskBits& bits, const Contacts* before);
 
   Hit which(const Hit& hit, Vec3 direction) const {
     return touches(hit) ? foremost(hit, direction) : hit;
@@ -45,6 +45,11 @@ class Contacts {
   }
   // See Tracer::clearOf.
   Vec3 clearOf(Vec3 p, Vec3 direction) const;
+
+  // How near a surface must come to another one to matter at its hits [m].
+  Metres margin() const { return margin_; }
+  // [instance][triangle]: whether it touches any; empty where nothing touches.
+  const std::vector<std::vector<bool>>& touching() const { return touching_; }
 
  private:
   // A triangle with its plane.
@@ -74,11 +79,14 @@ class Contacts {
   std::vector<Contact> at(const Hit& hit, Vec3 position) const;
   Face face(uint32_t instance, uint32_t triangle) const;
   const Material& material(uint32_t instance) const;
+  template <typename Visit>
+  void forEachNear(Vec3 p, float radius, Visit visit) const;
 
   const Scene* scene_;
   const Geometries geometries_;
   const std::vector<AlphaMask>* masks_;
   const Hierarchies parts_;
+  const MaskBits* bits_;
   float margin_;  // larger than any two errors [m]
   // By instance: what is in contact with it; or null.
   std::vector<std::shared_ptr<const Marks>> from_;

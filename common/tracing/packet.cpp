@@ -47,7 +47,10 @@ void intersectHalf(const Hierarchies& parts, const int* valid, bool coherent, in
   RTCRayHit8 eight;
   copyHalf(&eight.ray, &query.ray, half, kRayFields);
   std::fill_n(eight.hit.geomID, kHalf, RTC_INVALID_GEOMETRY_ID);
-  for (RTCScene part : parts) embree::intersect8(part, valid, &eight, coherent);
+  for (const SeenPart& part : parts) {
+    std::fill_n(eight.ray.mask, kHalf, part.mask);
+    embree::intersect8(part.hierarchy, valid, &eight, coherent);
+  }
   const int first = half * kHalf;
   std::copy_n(eight.ray.tfar, kHalf, query.ray.tfar + first);
   std::copy_n(eight.hit.u, kHalf, query.hit.u + first);
@@ -63,14 +66,15 @@ void occludedHalf(RTCScene part, const int* valid, bool coherent, int half, RayP
   std::copy_n(eight.tfar, kHalf, rays.farT + half * kHalf);
 }
 
-void occludedBy(RTCScene part, bool wide, bool coherent, uint32_t active, RayPacket& rays) {
+void occludedBy(const SeenPart& part, bool wide, bool coherent, uint32_t active, RayPacket& rays) {
   const LaneMask valid(active);
+  std::fill_n(rays.mask, kPacket, part.mask);
   if (wide) {
-    embree::occluded16(part, valid.lane, reinterpret_cast<RTCRay16*>(&rays), coherent);
+    embree::occluded16(part.hierarchy, valid.lane, reinterpret_cast<RTCRay16*>(&rays), coherent);
     return;
   }
-  occludedHalf(part, valid.lane, coherent, 0, rays);
-  occludedHalf(part, valid.lane + kHalf, coherent, 1, rays);
+  occludedHalf(part.hierarchy, valid.lane, coherent, 0, rays);
+  occludedHalf(part.hierarchy, valid.lane + kHalf, coherent, 1, rays);
 }
 
 uint32_t blockedLanes(const RayPacket& rays) {
@@ -108,7 +112,10 @@ void intersectPacket(const Hierarchies& parts, bool wide, bool coherent, const R
   std::fill_n(query.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
   const LaneMask valid(active);
   if (wide) {
-    for (RTCScene part : parts) embree::intersect16(part, valid.lane, &query, coherent);
+    for (const SeenPart& part : parts) {
+      std::fill_n(query.ray.mask, kPacket, part.mask);
+      embree::intersect16(part.hierarchy, valid.lane, &query, coherent);
+    }
     return;
   }
   intersectHalf(parts, valid.lane, coherent, 0, query);
@@ -118,7 +125,7 @@ void intersectPacket(const Hierarchies& parts, bool wide, bool coherent, const R
 uint32_t occludedPacket(const Hierarchies& parts, bool wide, bool coherent, uint32_t active,
                         RayPacket& rays) {
   uint32_t open = active;
-  for (RTCScene part : parts) {
+  for (const SeenPart& part : parts) {
     occludedBy(part, wide, coherent, open, rays);
     open &= ~blockedLanes(rays);
     if (open == 0) break;

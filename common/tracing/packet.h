@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "common/tracing/embree.h"
+#include "common/tracing/part.h"
 #include "common/tracing/tracer.h"
 
 namespace ninefold {
@@ -23,13 +23,11 @@ inline constexpr float kMaxCoordinate = 1e18f;
 uint32_t traceable(const RayPacket& rays, uint32_t active);
 bool traceable(Vec3 origin, Vec3 direction, float tFar);
 
-using Hierarchies = std::vector<RTCScene>;
-
 // Fills `query` from the rays, and then with the hits of the active lanes.
 void intersectPacket(const Hierarchies& parts, bool wide, bool coherent, const RayPacket& rays,
                      uint32_t active, RTCRayHit16& query);
 
-// Sets farT of blocked active lanes to negative infinity, and returns their bits.
+// Sets farT of blocked active lanes to negative infinity, and returns their bits. Masks are lost.
 uint32_t occludedPacket(const Hierarchies& parts, bool wide, bool coherent, uint32_t active,
                         RayPacket& rays);
 

@@ -1,8 +1,15 @@
 // part.h: some instances with a ray hierarchy of their own, so that what moves can be built anew
 // without the rest. Private to this folder.
 //
-// Triangles are in world space and geometry ids are the instances' indices, so hits have the same
-// bits as in one hierarchy. The parts of a scene are traced one after another (packet.h). Embree's
+//   all    every instance as it was read; built once, and the same in all edits
+//   left   instances that `all` cannot show, as they share a mask bit with one that moved
+//   moved  instances that ever moved, by node; nodes share parts when there are many
+//
+// Rays do not see in `all` what moved: its mask bit is not theirs. So what did not move is traced
+// by the same hierarchy before and after an edit, and answers with the same bits, also where two
+// triangles are met at the same distance.
+//
+// Triangles are in world space and geometry ids are the instances' indices. The parts of a scene are traced one after another (packet.h). Embree's
 // own way, a hierarchy of instances, costs a transform a part. Embree 3 also never returns from
 // coherent occlusion of sixteen rays through it on AVX-512.
 //
@@ -21,17 +28,29 @@ namespace ninefold {
 
 using Geometries = std::vector<std::shared_ptr<const InstanceGeometry>>;  // by instance
 
+// The mask bit of each instance: one a node while there are enough. Then nodes share bits, those
+// that reach through half of the scene one, the others the rest.
+class MaskBits {
+ public:
+  explicit MaskBits(const Scene& asRead);
+  uint32_t of(uint32_t instance) const { return bits_[instance]; }
+
+ private:
+  std::vector<uint32_t> bits_;
+};
+
 class Part {
  public:
   Part(std::shared_ptr<const Device> device, const Scene& asRead, const Geometries& all,
-       std::vector<uint32_t> instances);
+       const MaskBits& bits, std::vector<uint32_t> instances);
 
   RTCScene hierarchy() const { return hierarchy_.get(); }
   // Whether it holds just these instances, each with the geometry that it has in `all`.
   bool isOf(const Geometries& all, const std::vector<uint32_t>& instances) const;
 
  private:
-  void attach(uint32_t instance, const InstanceGeometry& geometry, const AlphaMask& mask);
+  void attach(uint32_t instance, const InstanceGeometry& geometry, const AlphaMask& mask,
+              uint32_t bit);
 
   const std::shared_ptr<const Device> device_;
   const std::vector<uint32_t> instances_;
@@ -40,8 +59,19 @@ class Part {
   Hierarchy hierarchy_;
 };
 
-// The instances of each part: first those that never moved, then those that did, by node. A ray
-// visits every part, so nodes share parts when there are many. A function of `moved` alone.
-std::vector<std::vector<uint32_t>> partition(const Scene& scene, const std::vector<bool>& moved);
+// What rays see of a part.
+struct SeenPart {
+  RTCScene hierarchy;
+  uint32_t mask;  // of rays in it
+};
+using Hierarchies = std::vector<SeenPart>;
+
+// The instances of the parts `left` and `moved`; none is empty. `mask`: of rays in `all`. A function
+// of the scene that was read and of `moved`.
+struct Partition {
+  uint32_t mask = ~0u;
+  std::vector<std::vector<uint32_t>> sets;
+};
+Partition partition(const Scene& asRead, const MaskBits& bits, const std::vector<bool>& moved);
 
 }  // namespace ninefold

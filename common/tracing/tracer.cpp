@@ -1,6 +1,7 @@
 #include "common/tracing/tracer.h"
 
 #include <new>
+#include <numeric>
 #include <optional>
 
 #include "common/base/error.h"
@@ -9,6 +10,7 @@
 #include "common/tracing/geometry.h"
 #include "common/tracing/packet.h"
 #include "common/tracing/part.h"
+#include "common/tracing/ray_changes.h"
 #include "common/tracing/ray_log.h"
 
 namespace ninefold {
@@ -33,8 +35,11 @@ struct Tracer::Impl {
   bool wide;  // Embree has 16-wide kernels here
   Geometries geometries;
   std::vector<AlphaMask> masks;
-  std::vector<std::shared_ptr<const Part>> parts;
-  Hierarchies hierarchies;  // of the parts
+  const std::shared_ptr<const MaskBits> bits;
+  std::shared_ptr<const Part> all;                 // as it was read
+  std::vector<std::shared_ptr<const Part>> parts;  // those beside it
+  std::vector<std::shared_ptr<const Part>> shows;  // by instance: the part that rays see it in
+  Hierarchies hierarchies;                         // of all of them
   std::optional<Contacts> contacts;
 
   Impl(const Scene& s, Isa isa)
@@ -42,9 +47,13 @@ struct Tracer::Impl {
         asRead(s),
         device(std::make_shared<const Device>(makeDevice(isa))),
         isaName(isaOf(device->get())),
-        wide(isaName == "avx512") {
+        wide(isaName == "avx512"),
+        bits(std::make_shared<const MaskBits>(scene)) {
     for (const Instance& instance : scene.instances)
       geometries.push_back(std::make_shared<const InstanceGeometry>(scene, instance));
+    std::vector<uint32_t> instances(scene.instances.size());
+    std::iota(instances.begin(), instances.end(), 0u);
+    all = std::make_shared<const Part>(device, asRead, geometries, *bits, std::move(instances));
     build(nullptr, std::vector<bool>(scene.instances.size(), false));
   }
 
@@ -54,7 +63,9 @@ struct Tracer::Impl {
         device(before.device),
         isaName(before.isaName),
         wide(before.wide),
-        geometries(before.geometries) {
+        geometries(before.geometries),
+        bits(before.bits),
+        all(before.all) {
     for (size_t i = 0; i < scene.instances.size(); ++i) {
       const Instance& instance = scene.instances[i];
       if (instance.toWorld != before.scene.instances[i].toWorld ||
@@ -68,11 +79,15 @@ struct Tracer::Impl {
     for (const auto& geometry : geometries)
       masks.push_back({&scene, &geometry->mesh(),
                        &scene.materials[static_cast<size_t>(geometry->mesh().material)]});
-    for (const std::vector<uint32_t>& instances : partition(scene, moved)) {
+    const Partition beside = partition(asRead, *bits, moved);
+    hierarchies.push_back({all->hierarchy(), beside.mask});
+    shows.assign(scene.instances.size(), all);
+    for (const std::vector<uint32_t>& instances : beside.sets) {
       parts.push_back(part(before, instances));
-      hierarchies.push_back(parts.back()->hierarchy());
+      hierarchies.push_back({parts.back()->hierarchy(), ~0u});
+      for (const uint32_t i : instances) shows[i] = parts.back();
     }
-    contacts.emplace(scene, geometries, masks, hierarchies,
+    contacts.emplace(scene, geometries, masks, hierarchies, *bits,
                      before != nullptr ? &*before->contacts : nullptr);
   }
 
@@ -81,7 +96,7 @@ struct Tracer::Impl {
     if (before != nullptr)
       for (const auto& old : before->parts)
         if (old->isOf(geometries, instances)) return old;
-    return std::make_shared<const Part>(device, asRead, geometries, instances);
+    return std::make_shared<const Part>(device, asRead, geometries, *bits, instances);
   }
 };
 
@@ -102,7 +117,10 @@ Hit Tracer::closest(Vec3 origin, Vec3 direction, float tFar) const {
   RTCRayHit query{};
   query.ray = singleRay(origin, direction, tFar);
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  for (RTCScene part : impl_->hierarchies) embree::intersect1(part, &query);
+  for (const SeenPart& part : impl_->hierarchies) {
+    query.ray.mask = part.mask;
+    embree::intersect1(part.hierarchy, &query);
+  }
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return Hit::none();
   return impl_->contacts->which(
       {query.hit.geomID, query.hit.primID, query.hit.u, query.hit.v, query.ray.tfar}, direction);
@@ -129,8 +147,9 @@ bool Tracer::occluded(Vec3 origin, Vec3 direction, float tFar) const {
   if (log_ != nullptr) log_->singles.push_back({origin, direction, tFar, true});
   if (!traceable(origin, direction, tFar)) return false;
   RTCRay ray = singleRay(origin, direction, tFar);
-  for (RTCScene part : impl_->hierarchies) {
-    embree::occluded1(part, &ray);
+  for (const SeenPart& part : impl_->hierarchies) {
+    ray.mask = part.mask;
+    embree::occluded1(part.hierarchy, &ray);
     if (ray.tfar < 0) return true;
   }
   return false;
@@ -160,6 +179,11 @@ Tracer::Corners Tracer::corners(uint32_t instance, uint32_t triangle) const {
 
 Vec3 Tracer::frontNormal(uint32_t instance, uint32_t triangle) const {
   return impl_->geometries[instance]->frontNormal(triangle);
+}
+
+std::shared_ptr<const RayAnswers> Tracer::answers() const {
+  return std::make_shared<const RayAnswers>(RayAnswers{
+      impl_->shows, impl_->geometries, impl_->contacts->touching(), impl_->contacts->margin()});
 }
 
 const Scene& Tracer::scene() const { return impl_->scene; }

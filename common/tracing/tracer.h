@@ -2,9 +2,10 @@
 //
 // All instances are flattened to world-space triangles, one geometry per instance (geomID =
 // instance index). One thread builds the hierarchy with fixed quality: all clients of a class have
-// the same one. After an edit, instances that ever moved have hierarchies of their own beside the
-// rest's, and what the edit left alone is shared with the tracer before. The caller names the moved
-// ones, so that the result does not depend on how it came about.
+// the same one. After an edit, instances that ever moved have hierarchies of their own beside that
+// of the scene as it was read, where rays do not see them any more. What the edit left alone is
+// shared with the tracer before. The caller names the moved ones, so that the result does not
+// depend on how it came about.
 // Filter functions pass through alpha-masked texels. Back faces are hit like front faces. The
 // robust traversal is used: no cracks between triangles that share an edge.
 //
@@ -46,7 +47,8 @@ struct alignas(64) RayPacket {
 
 enum class Isa : uint8_t { automatic, avx2, avx512 };
 
-struct RayLog;  // ray_log.h
+struct RayLog;      // ray_log.h
+struct RayAnswers;  // ray_changes.h
 
 class Tracer {
  public:
@@ -92,6 +94,9 @@ class Tracer {
 
   // Keeps every ray in `log` until called with null. For measurements, with one tracing thread.
   void logTo(RayLog* log) { log_ = log; }
+
+  // What decides about the answers of single rays, to be compared with that of other edits.
+  std::shared_ptr<const RayAnswers> answers() const;
 
   const Scene& scene() const;
   const std::string& isaName() const;  // "avx2" or "avx512": what runs, part of the pixel class

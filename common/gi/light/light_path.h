@@ -73,15 +73,22 @@ inline WayOn cosineWay(const ShadingPoint& p, Vec2 u) {
   return {offsetOrigin(p.surface, wi), wi};
 }
 
+// What a particle meets.
+struct TraceRay {
+  Hit operator()(const Tracer& tracer, Vec3 origin, Vec3 direction) const {
+    return tracer.closest(origin, direction, std::numeric_limits<float>::infinity());
+  }
+};
+
 // Follows a particle that starts in `media` after `diffuseBefore` D vertices. Its numbers are those
 // of sample `index`, from `firstDimension` on. `sampler`: get1D, get2D and diffuseDirection as
 // LightSampler has them. visit(const Arrival&) returns whether the walk goes
 // on after a D scattering here; after S it always does. leave(const ShadingPoint&, Vec2) tells the
-// way on after D.
-template <typename Sampler, typename Visit, typename Leave>
+// way on after D. trace(const Tracer&, origin, direction) tells what it meets, as TraceRay does.
+template <typename Sampler, typename Visit, typename Leave, typename Trace = TraceRay>
 void walkLightPathBy(const Transport& t, Particle particle, MediumStack media, int diffuseBefore,
                      const Sampler& sampler, uint32_t index, uint32_t firstDimension,
-                     RayCounts& rays, Visit&& visit, const Leave& leave) {
+                     RayCounts& rays, Visit&& visit, const Leave& leave, const Trace& trace = {}) {
   std::optional<Hit> known;  // what the particle meets next
   bool turned = false, focused = false, hidden = false;
   int specularRun = 0;
@@ -90,8 +97,7 @@ void walkLightPathBy(const Transport& t, Particle particle, MediumStack media, i
     const bool wasKnown = known.has_value();
     if (!wasKnown) {
       ++rays.photon;
-      known = t.tracer.closest(particle.origin, particle.direction,
-                               std::numeric_limits<float>::infinity());
+      known = trace(t.tracer, particle.origin, particle.direction);
     }
     const Hit hit = *known;
     known.reset();

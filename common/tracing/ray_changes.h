@@ -1,0 +1,37 @@
+// ray_changes.h: where rays may have other answers after an edit, to the last bit.
+//
+// An answer changes only near what is shown by another hierarchy: a thing that moved, and what
+// shares a hierarchy with it (part.h). So a ray that meets none of their boxes, neither where they
+// were nor where they are, has the answer that it had. Materials are for the caller to compare.
+//
+// Proved:  tests/tracing/ray_changes_test.cpp.
+// Owner:   keeps geometry and hierarchies of its state alive.
+// Threads: const after construction.   Errors: none.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "common/math/bounds.h"
+#include "common/tracing/part.h"
+
+namespace ninefold {
+
+struct RayAnswers {
+  std::vector<std::shared_ptr<const Part>> shows;  // by instance: the hierarchy that shows it
+  Geometries geometries;
+  std::vector<std::vector<bool>> touching;  // contacts.h
+  Metres margin = 0;                        // likewise
+};
+
+// Boxes that hold all that changed, each with its instance, where it was and where it is, wider by
+// the margin. Nothing: any ray may have another answer, as the scene's bounds grew, or as a triangle
+// touches something transparent now and did not, or the other way round.
+struct ChangedBox {
+  uint32_t instance;
+  Bounds box;
+};
+std::optional<std::vector<ChangedBox>> rayChanges(const RayAnswers& before, const RayAnswers& now);
+
+}  // namespace ninefold
