@@ -173,10 +173,12 @@ void toWire(const StepKey& step, pb::StepKey& out) {
   out.set_to(step.to);
   out.set_first_unit(step.firstUnit);
   out.set_randomization(step.randomization);
+  out.set_units(step.units);
 }
 
 StepKey fromWire(const pb::StepKey& in) {
-  const StepKey step{in.number(), in.from(), in.to(), in.first_unit(), in.randomization()};
+  const StepKey step{in.number(),     in.from(),          in.to(),
+                     in.first_unit(), in.randomization(), in.units()};
   if (step.to <= step.from)
     fail("step {} leads from version {} to {}, must lead to a later one", step.number, step.from,
          step.to);

@@ -16,9 +16,9 @@
 namespace ninefold {
 
 // Raised whenever the meaning of any message, or the format of tiles, scenes or states changes.
-inline constexpr uint32_t kProtocol = 4;
+inline constexpr uint32_t kProtocol = 5;
 
-inline constexpr std::string_view kMessagesDigest = "c9d705834227cf7b";
+inline constexpr std::string_view kMessagesDigest = "a35ce14510ecbe8c";
 inline constexpr std::string_view kTilesDigest = "f68248e6f12de356";
 inline constexpr std::string_view kScenesDigest = "dfface100b1a81b6";
 inline constexpr std::string_view kStatesDigest = "bc7f3e420652a9f2";

@@ -128,8 +128,8 @@ Json update(const Renderer& before, const Renderer& after, const Settings& setti
   for (uint32_t done = 0; done < all;) {
     const StatePages from = pages;
     StepKey key;
-    key.from = 1, key.firstUnit = done;
     const uint32_t units = std::min(step, all - done);
+    key.from = 1, key.firstUnit = done, key.units = units;
     const Duration start = threadCpuTime();
     std::vector<StepResult> results;
     for (uint32_t unit = 0; unit < units; ++unit)

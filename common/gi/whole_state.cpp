@@ -13,7 +13,7 @@ StatePages stateAtRest(const Renderer& renderer, const Settings& settings, uint3
   for (uint32_t i = facts->beginsAnew ? frame : 0; i <= frame; ++i) {
     const StatePages before = pages;
     StepKey step;
-    step.firstUnit = i * units, step.randomization = i;
+    step.firstUnit = i * units, step.randomization = i, step.units = units;
     for (uint32_t unit = 0; unit < units; ++unit) {
       const StepResult result = renderer.step(before, step, step.firstUnit + unit);
       pages.apply(result.deltas);

@@ -105,6 +105,7 @@ struct StepKey {
   uint32_t from = 0, to = 1;   // from 0: the empty state
   uint32_t firstUnit = 0;      // units are counted through all steps of a state
   uint32_t randomization = 0;  // index, as in FrameKey
+  uint32_t units = 1;          // of this step
   bool operator==(const StepKey&) const = default;
 };
 

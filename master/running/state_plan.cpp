@@ -64,6 +64,7 @@ StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving, Duration time) c
   key.from = makesAll && facts_->beginsAnew ? 0 : latest_, key.to = versions_ + 1;
   key.firstUnit = moving ? nextUnit_ : index_ * units;
   key.randomization = moving ? 0 : index_;
+  key.units = units;
   return {{key, static_cast<int>(units)}, makesAll, series_, scene_};
 }
 

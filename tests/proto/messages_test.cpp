@@ -95,7 +95,7 @@ std::vector<Message> oneOfEach() {
       msg::Pong{1, 2},
       msg::Goodbye{"done"},
       msg::Edit{9, oddEdit(), true, true},
-      msg::Steps{4, {21, 5, 7, 40, 3}, {40, ~0u}, milliseconds(1500)},
+      msg::Steps{4, {21, 5, 7, 40, 3, 9}, {40, ~0u}, milliseconds(1500)},
       msg::Stepped{4, 21, 41, 12345, ~0ull, {1, 2, 3, 4}, Bytes(100, std::byte{5})},
       msg::CancelSteps{21},
       msg::StateDelta{5, 7, 2, 3, ~0ull, 4, Bytes(100, std::byte{6})},
@@ -136,7 +136,7 @@ TEST(Messages, FieldsArriveWhereTheyBelong) {
   EXPECT_EQ(std::get<msg::Edit>(decode(oneOfEach()[15])).edit, oddEdit());
   EXPECT_TRUE(std::get<msg::Edit>(decode(oneOfEach()[15])).moving);
   const auto steps = std::get<msg::Steps>(decode(oneOfEach()[16]));
-  EXPECT_EQ(steps.step, (StepKey{21, 5, 7, 40, 3}));
+  EXPECT_EQ(steps.step, (StepKey{21, 5, 7, 40, 3, 9}));
   EXPECT_EQ(steps.units, (std::vector<uint32_t>{40, ~0u}));
   EXPECT_EQ(steps.allowed, milliseconds(1500));
   const auto stepped = std::get<msg::Stepped>(decode(oneOfEach()[17]));
