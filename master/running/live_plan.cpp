@@ -57,6 +57,7 @@ void LivePlan::follow(const LiveState& state, Time now) {
   asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
   if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
   if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
+  if (isQuick_) states_.goAhead();
   state_ = state;
   changed_ = now;
   if (!dirty_) firstUnshown_ = now;
@@ -125,24 +126,31 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
-  const auto step = states_.nextStep(nextFrame_, moving_, left, stepTime());
+  const Duration time = stepTime();
+  const auto step = states_.nextStep(nextFrame_, moving_, left, time);
   if (!step) return std::nullopt;
-  hasStepped_ = moving_;
+  stepTime_ = time;
   step_ = {step->key, step->units, moving_, now, {}};
   ++nextFrame_;
   return StepOrder{open(now).order, step->key, step->units};
 }
 
-// The first step of a gesture may take as long as a whole frame: most of what a click changes is
-// right at once then.
+// Steps that go before a frame are brief. Those beside frames take half of the time.
 Duration LivePlan::stepTime() const {
-  const Duration usual = hasStepped_ ? quality_.target() / 2 : quality_.target();
+  const Duration usual = dirty_ && isQuick_ ? kLitSoon : quality_.target() / 2;
   return setup_.stepTime.value_or(usual);
+}
+
+// A frame in motion waits that long for a step that may give it the light of what it shows.
+bool LivePlan::isLitSoon(Time now) const {
+  return dirty_ && isQuick_ && states_.isCatchingUp() && now - firstUnshown_ < kLitSoon;
 }
 
 std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {
   states_.done(step, now - step_.opened);
   if (!(step_.key == step)) return std::nullopt;
+  if (moving_) isQuick_ = now - step_.opened < stepTime_ / 2;
+  if (isQuick_) states_.goAhead();
   step_.done = stepEnded_ = now;
   return step_;
 }
@@ -157,7 +165,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   if (!dirty_) {
     const bool isSettled = now - changed_ >= kSettle;
     if (isSettled && open_.empty()) {
-      moving_ = false;
+      moving_ = false, isQuick_ = true;
       plan_ = planOfRest();
       states_.restart();
       return next(now);
@@ -165,7 +173,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
     if (isSettled || !states_.hasNews()) return std::nullopt;
     firstUnshown_ = now;
   }
-  if (open_.size() >= kInMotion) return std::nullopt;
+  if (open_.size() >= kInMotion || isLitSoon(now)) return std::nullopt;
   const std::optional<uint32_t> version = states_.versionOfFrame(true);
   if (!version) return std::nullopt;
   LiveFrame frame = open(now);

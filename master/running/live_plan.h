@@ -13,6 +13,10 @@
 //            moving, and once more when it rests: sample streams are frozen in between
 //            (gi/light/transport.h).
 //
+//            Where a method's steps are paced, brief ones go before the frame, which waits for them
+//            for at most kLitSoon: it has the light of what it shows, if they are as quick as that.
+//            If one was not, the gesture's later ones go beside frames, as all others do.
+//
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
 // In motion the open frame is finished, else a hand that never rests would never see one.
@@ -79,6 +83,7 @@ class LivePlan {
  public:
   static constexpr Duration kSettle = milliseconds(250);
   static constexpr size_t kInMotion = 2;
+  static constexpr Duration kLitSoon = milliseconds(30);
 
   struct Setup {
     LiveState state;
@@ -138,6 +143,7 @@ class LivePlan {
   LiveFrame open(Time now);
   uint8_t planes() const;
   Duration stepTime() const;
+  bool isLitSoon(Time now) const;
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
   Settings settingsAt(const Quality& quality) const;
@@ -149,14 +155,15 @@ class LivePlan {
   Delivery atRest_, inMotion_;
   FramePlan plan_;
   StatePlan states_;
-  LiveStep step_;  // the latest one that was opened
+  LiveStep step_;         // the latest one that was opened
+  Duration stepTime_{0};  // that it may take
   Time stepEnded_{};
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   bool moving_ = false, dirty_ = false;
-  bool hasStepped_ = false;  // the latest step was one in motion
-  bool urgent_ = false;      // somebody waits for the next frame at rest
+  bool isQuick_ = true;  // the gesture's latest step took less than half of its time
+  bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
   bool unsettled_ = false;  // it was announced as moving

@@ -281,12 +281,16 @@ void Scheduler::doubt(SchedulerClient& client, Time now) {
   pool_.update(client);
 }
 
-// Task by task to whoever would finish it first, so that a short supply is spread over all.
+// Task by task to whoever would finish it first, so that a short supply is spread over all. Units
+// of steps go in groups; the last ones are spread, too.
 void Scheduler::handOutWaiting(Actions& actions, Time now) {
-  for (int left = waiting(); left > 0 && !pool_.ready().empty(); --left) {
+  while (waiting() > 0 && !pool_.ready().empty()) {
     SchedulerClient& client = *pool_.find(pool_.ready().begin()->second);
     const auto [frame, set] = placeFor(client);
-    assign(client, *frame, frame->nextWaiting(set, client.id()), actions, now);
+    const int share = std::max(1, frame->waiting() / (2 * clients()));
+    const int group = frame->isStep() ? std::min(client.unitsAtOnce(), share) : 1;
+    for (int i = 0; i < group; ++i)
+      assign(client, *frame, frame->nextWaiting(set, client.id()), actions, now);
   }
 }
 

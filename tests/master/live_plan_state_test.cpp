@@ -45,6 +45,15 @@ class LivePlanState : public testing::Test {
     return next.key.to;
   }
 
+  // Groups of photons, and a picture at rest: 306 units at 1 ms.
+  void pace(std::optional<Duration> stepTime = {}) {
+    LivePlan::Setup paced = setup();
+    paced.state.settings.method = Method::selective;
+    paced.stepTime = stepTime;
+    plan = LivePlan(paced, now);
+    rest(milliseconds(306));
+  }
+
   Time now = Time(std::chrono::hours(1));
   LivePlan plan{setup(), now};
 };
@@ -148,31 +157,62 @@ TEST_F(LivePlanState, AnEditVoidsAStepOfAllThatShowsTheSceneBefore) {
   EXPECT_EQ(frame().order.key.state, small.key.to);
 }
 
-// Groups of photons: of 100 ms for a frame steps get a half, the first one of a gesture all. All
-// 306 units at 1 ms, then 2, which is 1.5 in the mean.
-TEST_F(LivePlanState, PacedStepsAreAsLargeAsHalfAFrameHasRoomForTheFirstOneAsAWhole) {
-  LivePlan::Setup paced = setup();
-  paced.state.settings.method = Method::selective;
-  plan = LivePlan(paced, now);
-  rest(milliseconds(306));
+// All 306 units at 1 ms, then 2, which is 1.5 in the mean.
+TEST_F(LivePlanState, PacedStepsBesideFramesAreAsLargeAsHalfAFrameHasRoomFor) {
+  pace();
   edit();
-  finish(frame());
   const StepOrder first = step();
-  EXPECT_EQ(first.units, 100);
-  pass(milliseconds(200));
+  EXPECT_EQ(first.units, 30) << "it goes before the frame";
+  pass(milliseconds(60));
   plan.stepDone(first.key, now);
   finish(frame());
-  EXPECT_EQ(step().units, 33);
+  EXPECT_EQ(step().units, 33) << "half of 100 ms";
+}
+
+TEST_F(LivePlanState, AFrameWaitsBrieflyForTheLightOfWhatItShows) {
+  pace();
+  edit();
+  const StepOrder first = step();
+  EXPECT_FALSE(plan.next(now)) << "a step is under way";
+  pass(milliseconds(10));
+  plan.stepDone(first.key, now);
+  const StepOrder second = step();
+  EXPECT_NEAR(second.units, 45, 1) << "1 ms and 1/3 ms: 2/3 ms in the mean";
+  pass(milliseconds(10));
+  plan.stepDone(second.key, now);
+  const StepOrder third = step();
+  pass(milliseconds(9));
+  EXPECT_FALSE(plan.next(now));
+  pass(milliseconds(1));
+  EXPECT_EQ(frame().order.key.state, second.key.to) << "30 ms are over";
+  plan.stepDone(third.key, now);
+}
+
+// What was slow once in a gesture keeps no frame of it waiting.
+TEST_F(LivePlanState, AFrameDoesNotWaitForStepsThatAreSlow) {
+  pace();
+  edit();
+  const StepOrder slow = step();
+  pass(milliseconds(20));
+  plan.stepDone(slow.key, now);
+  finish(frame());
+  edit();
+  EXPECT_GT(step().units, 30) << "half of 100 ms";
+  EXPECT_TRUE(plan.next(now));
+}
+
+TEST_F(LivePlanState, ACameraThatMovesWaitsForNoStepAtRest) {
+  pace();
+  step();  // of the next frame at rest
+  LiveState state = plan.state();
+  state.settings.camera.eye.x += 1;
+  plan.change(state, now);
+  EXPECT_TRUE(plan.next(now));
 }
 
 TEST_F(LivePlanState, PacedStepsTakeTheTimeThatIsAskedFor) {
-  LivePlan::Setup paced = setup();
-  paced.state.settings.method = Method::selective;
-  paced.stepTime = milliseconds(200);
-  plan = LivePlan(paced, now);
-  rest(milliseconds(306));
+  pace(milliseconds(200));
   edit();
-  finish(frame());
   EXPECT_EQ(step().units, 200);
 }
 
