@@ -6,6 +6,12 @@
 #include "common/scene/methods.h"
 
 namespace ninefold {
+namespace {
+
+constexpr Duration kAsLongAsItTakes = std::chrono::hours(1);
+
+}  // namespace
+
 LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
       state_(setup.state),
@@ -57,7 +63,7 @@ void LivePlan::follow(const LiveState& state, Time now) {
   asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
   if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
   if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
-  if (isQuick_) states_.goAhead();
+  if (isQuick_ && states_.isPaced()) states_.goAhead();
   state_ = state;
   changed_ = now;
   if (!dirty_) firstUnshown_ = now;
@@ -126,31 +132,26 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
-  const Duration time = stepTime();
-  const auto step = states_.nextStep(nextFrame_, moving_, left, time);
+  const bool ahead = goesAhead();
+  const Duration usual = ahead ? kAsLongAsItTakes : quality_.target() / 2;
+  const auto step = states_.nextStep(nextFrame_, moving_, left, setup_.stepTime.value_or(usual));
   if (!step) return std::nullopt;
-  stepTime_ = time;
   step_ = {step->key, step->units, moving_, now, {}};
   ++nextFrame_;
-  return StepOrder{open(now).order, step->key, step->units};
+  return StepOrder{open(now).order, step->key, step->units, ahead};
 }
 
-// Steps that go before a frame are brief. Those beside frames take half of the time.
-Duration LivePlan::stepTime() const {
-  const Duration usual = dirty_ && isQuick_ ? kLitSoon : quality_.target() / 2;
-  return setup_.stepTime.value_or(usual);
-}
+// No frame has shown the latest change of the scene.
+bool LivePlan::goesAhead() const { return moving_ && dirty_ && isQuick_ && states_.isPaced(); }
 
-// A frame in motion waits that long for a step that may give it the light of what it shows.
 bool LivePlan::isLitSoon(Time now) const {
-  return dirty_ && isQuick_ && states_.isCatchingUp() && now - firstUnshown_ < kLitSoon;
+  return goesAhead() && states_.isCatchingUp() && now - firstUnshown_ < kLitSoon;
 }
 
 std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {
   states_.done(step, now - step_.opened);
   if (!(step_.key == step)) return std::nullopt;
-  if (moving_) isQuick_ = now - step_.opened < stepTime_ / 2;
-  if (isQuick_) states_.goAhead();
+  if (moving_ && now - step_.opened > kLitSoon) isQuick_ = false;
   step_.done = stepEnded_ = now;
   return step_;
 }

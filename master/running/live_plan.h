@@ -13,9 +13,10 @@
 //            moving, and once more when it rests: sample streams are frozen in between
 //            (gi/light/transport.h).
 //
-//            Where a method's steps are paced, brief ones go before the frame, which waits for them
-//            for at most kLitSoon: it has the light of what it shows, if they are as quick as that.
-//            If one was not, the gesture's later ones go beside frames, as all others do.
+//            Where a method's steps are paced, a step of all goes before the frame, which waits for
+//            it for at most kLitSoon, and then goes first. If it is as quick as that, the frame has
+//            the light of what it shows. If not, the gesture's later steps go beside frames, and
+//            take half of the time.
 //
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
@@ -142,7 +143,7 @@ class LivePlan {
   std::optional<int64_t> framesLeft() const;
   LiveFrame open(Time now);
   uint8_t planes() const;
-  Duration stepTime() const;
+  bool goesAhead() const;
   bool isLitSoon(Time now) const;
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
@@ -155,14 +156,13 @@ class LivePlan {
   Delivery atRest_, inMotion_;
   FramePlan plan_;
   StatePlan states_;
-  LiveStep step_;         // the latest one that was opened
-  Duration stepTime_{0};  // that it may take
+  LiveStep step_;  // the latest one that was opened
   Time stepEnded_{};
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   bool moving_ = false, dirty_ = false;
-  bool isQuick_ = true;  // the gesture's latest step took less than half of its time
+  bool isQuick_ = true;  // steps of this gesture were done within kLitSoon
   bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows

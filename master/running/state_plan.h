@@ -59,12 +59,11 @@ class StatePlan {
                                Duration time = {});
   // `took`: since it was opened.
   void done(const StepKey& step, Duration took = {});
-  // Where steps are paced: the next one need not wait for a frame.
-  void goAhead() { mayStep_ = mayStep_ || (facts_ != nullptr && facts_->isPaced); }
-  // Where steps are paced: one in motion is under way that shows the present scene.
-  bool isCatchingUp() const {
-    return open_ && !open_->makesAll && open_->scene == scene_ && facts_->isPaced;
-  }
+  // In motion the next step need not wait for a frame.
+  void goAhead() { mayStep_ = true; }
+  bool isPaced() const { return facts_ != nullptr && facts_->isPaced; }
+  // A step in motion is under way that shows the present scene.
+  bool isCatchingUp() const { return open_ && !open_->makesAll && open_->scene == scene_; }
   // The version that lights the next frame, which is opened now; nothing while it is not there.
   std::optional<uint32_t> versionOfFrame(bool moving);
   // There is a version that no frame in motion has shown.
