@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint8_t kVersion = 1;
 constexpr size_t kHeadBytes = 1 + 4;
-constexpr int kLevel = 3;
+constexpr int kLevel = 1;
 
 // Of pages that follow one another, and how many there are.
 class Order {

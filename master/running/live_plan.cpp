@@ -144,14 +144,18 @@ std::optional<StepOrder> LivePlan::nextStep(Time now) {
 // No frame has shown the latest change of the scene.
 bool LivePlan::goesAhead() const { return moving_ && dirty_ && isQuick_ && states_.isPaced(); }
 
-bool LivePlan::isLitSoon(Time now) const {
-  return goesAhead() && states_.isCatchingUp() && now - firstUnshown_ < kLitSoon;
+bool LivePlan::waitsForLight(Time now) {
+  if (!goesAhead() || !states_.isCatchingUp()) return false;
+  if (now - firstUnshown_ < quality_.target() / 2) return true;
+  states_.giveUpStep();
+  voidSteps_ = nextFrame_;
+  isQuick_ = false;
+  return false;
 }
 
 std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {
   states_.done(step, now - step_.opened);
   if (!(step_.key == step)) return std::nullopt;
-  if (moving_ && now - step_.opened > kLitSoon) isQuick_ = false;
   step_.done = stepEnded_ = now;
   return step_;
 }
@@ -174,7 +178,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
     if (isSettled || !states_.hasNews()) return std::nullopt;
     firstUnshown_ = now;
   }
-  if (open_.size() >= kInMotion || isLitSoon(now)) return std::nullopt;
+  if (open_.size() >= kInMotion || waitsForLight(now)) return std::nullopt;
   const std::optional<uint32_t> version = states_.versionOfFrame(true);
   if (!version) return std::nullopt;
   LiveFrame frame = open(now);

@@ -14,9 +14,9 @@
 //            (gi/light/transport.h).
 //
 //            Where a method's steps are paced, a step of all goes before the frame, which waits for
-//            it for at most kLitSoon, and then goes first. If it is as quick as that, the frame has
-//            the light of what it shows. If not, the gesture's later steps go beside frames, and
-//            take half of the time.
+//            it for half of its own time. So it has the light of what it shows. If the step takes
+//            longer, it is void, and the gesture's later steps go beside frames and take half of
+//            the time.
 //
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
@@ -84,7 +84,6 @@ class LivePlan {
  public:
   static constexpr Duration kSettle = milliseconds(250);
   static constexpr size_t kInMotion = 2;
-  static constexpr Duration kLitSoon = milliseconds(30);
 
   struct Setup {
     LiveState state;
@@ -125,7 +124,8 @@ class LivePlan {
   std::optional<StepOrder> nextStep(Time now);
   // Nothing if the step is void.
   std::optional<LiveStep> stepDone(const StepKey& step, Time now);
-  // The first step that is wanted, if older ones are void since this was last asked.
+  // The first step that is wanted, if older ones are void since this was last asked: after change
+  // and next.
   std::optional<uint32_t> takeVoidSteps() { return std::exchange(voidSteps_, std::nullopt); }
   // A frame is complete. Nothing if it was superseded.
   std::optional<LiveFrame> completed(uint32_t frame, Time now);
@@ -144,7 +144,7 @@ class LivePlan {
   LiveFrame open(Time now);
   uint8_t planes() const;
   bool goesAhead() const;
-  bool isLitSoon(Time now) const;
+  bool waitsForLight(Time now);
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
   Settings settingsAt(const Quality& quality) const;
@@ -162,7 +162,7 @@ class LivePlan {
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   bool moving_ = false, dirty_ = false;
-  bool isQuick_ = true;  // steps of this gesture were done within kLitSoon
+  bool isQuick_ = true;  // steps of this gesture took no more than half of a frame's time
   bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows

@@ -264,6 +264,7 @@ std::optional<WorkOrder> LiveRun::nextWork() {
   std::optional<LiveFrame> frame;
   if (!step) frame = plan_.next(Clock::now());
   if (!step && !frame) step = plan_.nextStep(Clock::now());  // it may rest only now
+  if (const auto voidSteps = plan_.takeVoidSteps()) machine_.cluster().cancelSteps(*voidSteps);
   if (step) {
     step->edit = std::exchange(unsent_, {});
     return step;

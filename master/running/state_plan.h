@@ -47,6 +47,8 @@ class StatePlan {
   void resume(uint32_t frames, uint32_t version);
   // The open step cannot be done any more, and frames at rest begin anew.
   void giveUp() { open_.reset(), restart(); }
+  // Others shall be opened in its place.
+  void giveUpStep() { open_.reset(), mayStep_ = true; }
 
   struct Step {
     StepKey key;

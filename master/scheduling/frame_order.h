@@ -37,7 +37,7 @@ struct FrameOrder : JobOrder {
 struct StepOrder : JobOrder {
   StepKey key;
   int units = 1;
-  bool yields = false;  // to frames that somebody waits for
+  bool yields = false;  // frames may be asked for before it is handed out
 };
 
 using WorkOrder = std::variant<FrameOrder, StepOrder>;

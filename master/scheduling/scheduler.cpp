@@ -87,12 +87,6 @@ int Scheduler::waitingFirst() const {
   return sum;
 }
 
-bool Scheduler::isAwaited() const {
-  return std::ranges::any_of(frames_, [](const auto& f) {
-    return !f.second.isStep() && f.second.sharesSets() && f.second.waiting() > 0;
-  });
-}
-
 bool Scheduler::wantsFrame() const {
   return !verification_.isFull() && (waitingFirst() < pool_.freeCredit() || wouldShare());
 }
@@ -308,9 +302,7 @@ void Scheduler::handOutWaiting(Actions& actions, Time now) {
 
 Scheduler::Place Scheduler::placeFor(const SchedulerClient& client) {
   SchedulerFrame* oldest = nullptr;
-  const bool yield = isAwaited();
   for (auto& [number, frame] : frames_) {
-    if (yield && frame.yields()) continue;
     if (const auto set = frame.setToGoOnWith(client.id())) return {&frame, *set};
     if (oldest == nullptr && frame.waiting() > 0) oldest = &frame;
     if (oldest == &frame && frame.sharesSets()) return {&frame, frame.setToShare(client)};

@@ -22,8 +22,7 @@
 //   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A
 //               change of the view leaves them. Each client begins with units of its own, the same
 //               ones in each step, as it may have kept work of the last one; then it helps others.
-//               They go out in groups. A step that yields lets tasks of urgent frames go first, and
-//               does not keep frames from being opened.
+//               They go out in groups. A step that yields does not keep frames from being asked for.
 //   checks      Chosen results are done again by a second client of the same pixel class, before
 //               any other work (verification.h). A frame does not wait for them. Actions::wrong
 //               tells.
@@ -137,7 +136,6 @@ class Scheduler {
   Verdict verdictOnClosed(uint32_t frame) const;
   int waiting() const;                          // tasks to hand out, over all open frames
   int waitingFirst() const;                     // without those of steps that yield
-  bool isAwaited() const;                       // tasks of an urgent frame are to be handed out
   const SchedulerFrame* newestPicture() const;  // of the open frames; null: none
   bool runsAhead() const;
   bool wouldShare() const;

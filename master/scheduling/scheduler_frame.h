@@ -47,7 +47,7 @@ class SchedulerFrame {
 
   const FrameKey& key() const { return key_; }
   bool isStep() const { return isStep_; }
-  bool yields() const { return yields_; }  // to urgent frames
+  bool yields() const { return yields_; }  // frames may be asked for before it is handed out
   int ordinal() const { return ordinal_; }
   bool sharesSets() const { return sharesSets_; }       // all clients work on it at once
   int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of

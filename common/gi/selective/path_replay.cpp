@@ -39,9 +39,10 @@ uint64_t PathReplay::stampOf(const PhotonStart& start) {
 bool PathReplay::isAsBefore(const KeptPath& path) const {
   const std::vector<Vec3>& points = kept_->points;
   if (path.pointsEnd == firstPoint_) return true;  // it carries nothing
-  if (asks_ && changes_->concern(points[firstPoint_], kFar * wayOutOfMedia())) return false;
+  if (asks_ && changes_->concern(points[firstPoint_], points[firstPoint_] + kFar * wayOutOfMedia()))
+    return false;
   for (uint32_t i = firstPoint_; i + 1 < path.pointsEnd; ++i)
-    if (changes_->concern(points[i], points[i + 1] - points[i])) return false;
+    if (changes_->concern(points[i], points[i + 1])) return false;
   return true;
 }
 

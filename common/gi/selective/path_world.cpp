@@ -10,11 +10,14 @@
 
 namespace ninefold {
 
-bool PathChanges::concern(Vec3 origin, Vec3 way) const {
+bool PathChanges::concern(Vec3 a, Vec3 b) const {
   if (everywhere) return true;
-  return meetsBox(all, origin, way, 1) && std::ranges::any_of(boxes, [&](const Bounds& box) {
-           return meetsBox(box, origin, way, 1);
-         });
+  // Most ways lie on one side of all boxes.
+  const Vec3 low = glm::min(a, b), high = glm::max(a, b);
+  if (glm::any(glm::lessThan(high, all.low)) || glm::any(glm::greaterThan(low, all.high)))
+    return false;
+  const auto meets = [&](const Bounds& box) { return meetsBox(box, a, b - a, 1); };
+  return meets(all) && std::ranges::any_of(boxes, meets);
 }
 
 PathWorld::PathWorld(const Transport& t, const MinorLamps& minor)

@@ -32,8 +32,8 @@ struct PathChanges {
     all.add(box.low), all.add(box.high);
     boxes.push_back(box);
   }
-  // Whether origin + t way, t in [0, 1], meets any.
-  bool concern(Vec3 origin, Vec3 way) const;
+  // Whether the way from a to b meets any.
+  bool concern(Vec3 a, Vec3 b) const;
 };
 
 class PathWorld {
