@@ -105,6 +105,7 @@ constexpr StateFacts kSelectiveState{
     .beginsAnew = true,
     .isPaced = true,
     .isKept = haveSameGroups,
+    .remembers = true,
 };
 
 // Lines stand for rays, and take about half as long.

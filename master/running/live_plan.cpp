@@ -63,7 +63,7 @@ void LivePlan::follow(const LiveState& state, Time now) {
   asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
   if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
   if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
-  if (isQuick_ && states_.isPaced()) states_.goAhead();
+  if (!hasStepped_ && states_.remembers()) states_.goAhead();
   state_ = state;
   changed_ = now;
   if (!dirty_) firstUnshown_ = now;
@@ -132,24 +132,22 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
-  const bool ahead = goesAhead();
+  const bool ahead = moving_ && !hasStepped_ && states_.remembers();
   const Duration usual = ahead ? kAsLongAsItTakes : quality_.target() / 2;
   const auto step = states_.nextStep(nextFrame_, moving_, left, setup_.stepTime.value_or(usual));
   if (!step) return std::nullopt;
-  step_ = {step->key, step->units, moving_, now, {}};
+  hasStepped_ = moving_;
+  step_ = {step->key, step->units, moving_, ahead, now, {}};
   ++nextFrame_;
   return StepOrder{open(now).order, step->key, step->units, ahead};
 }
 
-// No frame has shown the latest change of the scene.
-bool LivePlan::goesAhead() const { return moving_ && dirty_ && isQuick_ && states_.isPaced(); }
-
+// For the gesture's first step.
 bool LivePlan::waitsForLight(Time now) {
-  if (!goesAhead() || !states_.isCatchingUp()) return false;
-  if (now - firstUnshown_ < quality_.target() / 2) return true;
+  if (!step_.ahead || !states_.isCatchingUp()) return false;
+  if (now - step_.opened < quality_.target() / 2) return true;
   states_.giveUpStep();
   voidSteps_ = nextFrame_;
-  isQuick_ = false;
   return false;
 }
 
@@ -170,7 +168,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   if (!dirty_) {
     const bool isSettled = now - changed_ >= kSettle;
     if (isSettled && open_.empty()) {
-      moving_ = false, isQuick_ = true;
+      moving_ = false;
       plan_ = planOfRest();
       states_.restart();
       return next(now);

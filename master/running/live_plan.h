@@ -13,10 +13,9 @@
 //            moving, and once more when it rests: sample streams are frozen in between
 //            (gi/light/transport.h).
 //
-//            Where a method's steps are paced, a step of all goes before the frame, which waits for
-//            it for half of its own time. So it has the light of what it shows. If the step takes
-//            longer, it is void, and the gesture's later steps go beside frames and take half of
-//            the time.
+//            Where clients remember (StateFacts), a gesture's first step is one of all, and the frame
+//            waits for it for half of its own time. So it has the light of what it shows. If the
+//            step takes longer, it is void. Later steps go beside frames and take half of the time.
 //
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
@@ -76,7 +75,7 @@ struct LiveFrame {
 struct LiveStep {
   StepKey key;
   int units = 1;
-  bool moving = false;
+  bool moving = false, ahead = false;  // ahead: before the frame that shows what it follows
   Time opened{}, done{};
 };
 
@@ -143,7 +142,6 @@ class LivePlan {
   std::optional<int64_t> framesLeft() const;
   LiveFrame open(Time now);
   uint8_t planes() const;
-  bool goesAhead() const;
   bool waitsForLight(Time now);
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
@@ -162,8 +160,8 @@ class LivePlan {
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   bool moving_ = false, dirty_ = false;
-  bool isQuick_ = true;  // steps of this gesture took no more than half of a frame's time
-  bool urgent_ = false;  // somebody waits for the next frame at rest
+  bool hasStepped_ = false;  // the latest step was one in motion
+  bool urgent_ = false;      // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
   bool unsettled_ = false;  // it was announced as moving

@@ -63,7 +63,7 @@ class StatePlan {
   void done(const StepKey& step, Duration took = {});
   // In motion the next step need not wait for a frame.
   void goAhead() { mayStep_ = true; }
-  bool isPaced() const { return facts_ != nullptr && facts_->isPaced; }
+  bool remembers() const { return facts_ != nullptr && facts_->remembers; }
   // A step in motion is under way that shows the present scene.
   bool isCatchingUp() const { return open_ && !open_->makesAll && open_->scene == scene_; }
   // The version that lights the next frame, which is opened now; nothing while it is not there.

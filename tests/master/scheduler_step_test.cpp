@@ -62,7 +62,7 @@ TEST_F(SchedulerStep, AStepThatYieldsDoesNotKeepFramesFromBeingAskedFor) {
     bench.scheduler.openStep(number, kFirst, 300, 100, yields);
     bench.pass(Duration(0));
     for (const TaskId& unit : std::exchange(bench.sent[1], {}))
-      bench.scheduler.resultArrived(1, unit, milliseconds(1), bench.now);
+      bench.scheduler.resultArrived(1, unit, TaskCost(milliseconds(1)), bench.now);
     EXPECT_EQ(bench.scheduler.wantsFrame(), yields) << "the client has credit, and units wait";
     bench.pass(Duration(0));
     bench.drain();
