@@ -9,7 +9,7 @@
 // So a hit costs no more than a few products, where LineField::hitsOf and placeOf ask the page and
 // the mesh for each of them anew.
 //
-// Source:  Ren et al. 2005, 5 (VRM).   Proved: tests/gi/lamp_visibility_test.cpp.
+// Source:  Ren et al. 2005, 5 (VRM).   Proved: tests/gi/lamp_lines_test.cpp.
 // Threads: one owner.   Owner: refers to the scene.   Errors: none.
 #pragma once
 

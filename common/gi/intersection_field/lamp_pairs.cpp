@@ -96,16 +96,18 @@ size_t LampPairs::bytes() const {
 void LampPairs::add(const LampScene& scene, const LampLines::Pair& pair, int sign) {
   if (sign < 0 && !isKept_[pair.instance]) return;
   const TriangleElements::Place place = pair.elements.at(pair.at.x, pair.at.y);
+  const bool isDimmed = !isBlack(pair.seen) && pair.seen != Vec3(1);
+  const int64_t seen = isBlack(pair.seen) ? 0 : -1;  // all bits or none
   Sides& sides = own(scene, pair.instance);
   for (size_t c = 0; c < 3; ++c) {
     Sums& sums = sides[2 * place.nodes[c] + (pair.isBack ? 1 : 0)];
     const double weight = double{pair.weight * place.weights[c]};
     const int64_t all = sign * toFixed(weight, kQuantum);
     sums.all += all;
-    if (isBlack(pair.seen)) continue;
-    for (int i = 0; i < 3; ++i)
-      sums.seen[static_cast<size_t>(i)] +=
-          pair.seen[i] == 1 ? all : sign * toFixed(weight * double{pair.seen[i]}, kQuantum);
+    for (size_t i = 0; i < 3; ++i)
+      sums.seen[i] +=
+          isDimmed ? sign * toFixed(weight * double{pair.seen[static_cast<int>(i)]}, kQuantum)
+                   : all & seen;
   }
 }
 

@@ -13,18 +13,18 @@
 // count as much as they bring light. (As published all pairs count alike, which is wrong by
 // cos_p cos_q/d^2 and by the grid's density, however fine it is.)
 //
-// What hides q at less than an eighth of an element's side before p covers p: a picture on a wall, a
-// cupboard on a floor. Nobody sees such a p, and its pairs are left out, as elements would spread
+// What hides q at less than an eighth of an element's side before p covers p: a picture on a wall,
+// a cupboard on a floor. Nobody sees such a p, and its pairs are left out, as elements would spread
 // its dark over what is around.
 //
-// The lines are those of the lamp's local field: no ray is traced, and lines that miss the lamp are
-// not looked at. Sums are whole numbers of 2^-24, exact in any order. So after an edit only those
-// lines are looked at that meet what moved, before or now: what they said is taken away, what they
-// say is added, and the sums are those of a fresh start to the last bit. How bright a lamp is does
-// not count unless it shines unevenly.
+// The lines are those of the lamp's local field (lamp_lines.h): no ray is traced, and lines that
+// miss the lamp are not looked at. Sums are whole numbers of 2^-24, exact in any order. So after an
+// edit only those lines are looked at that meet what moved, before or now: what they said is taken
+// away, what they say is added, and the sums are those of a fresh start to the last bit. How bright
+// a lamp is does not count unless it shines unevenly.
 //
 // Source:  Ren et al. 2005, 5 (VRM) and 6 (influenced lines).
-// Proved:  tests/gi/lamp_visibility_test.cpp, intersection_field_test.cpp.
+// Proved:  tests/gi/lamp_lines_test.cpp, lamp_visibility_test.cpp, field_edits_test.cpp.
 // Memory:  64 bytes for each node that sees the lamp or could.
 // Threads: const after construction.   Errors: none.
 #pragma once
