@@ -121,7 +121,7 @@ def _add_surfaces(context, section):
                                "bytes": made["field_bytes"]})
             table.rows.append([figure(radius), figure(surface), str(triangles), figure(seconds), figure(made["field_bytes"] / 1e6)])
             over_surface.setdefault(f"{triangles} triangles", []).append((surface, seconds))
-            over_triangles.setdefault(f"{figure(surface)} m2", []).append((triangles, seconds))
+            over_triangles.setdefault(f"radius {radius} m", []).append((triangles, seconds))
     section.tables.append(table)
     section.text.append(_growth(over_surface, over_triangles))
     plots.side_by_side(os.path.join(context.folder, "surface.png"),
@@ -138,9 +138,9 @@ def _growth(over_surface, over_triangles):
         return times[-1][0] / times[0][0], f"{figure(min(ratios))} to {figure(max(ratios))}"
     surface, triangles = grown(over_surface), grown(over_triangles)
     return (f"Ours: at the same triangles {figure(surface[0])} times the surface takes {surface[1]} times as long; at the same surface "
-            f"{figure(triangles[0])} times the triangles take {triangles[1]} times as long. The time still rises with the triangles, as each "
-            "slice cuts each triangle that it crosses, and looks at all slopes for each cut, whether a line meets it or not. A triangle of a "
-            "quarter of the surface is crossed by half as many slices: cuts go with the square root of surface times triangles.")
+            f"{figure(triangles[0])} times the triangles take {triangles[1]} times as long. What it rises with the triangles comes of cuts: "
+            "each slice cuts each triangle that it crosses, and looks at all slopes for each cut, whether a line meets it or not. A triangle of "
+            "a quarter of the surface is crossed by half as many slices, so that cuts go with the square root of surface times triangles.")
 
 
 def ball_in_a_room(radius, rings):
