@@ -1,7 +1,7 @@
 #include "client/render_job.h"
 
 #include "common/base/log.h"
-#include "common/gi/method/too_many_lines.h"
+#include "common/gi/method/too_large.h"
 #include "common/gi/whole_state.h"
 #include "common/sampling/whole_tile.h"
 #include "common/scene/methods.h"
@@ -48,19 +48,17 @@ std::shared_ptr<RenderJob::Light> RenderJob::lightOf(
     const std::shared_ptr<const TracedScene>& scene, const Settings& wanted,
     const Delivery& delivery, int threads, Light* before) {
   Settings settings = wanted;
-  std::string refusal;
+  std::string refusal, size;
   for (;;) try {
       auto light = std::make_shared<Light>(scene, settings, delivery, threads, before);
-      const bool isNews =
-          before == nullptr || before->settings.fieldDirections >= wanted.fieldDirections;
-      if (!refusal.empty() && isNews)
-        warn("after this edit {}; the picture goes on with {} x {}", refusal,
-             settings.fieldDirections, settings.fieldDistances);
+      light->isReduced = !refusal.empty();
+      if (light->isReduced && (before == nullptr || !before->isReduced))
+        warn("after this edit {}; the picture goes on with {}", refusal, size);
       return light;
-    } catch (const TooManyLines& refused) {
-      if (scene->scene == scene->asFetched || refused.directions == 0) throw;
+    } catch (const TooLarge& refused) {
+      if (scene->scene == scene->asFetched || !refused.fitting) throw;
       if (refusal.empty()) refusal = refused.what();
-      settings.fieldDirections = refused.directions, settings.fieldDistances = refused.distances;
+      settings = refused.fitting->settings, size = refused.fitting->size;
     }
 }
 

@@ -11,8 +11,8 @@
 // Where a method makes its light for a view, jobs of other cameras and sizes share what was worked
 // out about the lamps, but make their own sets.
 //
-// An edit for which --max-field-memory has no room gets as many lines as it has room for, and a
-// warning.
+// An edit that the method has no room for goes on under settings that it has room for, with a
+// warning (gi/method/too_large.h).
 //
 // Threads: run() at once for different `thread`; each has its own working memory, light sets are
 // shared through the cache.
@@ -114,7 +114,8 @@ class RenderJob {
     Light(std::shared_ptr<const TracedScene> scene, const Settings& settings,
           const Delivery& delivery, int threads, Light* before);
     const std::shared_ptr<const TracedScene> scene;
-    const Settings settings;  // those asked for, but for lines that have no room
+    const Settings settings;  // those asked for, or, if these have no room, such as have
+    bool isReduced = false;   // they are not those asked for
     const SurfaceTest filter;
     const uint8_t layerMask;
     const std::shared_ptr<const Renderer> begun;  // of scene->begun

@@ -1,6 +1,6 @@
 // methods.h: the one place that knows which computing half belongs to which method.
 //
-// Threads: pure function.   Errors: none.
+// Threads: pure function.   Errors: throws TooLarge for a scene that a method has no room for.
 #pragma once
 
 #include "common/gi/method/method.h"

@@ -7,7 +7,8 @@
 //
 // Owner:   refers to the Tracer.
 // Threads: const functions are reentrant; each thread has its own Scratch.
-// Errors:  constructor throws Error for settings that the scene cannot serve.
+// Errors:  constructor throws Error for settings that the scene cannot serve; TooLarge if there are
+//          others that it can (method/too_large.h).
 #pragma once
 
 #include <memory>

@@ -145,18 +145,25 @@ def bias(path, series, slopes):
 
 def lines(path, series, across, upwards):
     """series: {label: [(x, y)]}; both axes by powers of ten. What is not above 0 is left out."""
-    figure, axis = plot.subplots(figsize=(5.6, 3.4), layout="constrained")
-    for colour, (label, points) in zip(COLOURS, series.items()):
-        seen = [(x, y) for x, y in points if y > 0]
-        if seen:
-            axis.plot(*zip(*seen), "o-", color=colour, markersize=3, linewidth=1, label=label)
-    axis.set(xscale="log", yscale="log", xlabel=across, ylabel=upwards)
-    for scale in (axis.xaxis, axis.yaxis):
-        scale.set_major_formatter("{x:g}")
-        low, high = scale.get_view_interval()
-        scale.set_minor_formatter("{x:g}" if high < 12 * low else NullFormatter())
-    axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
-    axis.grid(True, color="0.92")
+    side_by_side(path, [(series, across)], upwards)
+
+
+def side_by_side(path, plots, upwards):
+    """plots: (series, across) as `lines` has them; they share the axis upwards."""
+    figure, axes = plot.subplots(1, len(plots), figsize=(5.6 * len(plots), 3.4), squeeze=False, sharey=True, layout="constrained")
+    for axis, (series, across) in zip(axes.flat, plots):
+        for colour, (label, points) in zip(COLOURS, series.items()):
+            seen = [(x, y) for x, y in points if y > 0]
+            if seen:
+                axis.plot(*zip(*seen), "o-", color=colour, markersize=3, linewidth=1, label=label)
+        axis.set(xscale="log", yscale="log", xlabel=across)
+        for scale in (axis.xaxis, axis.yaxis):
+            scale.set_major_formatter("{x:g}")
+            low, high = scale.get_view_interval()
+            scale.set_minor_formatter("{x:g}" if high < 12 * low else NullFormatter())
+        axis.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.01, 0.5))
+        axis.grid(True, color="0.92")
+    axes.flat[0].set_ylabel(upwards)
     _finish(figure, path)
 
 

@@ -283,6 +283,27 @@ class WindowTest(unittest.TestCase):
         self.assertEqual(self.program.process.wait(60), 0, self.program.text)
         self.assertGreater(json.loads(times.read_text())["latency_ms"]["count"], 1)
 
+    def test_an_edit_without_room_for_its_lines_goes_on_with_fewer(self):
+        """The tall block of cornell grows by a twist, which --max-field-memory has no room for; then a person switches the lamp."""
+        script = pathlib.Path(self.folder.name) / "grows.json"
+        script.write_text(json.dumps({"seconds": 2, "events": [{"from": 0, "to": 2, "object": "tall block", "twist": 340}]}))
+        self.start("--script", script, "--method", "intersection-field", "--field-photons", "4096", "--max-field-memory", "37",
+                   scene=SCENES / "cornell.glb", camera="0")
+        self.program.waits_for("after this edit the intersection field would take \\d+ MiB, --max-field-memory is 37: .*; "
+                               "the picture goes on with \\d+ x \\d+")
+        self.screen.key("Tab")
+        twisted = self.rest("too_large")
+        self.assertGreater(twisted.mean(), LIT / 2)
+        self.screen.click(*self.cornell_lamp_at)
+        self.program.waits_for("selected lamp")
+        self.screen.key("l")
+        self.until(lambda p: p.mean() < 0.35 * twisted.mean(), "darkness", "too_large_dark")
+        self.screen.key("l", "Escape")
+        self.until(lambda p: p.difference(twisted) < CALM, "light again")
+        self.assertNotIn("is gone", self.program.text)
+        self.screen.key("ctrl+q")
+        self.assertEqual(self.program.process.wait(60), 0, self.program.text)
+
     def test_an_animation_plays_over_and_over_and_pauses(self):
         scene = pathlib.Path(self.folder.name) / "moves.gltf"
         scene.write_text(moving_square())
@@ -339,6 +360,7 @@ class WindowTest(unittest.TestCase):
 
     sphere_at = (397, 341)  # as the camera sees them
     lamp_at = (360, 113)
+    cornell_lamp_at = (360, 60)
 
     def test_no_display_is_one_line_and_the_picture_is_made(self):
         os.environ.pop("DISPLAY", None)

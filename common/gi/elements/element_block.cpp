@@ -14,11 +14,6 @@ namespace {
 constexpr uint32_t kMostCuts = 4096;
 constexpr uint32_t kHoleRows = 4;
 
-// Point (i, j) of a triangle cut into n: its place in the triangle's rows.
-uint32_t pointOf(uint32_t i, uint32_t j, uint32_t n) { return j * (n + 1) - j * (j - 1) / 2 + i; }
-
-uint32_t pointsOf(uint32_t n) { return (n + 1) * (n + 2) / 2; }
-
 struct Corners {
   Vec3 p[3];  // in the scene
 
@@ -53,7 +48,7 @@ class Making {
       const bool isTwin = twins_.find(k) != nullptr;
       cuts.push_back(static_cast<uint16_t>(isTwin ? 0 : n));
       firstPoint.push_back(static_cast<uint32_t>(points));
-      if (!isTwin) points += pointsOf(n);
+      if (!isTwin) points += TriangleElements::pointsOf(n);
       if (points > ElementBlock::kMostPoints)
         fail(
             "the elements of {}, a mesh of {} triangles, are too many: raise --element-size, or "
@@ -87,13 +82,13 @@ class Making {
       const double third = static_cast<double>(at.area()) / (3.0 * n * n);
       for (uint32_t j = 0; j <= n; ++j)
         for (uint32_t i = 0; i + j <= n; ++i) {
-          RawNode& node = raw_[nodeOf[firstPoint[k] + pointOf(i, j, n)]];
+          RawNode& node = raw_[nodeOf[firstPoint[k] + TriangleElements::pointOf(i, j, n)]];
           const float u = step * static_cast<float>(i), v = step * static_cast<float>(j);
           node.position = at.p[0] + u * (at.p[1] - at.p[0]) + v * (at.p[2] - at.p[0]);
           node.normal = glm::cross(at.p[1] - at.p[0], at.p[2] - at.p[0]);
           node.nearest = std::min(node.nearest, step * at.shortest());
           node.area += third * elementsAround(i, j, n);
-          const uint32_t name = nodeOf[firstPoint[k] + pointOf(i, j, n)];
+          const uint32_t name = nodeOf[firstPoint[k] + TriangleElements::pointOf(i, j, n)];
           connected.join(name, nodeOf[firstPoint[k]]);
         }
     }
@@ -220,14 +215,6 @@ void ElementBlock::leaveOutHoles(const Scene& scene, const Mesh& mesh) {
   areas_.assign(areas.begin(), areas.end());
 }
 
-std::array<uint32_t, 3> ElementBlock::nodesOf(uint32_t triangle, const Cell& cell) const {
-  const auto [i, j, isUpper] = cell;
-  const uint32_t* points = nodeOf_.data() + firstPoint_[triangle];
-  const auto node = [&](uint32_t a, uint32_t b) { return points[pointOf(a, b, cuts_[triangle])]; };
-  if (isUpper) return {node(i + 1, j + 1), node(i, j + 1), node(i + 1, j)};
-  return {node(i, j), node(i + 1, j), node(i, j + 1)};
-}
-
 ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
   const Twins::Twin* twin = twins_.find(triangle);
   if (twin == nullptr) return within(triangle, u, v);
@@ -240,22 +227,10 @@ ElementPlace ElementBlock::at(uint32_t triangle, float u, float v) const {
 }
 
 ElementPlace ElementBlock::within(uint32_t triangle, float u, float v) const {
-  const uint32_t n = cuts_[triangle];
-  const float x = std::max(u, 0.0f) * static_cast<float>(n);
-  const float y = std::max(v, 0.0f) * static_cast<float>(n);
-  const uint32_t j = std::min(static_cast<uint32_t>(y), n - 1);
-  const uint32_t i = std::min(static_cast<uint32_t>(x), n - 1 - j);
-  const float fx = std::clamp(x - static_cast<float>(i), 0.0f, 1.0f);
-  const float fy = std::clamp(y - static_cast<float>(j), 0.0f, 1.0f);
-  const float left = 1 - fx - fy;
-  const Cell cell{i, j, left < 0 && i + j + 2 <= n};
-  const uint32_t element = firstElement_[triangle] + j * (2 * n - j) + 2 * i + cell.isUpper;
-  std::array<float, 3> weights = {left, fx, fy};
-  if (cell.isUpper)
-    weights = {-left, 1 - fx, 1 - fy};
-  else if (left < 0)  // past the long side by rounding
-    weights = {0, fx / (fx + fy), fy / (fx + fy)};
-  return {nodesOf(triangle, cell), weights, triangle, element};
+  const TriangleElements elements = elementsOf(triangle);
+  const TriangleElements::Place place = elements.at(u, v);
+  return {place.nodes, place.weights, triangle,
+          firstElement_[triangle] + elements.numberOf(place.cell)};
 }
 
 }  // namespace ninefold

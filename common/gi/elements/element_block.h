@@ -30,6 +30,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/gi/elements/triangle_elements.h"
 #include "common/gi/elements/twins.h"
 #include "common/scene/scene.h"
 
@@ -90,6 +91,10 @@ class ElementBlock {
   ElementPlace at(uint32_t triangle, float u, float v) const;
   size_t triangles() const { return cuts_.size(); }
   uint32_t cuts(uint32_t triangle) const { return cuts_[triangle]; }
+  // Of a triangle that is no later twin.
+  TriangleElements elementsOf(uint32_t triangle) const {
+    return {cuts_[triangle], nodeOf_.data() + firstPoint_[triangle]};
+  }
   template <typename Visit>
   void forEachElement(uint32_t triangle, const Visit& visit) const;  // visit(element)
   template <typename Visit>
@@ -98,19 +103,13 @@ class ElementBlock {
   }
 
  private:
-  // Points (i, j), (i+1, j), (i, j+1), or, if it is upper, (i+1, j+1), (i, j+1), (i+1, j).
-  struct Cell {
-    uint32_t i, j;
-    bool isUpper;
-  };
   ElementPlace within(uint32_t triangle, float u, float v) const;
-  std::array<uint32_t, 3> nodesOf(uint32_t triangle, const Cell& cell) const;
   void leaveOutHoles(const Scene& scene, const Mesh& mesh);
 
   const Mesh* mesh_;
   DMat3 linear_;
   Metres size_;
-  // Points of a triangle's grid: row j has those at v = j/n, u = i/n.
+  // Points and elements of each triangle: triangle_elements.h.
   std::vector<uint16_t> cuts_;          // n, by triangle; 0: it is a twin
   std::vector<uint32_t> firstPoint_;    // by triangle
   std::vector<uint32_t> firstElement_;  // by triangle
@@ -123,15 +122,16 @@ class ElementBlock {
 
 template <typename Visit>
 void ElementBlock::forEachElement(uint32_t triangle, const Visit& visit) const {
-  const uint32_t n = cuts_[triangle];
+  const TriangleElements elements = elementsOf(triangle);
+  const uint32_t n = elements.n;
   const float step = 1 / static_cast<float>(n);
   uint32_t number = firstElement_[triangle];
   for (uint32_t j = 0; j < n; ++j)
     for (uint32_t c = 0; c < 2 * (n - j) - 1; ++c) {
-      const Cell cell{c / 2, j, c % 2 == 1};
+      const TriangleElements::Cell cell{c / 2, j, c % 2 == 1};
       const Vec2 low = step * Vec2(cell.i, cell.j), high = step * Vec2(cell.i + 1, cell.j + 1);
       const Vec2 right(high.x, low.y), above(low.x, high.y);
-      visit(Element{number++, triangle, nodesOf(triangle, cell),
+      visit(Element{number++, triangle, elements.nodesOf(cell),
                     cell.isUpper ? std::array<Vec2, 3>{high, above, right}
                                  : std::array<Vec2, 3>{low, right, above},
                     step * step * triangleAreas_[triangle]});

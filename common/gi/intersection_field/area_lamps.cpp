@@ -9,6 +9,9 @@ namespace {
 AreaLamp lampOf(const Transport& t, size_t first, size_t end) {
   AreaLamp lamp;
   lamp.instance = t.emitters[first].instance, lamp.doubleSided = t.emitters[first].doubleSided;
+  const auto mesh = static_cast<size_t>(t.scene.instances[lamp.instance].mesh);
+  const Material& m = t.scene.materials[static_cast<size_t>(t.scene.meshes[mesh].material)];
+  lamp.isEven = !m.emissionMap && m.alphaMode == AlphaMode::opaque;
   std::vector<float> powers;
   for (size_t i = first; i < end; ++i) {
     const Emitter& e = t.emitters[i];

@@ -30,6 +30,7 @@ struct AreaLamp {
 
   uint32_t instance = 0;
   bool doubleSided = false;
+  bool isEven = true;   // it has the same L all over
   float brightest = 0;  // largest component of what an emitter of it radiates [W/(m^2 sr)]
   std::vector<LampDisk> disks;
 };

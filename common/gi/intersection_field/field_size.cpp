@@ -4,7 +4,7 @@
 
 #include "common/gi/intersection_field/lamp_pairs.h"
 #include "common/gi/intersection_field/node_lines.h"
-#include "common/gi/method/too_many_lines.h"
+#include "common/gi/method/too_large.h"
 
 namespace ninefold {
 namespace {
@@ -52,6 +52,26 @@ Size sizeOf(const LineGrid& grid, const Mesh& mesh, const DMat4& toWorld) {
   return {all * size.bytes, all * size.hits};
 }
 
+struct Lines {
+  int directions, distances;
+};
+
+// How many have room, where those of the settings take so many bytes; 0: none have. Runs of large
+// triangles go with N^2 M, of small ones with N^2 M^2; what nodes keep, with none.
+Lines fittingLines(const FieldPlan& plan, const Settings& s, double bytes) {
+  const double most = s.maxFieldMemory * 0x1p20;
+  double shrink = std::cbrt(most / bytes);
+  for (int directions = s.fieldDirections; directions > kFewestDirections; shrink *= 0.95) {
+    directions = std::max(static_cast<int>(s.fieldDirections * shrink), kFewestDirections);
+    int distances = std::max(static_cast<int>(s.fieldDistances * shrink), kFewestDistances);
+    while (std::gcd(directions, distances) != 1) --distances;
+    if (distances < kFewestDistances) directions = kFewestDirections, distances = kFewestDistances;
+    if (fieldBytes(LineGrid(plan.scene.bounds, directions, distances), plan) <= most)
+      return {directions, distances};
+  }
+  return {0, 0};
+}
+
 }  // namespace
 
 double fieldBytes(const LineGrid& grid, const FieldPlan& plan) {
@@ -80,29 +100,17 @@ void checkFieldSize(const LineGrid& grid, const FieldPlan& plan, const Settings&
   const FieldPlan fresh{plan.scene, plan.elements, plan.lamps};
   const double bytes = fieldBytes(grid, fresh);
   if (bytes <= most) return;
-  // Runs of large triangles go with N^2 M, of small ones with N^2 M^2; what nodes keep, with none.
-  const auto bytesAt = [&](int directions, int distances) {
-    return fieldBytes(LineGrid(plan.scene.bounds, directions, distances), fresh);
-  };
-  int directions = s.fieldDirections, distances = s.fieldDistances;
-  double shrink = std::cbrt(most / bytes), fitting = bytes;
-  while (fitting > most && directions > kFewestDirections) {
-    directions = std::max(static_cast<int>(s.fieldDirections * shrink), kFewestDirections);
-    distances = std::max(static_cast<int>(s.fieldDistances * shrink), kFewestDistances);
-    while (std::gcd(directions, distances) != 1) --distances;
-    if (distances < kFewestDistances) directions = kFewestDirections, distances = kFewestDistances;
-    fitting = bytesAt(directions, distances);
-    shrink *= 0.95;
-  }
-  const bool hasRoom = fitting <= most;
-  const std::string remedy =
-      hasRoom ? fmt::format("--field-directions {} --field-distances {}", directions, distances)
-              : "--element-size larger, or another method";
-  throw TooManyLines(
-      fmt::format("the intersection field would take {:.0f} MiB, --max-field-memory is {}: raise "
-                  "it, or use {}",
-                  std::ceil(bytes * 0x1p-20), s.maxFieldMemory, remedy),
-      hasRoom ? directions : 0, hasRoom ? distances : 0);
+  const std::string refusal = fmt::format(
+      "the intersection field would take {:.0f} MiB, --max-field-memory is {}: raise it, or use ",
+      std::ceil(bytes * 0x1p-20), s.maxFieldMemory);
+  const auto [directions, distances] = fittingLines(fresh, s, bytes);
+  if (directions == 0)
+    throw TooLarge(refusal + "--element-size larger, or another method", std::nullopt);
+  TooLarge::Smaller smaller{s, fmt::format("{} x {}", directions, distances)};
+  smaller.settings.fieldDirections = directions, smaller.settings.fieldDistances = distances;
+  throw TooLarge(
+      refusal + fmt::format("--field-directions {} --field-distances {}", directions, distances),
+      smaller);
 }
 
 }  // namespace ninefold

@@ -9,7 +9,7 @@
 //         + 64 nodes, for each lamp that has maps                lamp_pairs.h, at most
 //
 // Source:  made for this project.   Proved: tests/gi/field_size_test.cpp.
-// Threads: pure functions.   Errors: checkFieldSize throws TooManyLines, which says what would fit.
+// Threads: pure functions.   Errors: checkFieldSize throws TooLarge, which says what would fit.
 #pragma once
 
 #include "common/gi/elements/element_light.h"

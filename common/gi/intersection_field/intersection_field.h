@@ -41,7 +41,7 @@ class IntersectionField final : public LayeredMethod {
  public:
   // `begun`: of the scene that a gesture began with, or null: lines stay as they are there.
   // `before`: of any earlier scene, or null: it saves work alone.
-  // Errors: throws Error if it would be larger than --max-field-memory.
+  // Errors: throws TooLarge if it would be larger than --max-field-memory.
   IntersectionField(const Transport& transport, const IntersectionField* begun,
                     const IntersectionField* before = nullptr);
 

@@ -13,18 +13,18 @@
 // count as much as they bring light. (As published all pairs count alike, which is wrong by
 // cos_p cos_q/d^2 and by the grid's density, however fine it is.)
 //
-// What hides q at less than kClose of an element's side before p covers p: a picture on a wall, a
-// cupboard on a floor. Nobody sees such a p, and its pairs are left out, as elements would spread
+// What hides q at less than an eighth of an element's side before p covers p: a picture on a wall,
+// a cupboard on a floor. Nobody sees such a p, and its pairs are left out, as elements would spread
 // its dark over what is around.
 //
-// The lines are those of the lamp's local field: no ray is traced, and lines that miss the lamp are
-// not looked at. Sums are whole numbers of 2^-24, exact in any order. So after an edit only those
-// lines are looked at that meet what moved, before or now: what they said is taken away, what they
-// say is added, and the sums are those of a fresh start to the last bit. How bright a lamp is does
-// not count unless it shines unevenly.
+// The lines are those of the lamp's local field (lamp_lines.h): no ray is traced, and lines that
+// miss the lamp are not looked at. Sums are whole numbers of 2^-24, exact in any order. So after an
+// edit only those lines are looked at that meet what moved, before or now: what they said is taken
+// away, what they say is added, and the sums are those of a fresh start to the last bit. How bright
+// a lamp is does not count unless it shines unevenly.
 //
 // Source:  Ren et al. 2005, 5 (VRM) and 6 (influenced lines).
-// Proved:  tests/gi/lamp_visibility_test.cpp, intersection_field_test.cpp.
+// Proved:  tests/gi/lamp_lines_test.cpp, lamp_visibility_test.cpp, field_edits_test.cpp.
 // Memory:  64 bytes for each node that sees the lamp or could.
 // Threads: const after construction.   Errors: none.
 #pragma once
@@ -33,24 +33,12 @@
 #include <memory>
 #include <vector>
 
-#include "common/gi/elements/element_light.h"
-#include "common/gi/intersection_field/area_lamps.h"
-#include "common/gi/intersection_field/line_field.h"
+#include "common/gi/intersection_field/lamp_lines.h"
 
 namespace ninefold {
 
-// What pairs are made of.
-struct LampScene {
-  LampScene(const Transport& transport, const LineField& lines, const SceneElements& places);
-  const Transport& t;
-  const LineField& field;
-  const SceneElements& elements;
-  double meanMeasure;  // of a line [m^2 sr]
-};
-
 class LampPairs {
  public:
-  static constexpr float kClose = 0.125f;
   static constexpr double kQuantum = 0x1p-24;
   static constexpr size_t kBytesPerNode = 64;
 
@@ -60,9 +48,8 @@ class LampPairs {
   };
   static_assert(2 * sizeof(Sums) == kBytesPerNode);
 
-  // `before`: of the same lamp in the scene `then`, or null: it saves work alone.
-  LampPairs(const LampScene& scene, const AreaLamp& lamp, const LampPairs* before,
-            const LampScene* then);
+  // `before`: of the same lamp in the scene of `then`, or null: it saves work alone.
+  LampPairs(LampLines& now, const AreaLamp& lamp, const LampPairs* before, LampLines* then);
 
   // Null: no pair.
   const Sums* sumsOf(size_t instance, uint32_t node, bool isBack) const;
@@ -72,14 +59,11 @@ class LampPairs {
  private:
   // Front and back of each node of an instance.
   using Sides = std::vector<Sums>;
-  struct Line;  // through the lamp
+  using Changed = std::vector<uint32_t>;  // instances
 
   bool isUsable(const LampScene& scene, const AreaLamp& lamp, const LampScene& then) const;
-  // `hits`: room for those of the line.
-  void look(const LampScene& scene, const AreaLamp& lamp, const GridLine& line, const LineRun& run,
-            int sign, std::vector<LineHit>& hits);
-  void addPairs(const LampScene& scene, const Line& line, int sign);
-  void add(const LampScene& scene, const Line& line, const LineHit& hit, Vec3 seen, int sign);
+  Changed goOn(const LampPairs& before, const LampScene& scene, const LampScene& then);
+  void add(const LampScene& scene, const LampLines::Pair& pair, int sign);
   Sides& own(const LampScene& scene, uint32_t instance);
 
   std::vector<std::shared_ptr<Sides>> sides_;  // by instance; null: no pair. Shared where they stay

@@ -1,6 +1,7 @@
 #include "common/gi/intersection_field/lamp_visibility.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "common/gi/light/straight_light.h"
 #include "common/state/fixed_point.h"
@@ -19,10 +20,12 @@ float shifted(float u, size_t k) {
 LampVisibility::LampVisibility(const Transport& transport, const LineField& field,
                                const SceneElements& elements, const LampVisibility* before)
     : t_(transport), scene_(transport, field, elements), lamps_(areaLamps(transport)) {
+  LampLines now(scene_);
+  std::optional<LampLines> then;
+  if (before != nullptr) then.emplace(before->scene_);
   for (const AreaLamp& lamp : lamps_) {
     const LampPairs* known = before == nullptr ? nullptr : before->pairsOf(lamp.instance);
-    pairs_.push_back(std::make_unique<const LampPairs>(
-        scene_, lamp, known, before == nullptr ? nullptr : &before->scene_));
+    pairs_.push_back(std::make_unique<const LampPairs>(now, lamp, known, then ? &*then : nullptr));
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "common/base/counters.h"
 #include "common/gi/eye/receiver_samples.h"
+#include "common/gi/eye/receivers.h"
 #include "common/gi/intersection_field/lamp_pairs.h"
 
 namespace ninefold {

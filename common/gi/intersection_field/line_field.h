@@ -40,6 +40,8 @@ class LineField {
   bool isShared(const LineField& other, size_t instance) const {
     return instance < other.instances() && locals_[instance] == other.locals_[instance];
   }
+  // Those that the line's slice meets, by rising number.
+  std::span<const uint32_t> instancesAt(const GridLine& line) const;
   // All hits of a line, by rising t; among equals by instance and triangle.
   void hitsOf(const GridLine& line, std::vector<LineHit>& hits) const;
   // The nearest hit beyond t, or before it. Holes of masked materials are passed.
@@ -50,7 +52,6 @@ class LineField {
   size_t bytes() const;
 
  private:
-  std::span<const uint32_t> instancesAt(const GridLine& line) const;
   bool isHole(const GridLine& line, const LineHit& hit) const;
 
   Scene scene_;  // shares meshes and images

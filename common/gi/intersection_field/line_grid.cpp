@@ -52,13 +52,15 @@ Vec3 LineGrid::fromFamily(int family, Vec3 p) const {
 }
 
 Vec3 LineGrid::pointAt(const GridLine& line, float t) const {
-  const Places& b = placesOfB(line.family, line.i);
   const Places& d = placesOfD(line.family, line.k);
-  const float a = slope(line.i), c = slope(line.k);
+  const float along = slope(line.k) * t + (static_cast<float>(line.m) - d.offset) / d.scale;
+  return isSteep(line.k) ? pointIn(line, along, t) : pointIn(line, t, along);
+}
+
+Vec3 LineGrid::pointIn(const GridLine& line, float u, float w) const {
+  const Places& b = placesOfB(line.family, line.i);
   const float across = (static_cast<float>(line.j) - b.offset) / b.scale;
-  const float along = c * t + (static_cast<float>(line.m) - d.offset) / d.scale;
-  const float u = isSteep(line.k) ? along : t, w = isSteep(line.k) ? t : along;
-  return fromFamily(line.family, Vec3(u, a * u + across, w));
+  return fromFamily(line.family, Vec3(u, slope(line.i) * u + across, w));
 }
 
 Vec3 LineGrid::directionOf(const GridLine& line) const {

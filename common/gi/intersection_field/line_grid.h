@@ -80,9 +80,10 @@ class LineGrid {
   Vec3 toFamily(int family, Vec3 p) const;
   Vec3 fromFamily(int family, Vec3 p) const;
   Vec3 pointAt(const GridLine& line, float t) const;
-  Vec3 directionOf(const GridLine& line) const;  // unit, t grows
-  float lengthOf(const GridLine& line) const;    // |D|: metres for each of t
-  double measureOf(const GridLine& line) const;  // mu [m^2 sr]
+  Vec3 pointIn(const GridLine& line, float u, float w) const;  // of its slice
+  Vec3 directionOf(const GridLine& line) const;                // unit, t grows
+  float lengthOf(const GridLine& line) const;                  // |D|: metres for each of t
+  double measureOf(const GridLine& line) const;                // mu [m^2 sr]
 
   // What lies nearer along a line counts as being in one place [m].
   float rounding() const { return 0x1p-16f * size_; }

@@ -44,9 +44,16 @@ class LocalField {
   std::span<const LineRun> page(int family, int i, int j, int k) const;
   const std::vector<LineRun>& runs() const { return runs_; }
   uint64_t hits() const { return hits_; }  // of all lines
-  // visit(line number but for m, run number) for all runs.
+  // visit(line but for m, its first run, the end of its runs) for all pages that have one.
   template <typename Visit>
-  void forEachRun(const Visit& visit) const;
+  void forEachPage(const Visit& visit) const;
+  // visit(line but for m, run number) for all runs.
+  template <typename Visit>
+  void forEachRun(const Visit& visit) const {
+    forEachPage([&](const GridLine& page, uint32_t first, uint32_t end) {
+      for (uint32_t r = first; r < end; ++r) visit(page, r);
+    });
+  }
 
   size_t bytes() const { return sizeof(LineRun) * runs_.size() + sizeof(uint32_t) * pages_.size(); }
 
@@ -65,15 +72,15 @@ class LocalField {
 };
 
 template <typename Visit>
-void LocalField::forEachRun(const Visit& visit) const {
+void LocalField::forEachPage(const Visit& visit) const {
   for (int family = 0; family < LineGrid::kFamilies; ++family)
     for (int i = 0; i < grid_.directions(); ++i) {
       const Slices& s = slices(family, i);
       for (int j = s.first; j < s.end; ++j)
         for (int k = 0; k < 2 * grid_.directions(); ++k) {
           const uint32_t page = pageOf(s, j, k);
-          for (uint32_t r = pages_[page]; r < pages_[page + 1]; ++r)
-            visit(GridLine{family, i, j, k, 0}, r);
+          if (pages_[page] < pages_[page + 1])
+            visit(GridLine{family, i, j, k, 0}, pages_[page], pages_[page + 1]);
         }
     }
 }
