@@ -193,7 +193,8 @@ def move(scene):
 
 
 def blur(scene):
-    """Three frames with motion blur, then each by itself, then what has no blur: with a limit of noise, and of a sun that goes out."""
+    """Three frames with motion blur, then each by itself, then what has no blur: with a limit of noise,
+    and of a sun that goes out."""
     key(bpy.data.objects["step"], "location", (0, 0, 1), (2, 0, 1), (4, 1, 1))
     scene.render.use_motion_blur = True
     scene.ninefold.frames = 64
@@ -232,5 +233,5 @@ def move_for_long(scene):
 
 
 if __name__ == "__main__":
-    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate, "moves": move, "blurred": blur,
-     "pictures": look_outside, "many": move_for_long}[sys.argv[-2]](make_scene())
+    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate,
+     "moves": move, "blurred": blur, "pictures": look_outside, "many": move_for_long}[sys.argv[-2]](make_scene())
