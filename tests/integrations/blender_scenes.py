@@ -7,7 +7,7 @@ picture itself as .png. Two scenes are a board of bays, one thing in each, seen 
 
     lamps      each bay, between black walls, has a lamp of its own above a grey floor
     surfaces   each bay has a surface, under a sun and an evenly bright sky
-    layers     surfaces of one layer under the same light, and of two, which glTF and Cycles put together otherwise
+    layers     surfaces of one layer and of two, which glTF and Cycles put together otherwise, under that sky
     parallel   the surfaces, by an orthographic camera
     outside    a mirror ball fills the picture; it shows a picture of what is outside, turned
 """
@@ -154,18 +154,18 @@ def bounced(x, y):
     lamp("below", "POINT", (x - 0.6, y, 1.1), energy=60.0, shadow_soft_size=0.0)
 
 
-def make_daylight():
-    """A sun and an evenly bright sky, and a floor below the surfaces."""
+def make_sky():
+    """It is evenly bright; and a floor below the surfaces."""
     background = bpy.context.scene.world.node_tree.nodes["Background"]
     background.inputs["Color"].default_value = (0.5, 0.6, 0.8, 1)
     background.inputs["Strength"].default_value = 0.5
     grey = with_shader("grey", "ShaderNodeBsdfDiffuse", (0.3, 0.3, 0.3))
     rectangle("floor", grey, 2 * COLUMNS, 2 * ROWS, (0, 0, -0.5))
-    lamp("sun", "SUN", (0, 0, 5), (20, 30, 0), energy=2.0, angle=0.0)
 
 
 def make_layers():
-    make_daylight()
+    """Without a sun: Cycles' coat is no GGX, and shows a small lamp in a wider circle."""
+    make_sky()
     red, black = (0.8, 0.3, 0.2), (0.0, 0.0, 0.0)
     materials = {}
     for layer, values in {"bare": {}, "specular": {"Specular": 0.5}, "specular 1": {"Specular": 1.0, "Roughness": 0.2},
@@ -180,7 +180,8 @@ def make_layers():
 
 
 def make_surfaces():
-    make_daylight()
+    make_sky()
+    lamp("sun", "SUN", (0, 0, 5), (20, 30, 0), energy=2.0, angle=0.0)
     red = (0.8, 0.3, 0.2)
     materials = {
         "diffuse": with_shader("diffuse", "ShaderNodeBsdfDiffuse", red),
