@@ -247,6 +247,8 @@ def move_for_long(scene):
     render("after that")
 
 
+SESSIONS = {"wrong": go_wrong, "long": take_long, "converges": converge, "cluster": join_cluster, "passes": give_passes,
+            "animation": animate, "moves": move, "blurred": blur, "pictures": look_outside, "many": move_for_long}
+
 if __name__ == "__main__":
-    {"wrong": go_wrong, "long": take_long, "converges": converge, "cluster": join_cluster, "passes": give_passes,
-     "animation": animate, "moves": move, "blurred": blur, "pictures": look_outside, "many": move_for_long}[sys.argv[-2]](make_scene())
+    SESSIONS[sys.argv[-2]](make_scene())
