@@ -33,6 +33,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import traceback
 import zlib
 
@@ -261,6 +262,13 @@ def master_command(master, flags, settings, scene, exported, folder, passes):
         raise Trouble(f"more options: {error}") from error
 
 
+def exporter_environment():
+    """Where Blender's own scripts lie in a folder of the system's, as those of Debian's package do,
+    Python would compile them at each start: half a second. A cache of the user's keeps them."""
+    cache = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    return {"PYTHONPYCACHEPREFIX": os.path.join(cache, "ninefold-blender"), **os.environ}
+
+
 def complaint(program, what):
     """Why a program ended badly."""
     status = program.process.returncode
@@ -434,7 +442,6 @@ class NinefoldEngine(bpy.types.RenderEngine):
         self.update_stats("", "Exporting the scene")
         scene = depsgraph.scene.original
         copy = folder / "scene.blend"
-        bpy.data.libraries.write(str(copy), {scene}, path_remap="ABSOLUTE", fake_user=True)
         order = {"blend": str(copy), "scene": scene.name, "layer": depsgraph.view_layer.name, "frame": scene.frame_current,
                  "subframe": scene.frame_subframe, "resolution": [self.resolution_x, self.resolution_y],
                  "folder": str(folder), "pictures": pictures, "frames": frames[1:],
@@ -442,7 +449,10 @@ class NinefoldEngine(bpy.types.RenderEngine):
         trust = "--enable-autoexec" if bpy.context.preferences.filepaths.use_scripts_auto_execute else "--disable-autoexec"
         command = [bpy.app.binary_path, "--background", "--factory-startup", trust, "--python-exit-code", "1", "--python",
                    os.path.abspath(__file__), "--", EXPORT_FLAG, json.dumps(order)]
-        with Program(command) as program:
+        with Program(command, env=exporter_environment()) as program:
+            unfinished = folder / "unfinished.blend"  # while the other one starts
+            bpy.data.libraries.write(str(unfinished), {scene}, path_remap="ABSOLUTE", fake_user=True)
+            unfinished.rename(copy)
             for _ in program.follow(self):
                 pass
         said = folder / "export.json"
@@ -647,6 +657,8 @@ class Exporter:
             self.warnings.append(text)
 
     def load(self):
+        while not os.path.exists(self.order["blend"]):  # who writes it ends this program if it cannot
+            time.sleep(0.005)
         with bpy.data.libraries.load(self.order["blend"]) as (_, wanted):
             wanted.scenes = [self.order["scene"]]
         scene = wanted.scenes[0]
@@ -725,8 +737,8 @@ class Exporter:
         """Of a picture, in frames after its own."""
         shutter = shutter_of(scene)
         if shutter and not self.order["blur"]:
-            self.warn("motion blur needs two frames or more, and no limit of time or noise, passes, denoising or second view layer: "
-                      "it is left out")
+            self.warn("motion blur needs two frames or more, and no limit of time or noise, passes, "
+                      "denoising or second view layer: it is left out")
         return shutter if shutter and self.order["blur"] else (0,)
 
     def places_at(self, scene, first, times):
@@ -834,7 +846,8 @@ class Exporter:
         """No larger than the master takes it."""
         width, height = picture.size
         if width == 0:
-            raise Trouble(f"world {world.name}: its picture {picture.filepath or picture.name} cannot be read: mend it, or unlink it")
+            name = picture.filepath or picture.name
+            raise Trouble(f"world {world.name}: its picture {name} cannot be read: mend it, or unlink it")
         if width > WIDEST_PICTURE:
             self.warn(f"world {world.name}: its picture of {width}x{height} is carried over {WIDEST_PICTURE} pixels wide")
             picture = picture.copy()

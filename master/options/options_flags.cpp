@@ -132,8 +132,9 @@ constexpr Flag kFiles[] = {
      "the picture: .exr (linear), .hdr (linear) or .png; of --animate and --script also a film, "
      ".mp4, which needs the program ffmpeg"},
     {"save-every", "S",
-     "write the picture, and the checkpoint, each S seconds while it converges; a run without a "
-     "window that makes one picture does so by SIGUSR1, too"},
+     "write the picture, and the checkpoint, each S seconds while it converges, the picture also "
+     "after the first frame; a run without a window that makes one picture does so by SIGUSR1, "
+     "too"},
     {"checkpoint", "FILE",
      "keep film and state of such a run, each minute or as --save-every says, and at its end; the "
      "same command goes on where the file is, with the same bytes"},

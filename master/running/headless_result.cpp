@@ -12,6 +12,7 @@ void HeadlessRun::savePicture() {
   if (!options_.output) return;
   try {
     writePicture(*options_.output);
+    tellPicture();
     saveFails_ = false;
   } catch (const Error& error) {
     if (!std::exchange(saveFails_, true)) warn("{}; the run goes on and tries again", error.what());
@@ -31,6 +32,11 @@ ProgressState HeadlessRun::progressState() const {
 void HeadlessRun::writeLastPicture() const {
   if (!options_.output) return;
   writeSomewhere(*options_.output, [this](const std::string& path) { writePicture(path); });
+  tellPicture();
+}
+
+// Who waits for a new picture reads this line: Blender's add-on does.
+void HeadlessRun::tellPicture() const {
   log("{} frame(s) in {}", picture_.frames(), *options_.output);
 }
 

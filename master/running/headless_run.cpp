@@ -131,7 +131,7 @@ int HeadlessRun::run() {
 }
 
 void HeadlessRun::gatherFrames() {
-  if (options_.saveEvery) nextSave_ = Clock::now() + fromSeconds(*options_.saveEvery);
+  if (options_.saveEvery) nextSave_ = Clock::now();  // the first frame shows something
   while (!isDone()) {
     tellProgress();
     if (last_)

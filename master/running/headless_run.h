@@ -42,6 +42,7 @@ class HeadlessRun {
   FramePlan firstPlan() const;
   void keep(const Assembly::Complete& frame);
   void savePicture();
+  void tellPicture() const;
   void tellProgress();
   ProgressState progressState() const;
   void writePicture(const std::string& path) const;

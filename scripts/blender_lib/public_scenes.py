@@ -1,9 +1,11 @@
-"""Scenes of other people, as Blender opens them: run inside Blender by scripts/blender_side_by_side, which tells where they are from.
+"""Scenes of other people, as Blender opens them: run inside Blender by scripts/blender_side_by_side,
+which tells where they are from.
 
-    blender -b --factory-startup --addons ninefold_render --python public_scenes.py -- ENGINE SCENE FILES OUT
+    blender -b --factory-startup --addons ninefold_render --python public_scenes.py --
+        ENGINE SCENE FILES OUT SAMPLES WIDTHxHEIGHT METHOD
 
-FILES: the folder with the scene's files. Writes OUT/ENGINE_SCENE.exr and .png. What a file lacks (a camera, light, nodes) is added here,
-and said on the page.
+FILES: the folder with the scene's files. METHOD: Ninefold's. Writes OUT/ENGINE_SCENE.exr and .png. What
+a file lacks (a camera, light, nodes) is added here, and said on the page.
 """
 import math
 import pathlib
@@ -13,7 +15,6 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
-SIZE = (240, 180)
 np.bool = bool  # Debian's Blender 3.4 imports glTF by that name, which its numpy has no more
 
 
@@ -86,13 +87,25 @@ def with_shader(name, kind, **inputs):
 
 
 def water(files):
-    """The Cornell box half full of water, with a sphere of glass and a mirror: dark plastics to Blender's reader, so they get nodes."""
+    """The Cornell box half full of water, with a sphere of glass and a mirror: dark plastics to Blender's
+    reader, so they get nodes."""
     open_file(files / "CornellBox-Water.obj")
     with_shader("water", "ShaderNodeBsdfGlass", IOR=1.33)
     with_shader("rightSphere", "ShaderNodeBsdfGlass", IOR=2.5)
     with_shader("leftSphere", "ShaderNodeBsdfGlossy", Color=(0.95, 0.95, 0.95, 1))
     look((0, -3.4, 1), (0, 0, 1), 40)
     return 1
+
+
+def water_diffuse(files):
+    """The same without Principled nodes, but for the lamp's."""
+    exposure = water(files)
+    for material in bpy.data.materials:
+        surface = material.use_nodes and material.node_tree.get_output_node("ALL").inputs["Surface"]
+        if surface and surface.links[0].from_node.type == "BSDF_PRINCIPLED" and material.name != "light":
+            colour = surface.links[0].from_node.inputs["Base Color"].default_value[:]
+            with_shader(material.name, "ShaderNodeBsdfDiffuse", Color=colour)
+    return exposure
 
 
 def veach(files):
@@ -160,14 +173,14 @@ def city(files):
     return -0.5
 
 
-SCENES = {"water": water, "veach": veach, "crate": crate, "forklift": forklift, "city": city}
+SCENES = {"water": water, "water_diffuse": water_diffuse, "veach": veach, "crate": crate, "forklift": forklift, "city": city}
 
 
-def prepare(engine, name, files, samples):
+def prepare(engine, name, files, samples, size, method):
     """Opens the scene; gives the exposure at which it is shown [EV]."""
     exposure = SCENES[name](files)
     scene = bpy.context.scene
-    scene.render.resolution_x, scene.render.resolution_y = SIZE
+    scene.render.resolution_x, scene.render.resolution_y = size
     scene.render.resolution_percentage = 100
     scene.view_settings.view_transform, scene.view_settings.look = "Standard", "None"
     scene.view_settings.exposure = exposure
@@ -175,17 +188,18 @@ def prepare(engine, name, files, samples):
     if engine == "CYCLES":
         scene.cycles.samples = samples
         scene.cycles.use_adaptive_sampling = scene.cycles.use_denoising = False
-        scene.cycles.max_bounces = scene.cycles.diffuse_bounces = scene.cycles.glossy_bounces = scene.cycles.transmission_bounces = 32
+        for kind in ("max", "diffuse", "glossy", "transmission"):
+            setattr(scene.cycles, f"{kind}_bounces", 32)
         scene.cycles.sample_clamp_indirect = scene.cycles.blur_glossy = 0
         scene.cycles.pixel_filter_type = "BOX"
     else:
-        scene.ninefold.frames, scene.ninefold.local_clients = samples, 2
+        scene.ninefold.frames, scene.ninefold.local_clients, scene.ninefold.method = samples, 2, method
     return scene
 
 
 def main():
-    engine, name, files, out, samples = sys.argv[sys.argv.index("--") + 1:]
-    scene = prepare(engine, name, pathlib.Path(files), int(samples))
+    engine, name, files, out, samples, size, method = sys.argv[sys.argv.index("--") + 1:]
+    scene = prepare(engine, name, pathlib.Path(files), int(samples), [int(s) for s in size.split("x")], method)
     bpy.ops.render.render()
     result = bpy.data.images["Render Result"]
     stem = pathlib.Path(out) / f"{engine}_{name}"

@@ -3,8 +3,9 @@
     blender -b --factory-startup --addons ninefold_render --python time_to_error.py -- ENGINE SCENE.glb OUT.exr SEED KIND LIMIT
         [ADDRESS KEY CLIENTS]
 
-KIND is error, Ninefold's noise limit [%], or frames, of Cycles samples a pixel. With ADDRESS so many clients of others come there. Prints
-TIMES {"first": until there is a picture, "all": until it is done} [s], both since the render was asked for.
+KIND is error, Ninefold's noise limit [%], or frames, of Cycles samples a pixel. With ADDRESS so many
+clients of others come there. Prints TIMES {"exported": until Ninefold has the scene, "first": until
+there is a picture, "all": until it is done} [s], all since the render was asked for.
 """
 import json
 import sys
@@ -42,16 +43,23 @@ def set_ninefold(scene, seed, kind, limit, cluster):
         settings.more = f"--wait-clients {count}"
 
 
-def note_pictures(shown):
-    """Adds to `shown` when a picture is."""
+def note_times(times):
+    """Adds to `times` when the scene is exported, and when a first picture is shown."""
     import ninefold_render
-    show = ninefold_render.NinefoldEngine.show
+    engine = ninefold_render.NinefoldEngine
 
-    def timed(self, *arguments):
-        show(self, *arguments)
-        shown.append(time.monotonic())
+    def noted(name, what):
+        does = getattr(engine, name)
 
-    ninefold_render.NinefoldEngine.show = timed
+        def timed(self, *arguments):
+            result = does(self, *arguments)
+            times.setdefault(what, time.monotonic())
+            return result
+
+        setattr(engine, name, timed)
+
+    noted("export", "exported")
+    noted("show", "first")
 
 
 def main():
@@ -61,18 +69,18 @@ def main():
     scene = bpy.context.scene
     scene.camera = next(thing for thing in scene.objects if thing.type == "CAMERA")
     scene.render.resolution_x, scene.render.resolution_y = SIZE
-    shown = []
+    times = {}
     if engine == "CYCLES":
         set_cycles(scene, int(seed), int(limit))
     else:
         set_ninefold(scene, int(seed), kind, float(limit), cluster)
-        note_pictures(shown)
+        note_times(times)
     begin = time.monotonic()
     bpy.ops.render.render()
-    end = time.monotonic()
+    times["all"] = time.monotonic()
     scene.render.image_settings.file_format, scene.render.image_settings.color_depth = "OPEN_EXR", "32"
     bpy.data.images["Render Result"].save_render(out)
-    print("TIMES", json.dumps({"first": (shown or [end])[0] - begin, "all": end - begin}), flush=True)
+    print("TIMES", json.dumps({what: when - begin for what, when in times.items()}), flush=True)
 
 
 if __name__ == "__main__":

@@ -27,10 +27,19 @@ class SameBytes(ClusterTest):
 
     def test_pictures_on_the_way_do_not_show(self):
         expected = self.render("--local-clients", 1, frames=24)["image_hash"]
-        master = self.master("--local-clients", 1, "--save-every", 0.1, frames=24)
-        master.waits_for(r"(?m)^\d+ frame\(s\) in out\d+\.exr$")
+        master = self.master("--local-clients", 1, "--save-every", 1e-3, frames=24)
+        master.waits_for(r"(?m)^1 frame\(s\) in out\d+\.exr$")
         self.assertTrue(master.picture.exists())
         self.assertEqual(self.finish(master)["image_hash"], expected)
+        told = re.findall(r"(?m)^(\d+) frame\(s\) in ", master.text)
+        self.assertEqual(told[0], "1")
+        self.assertEqual(told[-1], "24")
+        self.assertGreater(len(told), 2, "none on the way")
+
+    def test_the_first_frame_is_a_picture_however_seldom_the_others_are(self):
+        master = self.master("--local-clients", 1, "--save-every", 1000, frames=24)
+        self.finish(master)
+        self.assertEqual(re.findall(r"(?m)^(\d+) frame\(s\) in ", master.text), ["1", "24"])
 
     def test_another_seed_or_method_is_another_picture(self):
         hashes = {self.hash_by(method, seed) for seed in (1, 2) for method in methods() if method != CHOICE}

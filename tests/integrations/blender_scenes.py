@@ -7,6 +7,7 @@ picture itself as .png. Two scenes are a board of bays, one thing in each, seen 
 
     lamps      each bay, between black walls, has a lamp of its own above a grey floor
     surfaces   each bay has a surface, under a sun and an evenly bright sky
+    layers     surfaces of one layer and of two, which glTF and Cycles put together otherwise, under that sky
     parallel   the surfaces, by an orthographic camera
     outside    a mirror ball fills the picture; it shows a picture of what is outside, turned
 """
@@ -22,8 +23,8 @@ from mathutils import Euler
 COLUMNS, ROWS = 4, 4
 HEIGHT = 14          # of the camera [m]; a bay is 2 m wide
 SIZE = (96, 96)
-SAMPLES = {"lamps": 1536, "surfaces": 1024, "parallel": 1024, "outside": 64}  # of Cycles
-FRAMES = {"lamps": 512, "surfaces": 512, "parallel": 512, "outside": 64}      # of Ninefold
+SAMPLES = {"lamps": 1536, "surfaces": 1024, "layers": 1024, "parallel": 1024, "outside": 64}  # of Cycles
+FRAMES = {"lamps": 512, "surfaces": 512, "layers": 512, "parallel": 512, "outside": 64}      # of Ninefold
 
 
 def principled(name, **inputs):
@@ -153,11 +154,33 @@ def bounced(x, y):
     lamp("below", "POINT", (x - 0.6, y, 1.1), energy=60.0, shadow_soft_size=0.0)
 
 
+def make_sky():
+    """It is evenly bright; and a floor below the surfaces."""
+    background = bpy.context.scene.world.node_tree.nodes["Background"]
+    background.inputs["Color"].default_value = (0.5, 0.6, 0.8, 1)
+    background.inputs["Strength"].default_value = 0.5
+    grey = with_shader("grey", "ShaderNodeBsdfDiffuse", (0.3, 0.3, 0.3))
+    rectangle("floor", grey, 2 * COLUMNS, 2 * ROWS, (0, 0, -0.5))
+
+
+def make_layers():
+    """Without a sun: Cycles' coat is no GGX, and shows a small lamp in a wider circle."""
+    make_sky()
+    red, black = (0.8, 0.3, 0.2), (0.0, 0.0, 0.0)
+    materials = {}
+    for layer, values in {"bare": {}, "specular": {"Specular": 0.5}, "specular 1": {"Specular": 1.0, "Roughness": 0.2},
+                          "coat": {"Clearcoat": 1.0}}.items():
+        for below, colour in (("red", red), ("black", black)):
+            if values or below == "red":
+                name = f"{layer}, {below}"
+                materials[name] = principled(name, Base_Color=colour, **values)
+    for (name, material), (x, y) in zip(materials.items(), bays()):
+        rectangle(name, material, 1.4, 1.4, (x, y, 0))
+    return list(materials)
+
+
 def make_surfaces():
-    scene = bpy.context.scene
-    scene.world.node_tree.nodes["Background"].inputs["Color"].default_value = (0.5, 0.6, 0.8, 1)
-    scene.world.node_tree.nodes["Background"].inputs["Strength"].default_value = 0.5
-    rectangle("floor", with_shader("grey", "ShaderNodeBsdfDiffuse", (0.3, 0.3, 0.3)), 2 * COLUMNS, 2 * ROWS, (0, 0, -0.5))
+    make_sky()
     lamp("sun", "SUN", (0, 0, 5), (20, 30, 0), energy=2.0, angle=0.0)
     red = (0.8, 0.3, 0.2)
     materials = {
@@ -272,7 +295,8 @@ def patches(picture, names, right):
 def main():
     engine, name, folder = sys.argv[sys.argv.index("--") + 1:]
     scene = base_scene()
-    names = {"lamps": make_lamps, "surfaces": make_surfaces, "parallel": make_parallel, "outside": make_outside}[name]()
+    names = {"lamps": make_lamps, "surfaces": make_surfaces, "layers": make_layers, "parallel": make_parallel,
+             "outside": make_outside}[name]()
     set_engine(scene, engine, name)
     bpy.ops.render.render()
     picture = pixels_of_result(scene, pathlib.Path(folder), f"{engine}_{name}")

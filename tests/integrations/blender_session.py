@@ -105,6 +105,21 @@ def take_long(scene):
     render("after that")
 
 
+def converge(scene):
+    """Tells each picture that is shown."""
+    import ninefold_render
+    engine = ninefold_render.NinefoldEngine
+    show = engine.show
+
+    def told(self, *arguments):
+        show(self, *arguments)
+        print("SHOWN 1", flush=True)
+
+    engine.show = told
+    scene.ninefold.frames, scene.ninefold.seconds = 0, 5
+    render("converging")
+
+
 def join_cluster(scene):
     scene.ninefold.local_clients, scene.ninefold.listen = 0, (FOLDER / "address").read_text()
     scene.ninefold.key_file = str(FOLDER / "cluster.key")
@@ -193,7 +208,8 @@ def move(scene):
 
 
 def blur(scene):
-    """Three frames with motion blur, then each by itself, then what has no blur: with a limit of noise, and of a sun that goes out."""
+    """Three frames with motion blur, then each by itself, then what has no blur: with a limit of noise,
+    and of a sun that goes out."""
     key(bpy.data.objects["step"], "location", (0, 0, 1), (2, 0, 1), (4, 1, 1))
     scene.render.use_motion_blur = True
     scene.ninefold.frames = 64
@@ -231,6 +247,8 @@ def move_for_long(scene):
     render("after that")
 
 
+SESSIONS = {"wrong": go_wrong, "long": take_long, "converges": converge, "cluster": join_cluster, "passes": give_passes,
+            "animation": animate, "moves": move, "blurred": blur, "pictures": look_outside, "many": move_for_long}
+
 if __name__ == "__main__":
-    {"wrong": go_wrong, "long": take_long, "cluster": join_cluster, "passes": give_passes, "animation": animate, "moves": move, "blurred": blur,
-     "pictures": look_outside, "many": move_for_long}[sys.argv[-2]](make_scene())
+    SESSIONS[sys.argv[-2]](make_scene())
