@@ -34,6 +34,10 @@ Device makeDevice(Isa isa) {
   Device device(rtcNewDevice(configuration(isa)));
   if (!device)
     fail("ray tracing could not be set up (Embree error {})", int(rtcGetDeviceError(nullptr)));
+  if (rtcGetDeviceProperty(device.get(), RTC_DEVICE_PROPERTY_RAY_MASK_SUPPORTED) == 0)
+    fail(
+        "the installed Embree has no ray masks, by which things that were moved are told; install "
+        "Debian's package, or build Embree with EMBREE_RAY_MASK");
   if (isa == Isa::avx512 && isaOf(device.get()) != "avx512")
     fail("--isa avx512: the installed Embree has no AVX-512 kernels; use --isa avx2 or auto");
   return device;

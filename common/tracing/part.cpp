@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "common/scene/world.h"
+#include "common/tracing/geometry.h"
 
 namespace ninefold {
 namespace {
@@ -19,12 +19,11 @@ Hierarchy emptyHierarchy(RTCDevice device) {
 
 }  // namespace
 
-MaskBits::MaskBits(const Scene& asRead) {
+MaskBits::MaskBits(const Scene& asRead, const Geometries& geometries) {
   std::map<int, Bounds> nodes;
-  for (const Instance& instance : asRead.instances) {
-    Bounds& box = nodes[instance.node];
-    for (const Vec3& p : asRead.meshes[static_cast<size_t>(instance.mesh)].positions)
-      box.add(worldPoint(instance.toWorld, p));
+  for (size_t i = 0; i < geometries.size(); ++i) {
+    Bounds& box = nodes[asRead.instances[i].node];
+    box.add(geometries[i]->bounds().low), box.add(geometries[i]->bounds().high);
   }
   const bool areFew = nodes.size() <= kBits;
   std::map<int, uint32_t> bits;

@@ -32,7 +32,7 @@ using Geometries = std::vector<std::shared_ptr<const InstanceGeometry>>;  // by 
 // that reach through half of the scene one, the others the rest.
 class MaskBits {
  public:
-  explicit MaskBits(const Scene& asRead);
+  MaskBits(const Scene& asRead, const Geometries& geometries);
   uint32_t of(uint32_t instance) const { return bits_[instance]; }
 
  private:

@@ -1,12 +1,18 @@
 #include "common/tracing/ray_changes.h"
 
+#include <algorithm>
+
+#include "common/math/rounding.h"
 #include "common/tracing/geometry.h"
 
 namespace ninefold {
 
+// Larger by what matters to contacts, and by what coordinates there are rounded by.
 Bounds boxOf(const RayAnswers& answers, uint32_t instance) {
   Bounds box = answers.geometries[instance]->bounds();
-  box.low -= 4 * answers.margin, box.high += 4 * answers.margin;
+  const Vec3 far = glm::max(glm::abs(box.low), glm::abs(box.high));
+  const float rounding = 16 * kUnitRoundoff * std::max({far.x, far.y, far.z});
+  box.low -= 4 * answers.margin + rounding, box.high += 4 * answers.margin + rounding;
   return box;
 }
 

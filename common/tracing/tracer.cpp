@@ -35,7 +35,7 @@ struct Tracer::Impl {
   bool wide;  // Embree has 16-wide kernels here
   Geometries geometries;
   std::vector<AlphaMask> masks;
-  const std::shared_ptr<const MaskBits> bits;
+  std::shared_ptr<const MaskBits> bits;
   std::shared_ptr<const Part> all;                 // as it was read
   std::vector<std::shared_ptr<const Part>> parts;  // those beside it
   std::vector<std::shared_ptr<const Part>> shows;  // by instance: the part that rays see it in
@@ -47,10 +47,10 @@ struct Tracer::Impl {
         asRead(s),
         device(std::make_shared<const Device>(makeDevice(isa))),
         isaName(isaOf(device->get())),
-        wide(isaName == "avx512"),
-        bits(std::make_shared<const MaskBits>(scene)) {
+        wide(isaName == "avx512") {
     for (const Instance& instance : scene.instances)
       geometries.push_back(std::make_shared<const InstanceGeometry>(scene, instance));
+    bits = std::make_shared<const MaskBits>(scene, geometries);
     std::vector<uint32_t> instances(scene.instances.size());
     std::iota(instances.begin(), instances.end(), 0u);
     all = std::make_shared<const Part>(device, asRead, geometries, *bits, std::move(instances));

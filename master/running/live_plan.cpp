@@ -132,7 +132,7 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
-  const bool ahead = moving_ && !hasStepped_ && states_.remembers();
+  const bool ahead = moving_ && !hasStepped_ && states_.remembers() && !setup_.stepTime;
   const Duration usual = ahead ? kAsLongAsItTakes : quality_.target() / 2;
   const auto step = states_.nextStep(nextFrame_, moving_, left, setup_.stepTime.value_or(usual));
   if (!step) return std::nullopt;
@@ -142,11 +142,12 @@ std::optional<StepOrder> LivePlan::nextStep(Time now) {
   return StepOrder{open(now).order, step->key, step->units, ahead};
 }
 
-// For the gesture's first step.
+// For the gesture's first step, whatever was changed since.
 bool LivePlan::waitsForLight(Time now) {
-  if (!step_.ahead || !states_.isCatchingUp()) return false;
+  if (!step_.ahead || !states_.isStepping()) return false;
   if (now - step_.opened < quality_.target() / 2) return true;
   states_.giveUpStep();
+  step_ = {};
   voidSteps_ = nextFrame_;
   return false;
 }

@@ -64,8 +64,7 @@ class StatePlan {
   // In motion the next step need not wait for a frame.
   void goAhead() { mayStep_ = true; }
   bool remembers() const { return facts_ != nullptr && facts_->remembers; }
-  // A step in motion is under way that shows the present scene.
-  bool isCatchingUp() const { return open_ && !open_->makesAll && open_->scene == scene_; }
+  bool isStepping() const { return open_ && !open_->makesAll; }
   // The version that lights the next frame, which is opened now; nothing while it is not there.
   std::optional<uint32_t> versionOfFrame(bool moving);
   // There is a version that no frame in motion has shown.

@@ -38,7 +38,8 @@ int SchedulerClient::high() const {
 
 int SchedulerClient::unitsAtOnce() const {
   if (trust_ != Trust::trusted) return 1;
-  return std::clamp(kMaxPerThread * threads() - inFlight(), 1, kMaxGroup * threads());
+  const int room = kMaxPerThread * threads() - inFlight();
+  return std::clamp(tasksIn(kUnitsTogether, kMaxGroup), 1, std::max(room, 1));
 }
 
 int SchedulerClient::tasksIn(Duration time, int mostPerThread) const {

@@ -42,6 +42,7 @@ class SchedulerClient {
  public:
   static constexpr int kMaxPerThread = 64;  // bounds what a slow line can ask for
   static constexpr int kMaxGroup = 8;       // tasks that travel at once, for each thread
+  static constexpr Duration kUnitsTogether = milliseconds(10);     // units of a step that do
   static constexpr Duration kFirstGuess = milliseconds(100);       // task time before any result
   static constexpr Duration kSilenceAtLeast = milliseconds(1000);  // see silenceLimit()
   static constexpr Duration kSilenceBeforeFirst = milliseconds(5000);
@@ -64,8 +65,8 @@ class SchedulerClient {
   int high() const;
   // Tasks that may be sent now; 0 once refilled, until it falls to low().
   int credit() const { return refilling_ ? std::max(0, high() - inFlight()) : 0; }
-  // Units of a step that may be sent to it at once, whatever its credit: they are much shorter than
-  // tasks of frames, by which credit goes.
+  // Units of a step that may be sent to it at once, whatever its credit: they are mostly shorter
+  // than tasks of frames, by which credit goes.
   int unitsAtOnce() const;
 
   Duration taskTime() const { return taskTime_.value_or(kFirstGuess); }

@@ -82,7 +82,8 @@ class SchedulerFrame {
   int nextWaiting(int set, ClientId client);
 
   void addHolder(int task, const TaskHolder& holder);
-  // Switches a suspect's claim off or on again. True if the task now waits, first in its queue.
+  // Switches a suspect's claim off or on again. True if the task now waits: first in its queue; in
+  // a step until a client's place comes to it.
   // Nothing happens once the task is done; the same for removeHolder.
   bool setHolderActive(int task, ClientId client, bool active);
   bool removeHolder(int task, ClientId client);

@@ -189,6 +189,7 @@ TEST_F(LivePlanState, AFrameWaitsForAStepNoLongerThanHalfOfItsTime) {
   const auto voided = plan.takeVoidSteps();
   ASSERT_TRUE(voided);
   EXPECT_GT(*voided, all.key.number);
+  EXPECT_FALSE(plan.stepDone(all.key, now)) << "its last units came all the same";
   const StepOrder beside = step();
   EXPECT_EQ(beside.units, 50) << "half of 100 ms";
   EXPECT_FALSE(beside.yields);
@@ -196,6 +197,23 @@ TEST_F(LivePlanState, AFrameWaitsForAStepNoLongerThanHalfOfItsTime) {
   finish(shown);
   edit();
   EXPECT_TRUE(plan.next(now)) << "frames of this gesture wait no more";
+}
+
+// Edits come faster than the step is done: it is void all the same.
+TEST_F(LivePlanState, AFirstStepIsVoidWhateverWasChangedSince) {
+  pace();
+  edit();
+  step();
+  for (int i = 0; i < 3; ++i) {
+    pass(milliseconds(16));
+    edit();
+    EXPECT_FALSE(plan.next(now));
+    EXPECT_FALSE(plan.nextStep(now)) << "one at a time";
+  }
+  pass(milliseconds(2));
+  EXPECT_TRUE(plan.next(now));
+  EXPECT_TRUE(plan.takeVoidSteps());
+  EXPECT_TRUE(plan.nextStep(now));
 }
 
 TEST_F(LivePlanState, ACameraThatMovesWaitsForNoStepAtRest) {
@@ -210,7 +228,10 @@ TEST_F(LivePlanState, ACameraThatMovesWaitsForNoStepAtRest) {
 TEST_F(LivePlanState, PacedStepsTakeTheTimeThatIsAskedFor) {
   pace(milliseconds(200));
   edit();
+  finish(frame());
   EXPECT_EQ(step().units, 200);
+  edit();
+  EXPECT_TRUE(plan.next(now)) << "no frame waits for it";
 }
 
 TEST_F(LivePlanState, StepsThatAreDoneAreTold) {

@@ -50,6 +50,7 @@ class ElementLight : public MethodState {
   Wanted begin(const ElementLight* before);
   // Adds a hit, `sign` times, if its instance is wanted.
   void add(const Tracer& tracer, const ElementHit& hit, int64_t sign, const Wanted& wanted);
+  // Makes of what a row left what it leaves now, in the instances that are kept.
   void change(const Tracer& tracer, const PhotonRow& before, const PhotonRow& now,
               const Wanted& kept);
   Sums& own(uint32_t instance);

@@ -7,6 +7,9 @@
 namespace ninefold {
 namespace {
 
+constexpr uint32_t kLooks =
+    256;  // at which lamp a stream's number chooses, and where in its interval
+
 class Stamp {
  public:
   void add(uint64_t word) { value_ = hashWords(value_, word); }
@@ -45,6 +48,12 @@ uint64_t lampsStamp(const Transport& t, const MinorLamps& minor) {
     stamp.add(light.position), stamp.add(light.direction), stamp.add(light.across);
     stamp.add(light.intensity);
   }
+  // Lamps that were on when a gesture began have their shares, too: looks at the whole of a stream.
+  for (size_t s = 0; s < t.streams.count(); ++s)
+    for (uint32_t look = 0; look < kLooks; ++look) {
+      const auto choice = t.streams.choose(s, (static_cast<float>(look) + 0.5f) / kLooks);
+      stamp.add(choice ? hashWords(choice->index, std::bit_cast<uint32_t>(choice->remapped)) : 0);
+    }
   stamp.add(t.emitters.environmentStrength());
   stamp.add(t.radius), stamp.add(t.scene.bounds.low), stamp.add(t.scene.bounds.high);
   for (const uint32_t lamp : minor.lamps()) stamp.add(uint64_t{lamp});

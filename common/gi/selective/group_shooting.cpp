@@ -38,7 +38,7 @@ PhotonRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t ve
   const float share = 1 / static_cast<float>(groups.photons());
   const std::vector<PhotonStream> streams = photonStreams(t, SampleUse::groupPhoton, randomization);
   PathReplay replay(kept == nullptr ? nullptr : kept->find(row, randomization), world,
-                    randomization, !t.solidBounds.empty());
+                    randomization);
   const auto trace = [&](const Tracer& tracer, Vec3 origin, Vec3 direction) {
     return replay.trace(tracer, origin, direction);
   };

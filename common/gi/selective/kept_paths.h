@@ -2,8 +2,9 @@
 //
 // Each client keeps what it traced itself. Nothing but time depends on that (path_replay.h).
 //
-// Memory:  12 bytes a ray, 12 a hit and 16 a photon, twice; nothing is kept of pools of more than
-//          kMostPhotons photons.
+// Memory:  12 bytes a ray, 12 a hit, and 28 a photon and stream, twice, and what moved (path_world.h).
+//          Nothing is kept of pools of more than kMostPhotons photons: in those a gesture's first step
+//          is void (master/running/live_plan.h).
 // Owner:   shared by the methods of successive edits.
 // Threads: any.   Errors: none.
 #pragma once

@@ -18,9 +18,8 @@ void append(std::vector<T>& to, const std::vector<T>& from, uint32_t first, uint
 }  // namespace
 
 PathReplay::PathReplay(std::shared_ptr<const KeptRow> kept, std::shared_ptr<const PathWorld> world,
-                       uint32_t randomization, bool asks)
+                       uint32_t randomization)
     : kept_(std::move(kept)),
-      asks_(asks),
       changes_(kept_ == nullptr ? nullptr : &world->since(kept_->world)),
       now_(std::make_shared<KeptRow>(KeptRow{std::move(world), randomization, {}, {}, {}})) {
   if (kept_ == nullptr) return;
@@ -39,7 +38,8 @@ uint64_t PathReplay::stampOf(const PhotonStart& start) {
 bool PathReplay::isAsBefore(const KeptPath& path) const {
   const std::vector<Vec3>& points = kept_->points;
   if (path.pointsEnd == firstPoint_) return true;  // it carries nothing
-  if (asks_ && changes_->concern(points[firstPoint_], points[firstPoint_] + kFar * wayOutOfMedia()))
+  if (changes_->solids &&
+      changes_->concern(points[firstPoint_], points[firstPoint_] + kFar * wayOutOfMedia()))
     return false;
   for (uint32_t i = firstPoint_; i + 1 < path.pointsEnd; ++i)
     if (changes_->concern(points[i], points[i + 1])) return false;
@@ -62,7 +62,9 @@ bool PathReplay::passOver(bool startsAlike, std::vector<ElementHit>& hits) {
 Hit PathReplay::trace(const Tracer& tracer, Vec3 origin, Vec3 direction) {
   const Hit hit = TraceRay{}(tracer, origin, direction);
   std::vector<Vec3>& points = now_->points;
-  if (std::exchange(hasRay_, true))
+  // A ray starts so near to where the last one ended that one point stands for both, but for slivers.
+  const bool goesOn = std::exchange(hasRay_, true);
+  if (goesOn && glm::distance(points.back(), origin) <= now_->world->margin())
     points.back() = origin;
   else
     points.push_back(origin);

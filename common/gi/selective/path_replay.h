@@ -19,10 +19,9 @@ namespace ninefold {
 
 class PathReplay {
  public:
-  // `kept`: of the same row and randomization, or null. `asks`: whether photons ask what solids lie
-  // around their lamp (light/media_around.h).
+  // `kept`: of the same row and randomization, or null.
   PathReplay(std::shared_ptr<const KeptRow> kept, std::shared_ptr<const PathWorld> world,
-             uint32_t randomization, bool asks);
+             uint32_t randomization);
 
   // True: the next path is taken over, and its hits are added to `hits`. start(): how it starts.
   template <typename Start>
@@ -45,7 +44,6 @@ class PathReplay {
   bool isAsBefore(const KeptPath& path) const;
 
   const std::shared_ptr<const KeptRow> kept_;
-  const bool asks_;
   const PathChanges* changes_ = nullptr;    // since kept_; null without
   size_t next_ = 0;                         // of kept_'s paths
   uint32_t firstPoint_ = 0, firstHit_ = 0;  // of that path

@@ -24,6 +24,7 @@ PathWorld::PathWorld(const Transport& t, const MinorLamps& minor)
     : settings_(t.settings),
       streams_(t.streams.count()),
       lamps_(lampsStamp(t, minor)),
+      hasSolids_(!t.solidBounds.empty()),
       answers_(t.tracer.answers()),
       solidRanks_(solidRanks(t.scene)) {
   for (const Instance& instance : t.scene.instances) {
@@ -33,21 +34,26 @@ PathWorld::PathWorld(const Transport& t, const MinorLamps& minor)
 }
 
 const PathChanges& PathWorld::since(const std::shared_ptr<const PathWorld>& then) const {
+  static const PathChanges kNone;
+  if (then.get() == this) return kNone;
   const std::lock_guard lock(mutex_);
-  const auto found = std::ranges::find(known_, then, &Known::first);
-  if (found != known_.end()) return *found->second;
-  known_.emplace_back(then, std::make_unique<const PathChanges>(changesSince(*then)));
-  return *known_.back().second;
+  std::erase_if(known_, [](const Known& known) { return known.then.expired(); });
+  const auto found =
+      std::ranges::find_if(known_, [&](const Known& known) { return known.then.lock() == then; });
+  if (found != known_.end()) return *found->changes;
+  known_.push_back({then, std::make_unique<const PathChanges>(changesSince(*then))});
+  return *known_.back().changes;
 }
 
+Metres PathWorld::margin() const { return answers_->margin; }
+
 PathChanges PathWorld::changesSince(const PathWorld& then) const {
-  if (this == &then) return {};
   const StateFacts* facts = factsOf(settings_.method).state;
   const auto moved = rayChanges(*then.answers_, *answers_);
   if (!moved || !facts->isKept(then.settings_, settings_) || then.streams_ != streams_ ||
       then.solidRanks_ != solidRanks_ || then.materials_.size() != materials_.size())
     return {.everywhere = true};
-  PathChanges changes{.starts = then.lamps_ != lamps_};
+  PathChanges changes{.starts = then.lamps_ != lamps_, .solids = then.hasSolids_ || hasSolids_};
   for (const Bounds& box : *moved) changes.add(box);
   for (uint32_t i = 0; i < materials_.size(); ++i)
     if (materials_[i] != then.materials_[i]) changes.add(boxOf(*answers_, i));

@@ -7,13 +7,13 @@
 //   everything   another order of solids that overlap, other settings that photons go by
 //
 // Proved:  tests/gi/kept_paths_test.cpp.
-// Owner:   keeps geometry of its state alive.
+// Owner:   keeps geometry and hierarchies of its state alive; they must not be traced once its scene
+//          is gone. Knows other states without keeping them.
 // Threads: const after construction; since may be called from any thread.   Errors: none.
 #pragma once
 
 #include <memory>
 #include <mutex>
-#include <utility>
 #include <vector>
 
 #include "common/gi/light/minor_lamps.h"
@@ -25,6 +25,7 @@ namespace ninefold {
 struct PathChanges {
   bool everywhere = false;
   bool starts = false;  // some photons may start otherwise
+  bool solids = false;  // photons ask, or asked, what lies around their lamp (media_around.h)
   Bounds all = {};      // of the boxes
   std::vector<Bounds> boxes = {};
 
@@ -41,8 +42,10 @@ class PathWorld {
   // minor: as in lampsStamp.
   PathWorld(const Transport& transport, const MinorLamps& minor);
 
-  // From then to this state.
+  // From then to this state. What it gives lives as long as both.
   const PathChanges& since(const std::shared_ptr<const PathWorld>& then) const;
+  // What is nearer than that to a changed thing counts as in it [m].
+  Metres margin() const;
 
  private:
   PathChanges changesSince(const PathWorld& then) const;
@@ -50,11 +53,15 @@ class PathWorld {
   const Settings settings_;
   const size_t streams_;
   const uint64_t lamps_;
+  const bool hasSolids_;
   const std::shared_ptr<const RayAnswers> answers_;
   const std::vector<int> solidRanks_;
   std::vector<uint64_t> materials_;  // by instance: stamp of its material
 
-  using Known = std::pair<std::shared_ptr<const PathWorld>, std::unique_ptr<const PathChanges>>;
+  struct Known {
+    std::weak_ptr<const PathWorld> then;
+    std::unique_ptr<const PathChanges> changes;
+  };
   mutable std::mutex mutex_;
   mutable std::vector<Known> known_;  // guarded by mutex_
 };
