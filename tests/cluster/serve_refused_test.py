@@ -42,9 +42,12 @@ class TurnsAway(ServeTest):
         bare.send("shown", masked=False)
         self.turned_away(bare, "warning: browser at")
         eager = self.view()
-        for _ in range(100):
-            eager.send("shown")
-        self.turned_away(eager, "no update was under way")
+        with self.assertRaises(Closed):
+            for _ in range(100):
+                eager.send("shown")
+            while True:
+                eager.receive()
+        self.expect_line("no update was under way")
         good.look_until(lambda head: head["viewers"] == 1)
 
     def test_a_flood(self):
@@ -108,9 +111,8 @@ class Secrets(ServeTest):
         self.assertEqual(request("127.0.0.1", self.port, "/metrics", Authorization=f"Bearer {wrong}", **more)[0], 401)
         self.assertEqual(self.metrics(**more)[0], 200)
         for token in "", wrong, self.token[:-1]:
-            viewer = self.view(token=token, **more)
             with self.assertRaises(Closed) as closed:
-                viewer.receive()
+                self.view(token=token, **more).receive()
             self.assertIn("wrong token", str(closed.exception))
         self.expect_line("wrong token")
         self.at_rest(self.view(**more))
