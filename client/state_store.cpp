@@ -42,13 +42,15 @@ void StateStore::apply(const msg::StateDelta& delta) {
   if (delta.part == 0) {
     const Pages from = find(delta.from);
     if (!from) fail("a delta of version {} of the state, which is not there", delta.from);
-    building_ = Building{delta.to, 0, *from};
+    building_ = Building{delta.to, from};
   }
-  if (!building_ || building_->version != delta.to || building_->nextPart++ != delta.part)
+  if (!building_ || building_->version != delta.to || building_->parts.size() != delta.part)
     fail("part {} of version {} of the state does not follow", delta.part, delta.to);
-  building_->pages.apply(decodeDeltas(delta.deltas));
+  building_->parts.push_back(decodeDeltas(delta.deltas));
   if (delta.part + 1 < delta.parts) return;
-  keep(delta.to, delta.hash, std::move(building_->pages));
+  StatePages pages = *building_->from;
+  pages.applyAll(building_->parts);
+  keep(delta.to, delta.hash, std::move(pages));
   building_.reset();
   std::erase_if(versions_, [&](const auto& version) { return version.first < delta.oldest; });
 }

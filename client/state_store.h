@@ -37,8 +37,8 @@ class StateStore {
  private:
   struct Building {
     uint32_t version = 0;
-    uint32_t nextPart = 0;
-    StatePages pages = {};
+    Pages from;
+    std::vector<PageDeltas> parts = {};
   };
   void apply(const msg::StateDelta& delta);
   void keep(uint32_t version, uint64_t hash, StatePages&& pages);

@@ -13,8 +13,12 @@ constexpr size_t kStep = 1 << 20;
 }  // namespace
 
 Bytes compressBlob(ByteView raw, int level) {
+  // Making one costs more than compressing a few kilobytes.
+  thread_local const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
+                                                                                  ZSTD_freeCCtx);
   Bytes out(ZSTD_compressBound(raw.size()));
-  const size_t size = ZSTD_compress(out.data(), out.size(), raw.data(), raw.size(), level);
+  const size_t size =
+      ZSTD_compressCCtx(context.get(), out.data(), out.size(), raw.data(), raw.size(), level);
   NINEFOLD_CHECK(ZSTD_isError(size) == 0);
   out.resize(size);
   out.shrink_to_fit();

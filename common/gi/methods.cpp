@@ -29,7 +29,8 @@ std::unique_ptr<const GiMethod> make(Method method, const Transport& t, const Gi
     case Method::photonMap:
       return std::make_unique<const PhotonMap>(t, dynamic_cast<const PhotonMap*>(begun));
     case Method::selective:
-      return std::make_unique<const Selective>(t, dynamic_cast<const Selective*>(begun));
+      return std::make_unique<const Selective>(t, dynamic_cast<const Selective*>(begun),
+                                               dynamic_cast<const Selective*>(before));
     case Method::intersectionField:
       return std::make_unique<const IntersectionField>(
           t, dynamic_cast<const IntersectionField*>(begun),

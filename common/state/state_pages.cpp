@@ -45,29 +45,37 @@ Page replaced(const PageDelta& delta, const Page* before) {
   return records;
 }
 
-Page added(const PageDelta& delta, const Page* before) {
-  if (before != nullptr && !std::holds_alternative<Sums>(*before))
+void add(Page& page, const PageDelta& delta) {
+  if (!std::holds_alternative<Sums>(page))
     fail("{} of a method's state holds records: nothing can be added to it", nameOf(delta.page));
-  Sums sums = before != nullptr ? std::get<Sums>(*before) : Sums(kPageSums, 0);
+  Sums& sums = std::get<Sums>(page);
   for (const auto& [place, amount] : std::get<std::vector<SumChange>>(delta.change)) {
     if (place >= kPageSums) fail("{} of a method's state has no sum {}", nameOf(delta.page), place);
     if (__builtin_add_overflow(sums[place], amount, &sums[place]))
       fail("sum {} of {} of a method's state overflows", place, nameOf(delta.page));
   }
-  return sums;
 }
 
 }  // namespace
 
-void StatePages::apply(const PageDeltas& deltas) {
-  std::map<PageId, Shared> changed;
-  for (const PageDelta& delta : deltas) {
-    const auto again = changed.find(delta.page);
-    const Page* before = again != changed.end() ? again->second.get() : find(delta.page);
-    changed[delta.page] = std::make_shared<const Page>(std::holds_alternative<Records>(delta.change)
-                                                           ? replaced(delta, before)
-                                                           : added(delta, before));
-  }
+StatePages::Changed StatePages::changedBy(std::span<const PageDeltas> all) const {
+  Changed changed;
+  for (const PageDeltas& deltas : all)
+    for (const PageDelta& delta : deltas) {
+      std::shared_ptr<Page>& page = changed[delta.page];
+      const Page* before = page != nullptr ? page.get() : find(delta.page);
+      if (std::holds_alternative<Records>(delta.change)) {
+        page = std::make_shared<Page>(replaced(delta, before));
+        continue;
+      }
+      if (page == nullptr)
+        page = std::make_shared<Page>(before != nullptr ? *before : Sums(kPageSums, 0));
+      add(*page, delta);
+    }
+  return changed;
+}
+
+void StatePages::take(Changed&& changed) {
   for (auto& [id, page] : changed) {
     Shared& mine = pages_[id];
     if (mine) hash_ -= hashOf(id, *mine);

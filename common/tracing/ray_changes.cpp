@@ -3,21 +3,18 @@
 #include "common/tracing/geometry.h"
 
 namespace ninefold {
-namespace {
 
-ChangedBox boxOf(const RayAnswers& answers, uint32_t instance) {
+Bounds boxOf(const RayAnswers& answers, uint32_t instance) {
   Bounds box = answers.geometries[instance]->bounds();
   box.low -= 4 * answers.margin, box.high += 4 * answers.margin;
-  return {instance, box};
+  return box;
 }
 
-}  // namespace
-
-std::optional<std::vector<ChangedBox>> rayChanges(const RayAnswers& before, const RayAnswers& now) {
+std::optional<std::vector<Bounds>> rayChanges(const RayAnswers& before, const RayAnswers& now) {
   if (before.margin != now.margin || before.shows.size() != now.shows.size() ||
       before.touching != now.touching)
     return std::nullopt;
-  std::vector<ChangedBox> boxes;
+  std::vector<Bounds> boxes;
   for (uint32_t i = 0; i < now.shows.size(); ++i) {
     if (before.shows[i] == now.shows[i]) continue;
     boxes.push_back(boxOf(before, i));

@@ -14,24 +14,25 @@
 #include <vector>
 
 #include "common/math/bounds.h"
-#include "common/tracing/part.h"
 
 namespace ninefold {
 
+class InstanceGeometry;
+class Part;
+
 struct RayAnswers {
   std::vector<std::shared_ptr<const Part>> shows;  // by instance: the hierarchy that shows it
-  Geometries geometries;
+  std::vector<std::shared_ptr<const InstanceGeometry>> geometries;
   std::vector<std::vector<bool>> touching;  // contacts.h
   Metres margin = 0;                        // likewise
 };
 
-// Boxes that hold all that changed, each with its instance, where it was and where it is, wider by
-// the margin. Nothing: any ray may have another answer, as the scene's bounds grew, or as a triangle
-// touches something transparent now and did not, or the other way round.
-struct ChangedBox {
-  uint32_t instance;
-  Bounds box;
-};
-std::optional<std::vector<ChangedBox>> rayChanges(const RayAnswers& before, const RayAnswers& now);
+// Of an instance, a little larger than it is: what touches it counts, too.
+Bounds boxOf(const RayAnswers& answers, uint32_t instance);
+
+// Boxes of all that changed, where it was and where it is. Nothing: any ray may have another answer,
+// as the scene's bounds grew, or as a triangle touches something transparent now and did not, or the
+// other way round.
+std::optional<std::vector<Bounds>> rayChanges(const RayAnswers& before, const RayAnswers& now);
 
 }  // namespace ninefold

@@ -133,7 +133,9 @@ void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind k
 void Scheduler::openStep(uint32_t number, uint32_t firstUnit, int units, double rays) {
   NINEFOLD_CHECK(number >= nextFrame_);
   NINEFOLD_CHECK(units > 0);
-  frames_.emplace(number, SchedulerFrame(number, firstUnit, units, rays));
+  std::vector<ClientId> clients;
+  pool_.forEach([&](const SchedulerClient& client) { clients.push_back(client.id()); });
+  frames_.emplace(number, SchedulerFrame(number, firstUnit, units, rays, clients));
   pool_.setResultsWait(kResultsTogether);
   nextFrame_ = number + 1;
 }
@@ -284,7 +286,7 @@ void Scheduler::handOutWaiting(Actions& actions, Time now) {
   for (int left = waiting(); left > 0 && !pool_.ready().empty(); --left) {
     SchedulerClient& client = *pool_.find(pool_.ready().begin()->second);
     const auto [frame, set] = placeFor(client);
-    assign(client, *frame, frame->nextWaiting(set), actions, now);
+    assign(client, *frame, frame->nextWaiting(set, client.id()), actions, now);
   }
 }
 

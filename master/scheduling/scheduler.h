@@ -20,7 +20,8 @@
 //   suspect     It holds tasks and gives no result for too long. As lost, but its results stay
 //               welcome, and it gets one task on trial when it is heard of again.
 //   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A
-//               change of the view leaves them.
+//               change of the view leaves them. Each client begins with units of its own, the same
+//               ones in each step, as it may have kept work of the last one; then it helps others.
 //   checks      Chosen results are done again by a second client of the same pixel class, before
 //               any other work (verification.h). A frame does not wait for them. Actions::wrong
 //               tells.

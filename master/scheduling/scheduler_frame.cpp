@@ -28,7 +28,8 @@ SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameK
   }
 }
 
-SchedulerFrame::SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays)
+SchedulerFrame::SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays,
+                               const std::vector<ClientId>& clients)
     : firstUnit_(firstUnit),
       isStep_(true),
       sharesSets_(true),
@@ -45,6 +46,8 @@ SchedulerFrame::SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, d
     at(unit).state = TaskState::waiting;
     queues_.front().order.push_back(unit);
   }
+  for (size_t i = 0; i < clients.size(); ++i)
+    places_[clients[i]] = static_cast<int>(i * tasks_.size() / clients.size());
 }
 
 int SchedulerFrame::indexOf(const TaskId& task) const {
@@ -104,7 +107,12 @@ int SchedulerFrame::setToShare(const SchedulerClient& client) const {
   return *best;
 }
 
-int SchedulerFrame::nextWaiting(int set) {
+int SchedulerFrame::nextWaiting(int set, ClientId client) {
+  if (isStep_) {
+    int& place = places_[client];
+    while (state(place) != TaskState::waiting) place = (place + 1) % tasks();
+    return place;
+  }
   std::deque<int>& order = queues_[static_cast<size_t>(set)].order;
   while (state(order.front()) != TaskState::waiting) order.pop_front();
   return order.front();

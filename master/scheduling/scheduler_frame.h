@@ -40,8 +40,10 @@ class SchedulerFrame {
 
   // `ordinal`: of pictures, without steps.
   SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind, int ordinal);
-  // A step of `units` units from `firstUnit` on, each of so many rays.
-  SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays);
+  // A step of `units` units from `firstUnit` on, each of so many rays. `clients`: those present;
+  // each begins at a place of its own, which it has in the next step, too.
+  SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays,
+                 const std::vector<ClientId>& clients = {});
 
   const FrameKey& key() const { return key_; }
   bool isStep() const { return isStep_; }
@@ -75,8 +77,8 @@ class SchedulerFrame {
   int untouchedSets() const;
   // The set to be shared by one client more. Needs waiting() > 0.
   int setToShare(const SchedulerClient& client) const;
-  // The set's next waiting task; stays waiting until addHolder.
-  int nextWaiting(int set);
+  // The set's next waiting task for that client; stays waiting until addHolder.
+  int nextWaiting(int set, ClientId client);
 
   void addHolder(int task, const TaskHolder& holder);
   // Switches a suspect's claim off or on again. True if the task now waits, first in its queue.
@@ -121,8 +123,9 @@ class SchedulerFrame {
   double rays_;
   int sets_;  // = phases
   int left_ = 0, waiting_ = 0;
-  std::vector<Task> tasks_;       // tile * sets + phase
-  std::vector<SetQueue> queues_;  // by light set
+  std::vector<Task> tasks_;         // tile * sets + phase
+  std::vector<SetQueue> queues_;    // by light set
+  std::map<ClientId, int> places_;  // in a step: the unit at which a client goes on
   Stragglers stragglers_;
   std::map<ClientId, std::vector<int>> setsOfClient_;  // latest last
 };

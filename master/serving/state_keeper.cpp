@@ -36,8 +36,7 @@ void StateKeeper::take(msg::Stepped&& result) {
         "here",
         result.unit, result.number, step.key.from, result.stateHash, hash);
   PageDeltas deltas = decodeDeltas(result.deltas);
-  StatePages alone = pagesOf(step.key.from);
-  alone.apply(deltas);  // what cannot be by itself is this client's fault
+  pagesOf(step.key.from).check(deltas);  // what cannot be by itself is this client's fault
   step.results[result.unit] = {std::move(deltas), std::move(result.deltas)};
 }
 
@@ -46,7 +45,9 @@ const std::vector<msg::StateDelta>& StateKeeper::complete(uint32_t number) {
   open_.erase(number);
   NINEFOLD_CHECK(std::ssize(step.results) == step.units);
   Version version{pagesOf(step.key.from), {}};
-  for (auto& [unit, result] : step.results) version.pages.apply(result.first);
+  std::vector<PageDeltas> all;
+  for (auto& [unit, result] : step.results) all.push_back(std::move(result.first));
+  version.pages.applyAll(all);
   if (version.pages.all().size() > kMaxStatePages)
     fail("a method's state has {} pages; it may have {}", version.pages.all().size(),
          kMaxStatePages);

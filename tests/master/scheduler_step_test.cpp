@@ -30,6 +30,22 @@ TEST_F(SchedulerStep, UnitsAreHandedOutAndTheLastOneCompletesTheStep) {
   }
 }
 
+TEST_F(SchedulerStep, AClientBeginsWithTheUnitsThatItHadInTheStepBefore) {
+  bench.join(1), bench.join(2), bench.join(3);
+  const auto firstUnits = [&](uint32_t number) {
+    for (auto& [client, tasks] : bench.sent) tasks.clear();
+    openStep(number, 300);
+    std::vector<int> units;
+    for (const auto& [client, tasks] : bench.sent) units.push_back(tasks.at(0).tile);
+    bench.drain();
+    return units;
+  };
+  const std::vector<int> begun{int{kFirst}, int{kFirst} + 100, int{kFirst} + 200};
+  EXPECT_EQ(firstUnits(0), begun);
+  EXPECT_EQ(firstUnits(1), begun);
+  EXPECT_EQ(bench.scheduler.counts().completedUnits, 600u);
+}
+
 TEST_F(SchedulerStep, AStepBeforeAFrameIsHandedOutFirst) {
   openStep(0, 2);
   bench.open(1, bench.grid(4));

@@ -80,6 +80,9 @@ TEST(StatePages, SumsAreTheSameInAnyOrder) {
     atOnce.apply(together);
     expectSame(forth, shuffled);
     expectSame(forth, atOnce);
+    StatePages group;
+    group.applyAll(all);
+    expectSame(forth, group);
   }
 }
 

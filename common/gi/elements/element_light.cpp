@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/error.h"
+#include "common/gi/elements/hit_changes.h"
 #include "common/gi/elements/packed_flux.h"
 #include "common/state/fixed_point.h"
 
@@ -18,12 +19,18 @@ double quantumOf(const StatePages& pages, const PhotonRows& rows) {
   return fluxQuantum(fluxBand(std::max(brightest, 0x1p-100f)));
 }
 
-// Whether half of the rows or more are the same. If not, it is quicker to add up all rows than to
-// take away and add those that changed.
+// Whether half of the rows or more are the same, or of the same photons: most of those leave the
+// same hits. If not, it is quicker to add up all rows than to take away and add what changed.
 bool sharesMost(const StatePages& a, const StatePages& b, const PhotonRows& rows) {
-  uint32_t shared = 0;
-  for (uint32_t r = 0; r < rows.count(); ++r) shared += rows.isShared(a, b, r);
-  return 2 * shared >= rows.count();
+  const auto isAlike = [&](uint32_t r) {
+    if (rows.isShared(a, b, r)) return true;
+    const auto one = rows.header(a, r), other = rows.header(b, r);
+    return one && other && one->randomization == other->randomization &&
+           one->lampFlux == other->lampFlux;
+  };
+  uint32_t alike = 0;
+  for (uint32_t r = 0; r < rows.count(); ++r) alike += isAlike(r);
+  return 2 * alike >= rows.count();
 }
 
 bool hasAny(const std::vector<bool>& wanted) {
@@ -49,14 +56,24 @@ ElementLight::ElementLight(const Tracer& tracer, const StatePages& pages, const 
   const Wanted fresh = begin(goesOn ? before : nullptr);
   Wanted kept = fresh;
   kept.flip();
-  const Wanted all(fresh.size(), true);
+  const bool anyFresh = hasAny(fresh), anyKept = hasAny(kept);
   for (uint32_t r = 0; r < rows_.count(); ++r) {
     const bool isSame = goesOn && rows_.isShared(pages_, before->pages_, r);
-    if (isSame && !hasAny(fresh)) continue;
-    if (goesOn && !isSame)
-      if (const auto old = rows_.read(before->pages_, r)) add(tracer, *old, -1, kept);
-    if (const auto now = rows_.read(pages_, r)) add(tracer, *now, 1, isSame ? fresh : all);
+    if (isSame && !anyFresh) continue;
+    const auto now = rows_.read(pages_, r);
+    if (anyFresh && now)
+      for (const ElementHit& hit : now->hits) add(tracer, hit, 1, fresh);
+    if (isSame || !anyKept) continue;
+    const auto old = rows_.read(before->pages_, r);
+    change(tracer, old.value_or(PhotonRow()), now.value_or(PhotonRow()), kept);
   }
+}
+
+void ElementLight::change(const Tracer& tracer, const PhotonRow& before, const PhotonRow& now,
+                          const Wanted& kept) {
+  forEachChange(
+      before.hits, now.hits, [&](const ElementHit& hit) { add(tracer, hit, -1, kept); },
+      [&](const ElementHit& hit) { add(tracer, hit, 1, kept); });
 }
 
 ElementLight::Wanted ElementLight::begin(const ElementLight* before) {
@@ -78,23 +95,20 @@ ElementLight::Sums& ElementLight::own(uint32_t instance) {
   return *sums_[instance];
 }
 
-void ElementLight::add(const Tracer& tracer, const PhotonRow& row, int64_t sign,
+void ElementLight::add(const Tracer& tracer, const ElementHit& hit, int64_t sign,
                        const Wanted& wanted) {
-  if (!hasAny(wanted)) return;
-  for (const ElementHit& hit : row.hits) {
-    if (!surfaces_->isThere(hit.surface)) continue;
-    const SurfaceNumbers::Surface surface = surfaces_->surfaceOf(hit.surface);
-    if (!wanted[surface.instance]) continue;
-    const PartPlace at = place(tracer, surface, static_cast<float>(hit.u) / 65535,
-                               static_cast<float>(hit.v) / 65535);
-    const Flux flux = unpackFlux(hit.flux);
-    Sums& sums = own(surface.instance);
-    for (size_t k = 0; k < 3; ++k) {
-      if (at.weights[k] == 0) continue;
-      int64_t* of = sums.data() + kPerPart * at.parts[k];
-      const double weight = double{at.weights[k]};
-      for (int c = 0; c < 3; ++c) of[c] += sign * toFixed(weight * double{flux[c]}, quantum_);
-    }
+  if (!surfaces_->isThere(hit.surface)) return;
+  const SurfaceNumbers::Surface surface = surfaces_->surfaceOf(hit.surface);
+  if (!wanted[surface.instance]) return;
+  const PartPlace at =
+      place(tracer, surface, static_cast<float>(hit.u) / 65535, static_cast<float>(hit.v) / 65535);
+  const Flux flux = unpackFlux(hit.flux);
+  Sums& sums = own(surface.instance);
+  for (size_t k = 0; k < 3; ++k) {
+    if (at.weights[k] == 0) continue;
+    int64_t* of = sums.data() + kPerPart * at.parts[k];
+    const double weight = double{at.weights[k]};
+    for (int c = 0; c < 3; ++c) of[c] += sign * toFixed(weight * double{flux[c]}, quantum_);
   }
 }
 

@@ -48,8 +48,10 @@ class ElementLight : public MethodState {
 
   // Takes over from `before` the sums of instances that are the same, and tells the others.
   Wanted begin(const ElementLight* before);
-  // Adds a row's hits, `sign` times, to the instances that are wanted.
-  void add(const Tracer& tracer, const PhotonRow& row, int64_t sign, const Wanted& wanted);
+  // Adds a hit, `sign` times, if its instance is wanted.
+  void add(const Tracer& tracer, const ElementHit& hit, int64_t sign, const Wanted& wanted);
+  void change(const Tracer& tracer, const PhotonRow& before, const PhotonRow& now,
+              const Wanted& kept);
   Sums& own(uint32_t instance);
 
   PartPlace place(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,

@@ -27,6 +27,13 @@ std::vector<PhotonStream> photonStreams(const Transport& t, SampleUse use, uint3
   return streams;
 }
 
+PhotonStart photonStart(const Transport& t, const MinorLamps& minor, const PhotonStream& stream,
+                        uint32_t photon) {
+  const Particle particle = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
+                                      stream.numbers.place(photon));
+  return {particle, t.settings.directVpls > 0 && minor.has(particle.lamp)};
+}
+
 bool isForElements(const Transport& t, const Arrival& a, bool isOfMinorLamp) {
   // A texel without D counts as area of its element all the same, so that its hits must count, too.
   return (a.turned || isOfMinorLamp) && !a.focused &&

@@ -40,31 +40,37 @@ bool isForElements(const Transport& t, const Arrival& a, bool isOfMinorLamp);
 ElementHit elementHit(const Transport& t, const SurfaceNumbers& surfaces, const Arrival& a,
                       float share, uint64_t word);
 
-// Adds the hits of photon `photon`. leave: as walkLightPathBy has it. gain(arrival): factor on the
-// flux of its hit.
-template <typename Leave, typename Gain>
-void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const MinorLamps& minor,
+// How a photon leaves its lamp.
+struct PhotonStart {
+  Particle particle;
+  bool isOfMinorLamp = false;
+};
+PhotonStart photonStart(const Transport& t, const MinorLamps& minor, const PhotonStream& stream,
+                        uint32_t photon);
+
+// Adds the hits of photon `photon`. leave, trace: as walkLightPathBy has them. gain(arrival): factor
+// on the flux of its hit.
+template <typename Leave, typename Gain, typename Trace = TraceRay>
+void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const PhotonStart& begin,
                  const PhotonStream& stream, uint32_t photon, float share,
                  std::vector<ElementHit>& hits, RayCounts& rays, const Leave& leave,
-                 const Gain& gain) {
+                 const Gain& gain, const Trace& trace = {}) {
   const size_t first = hits.size();
-  Particle start = emitAlike(t, stream.index, stream.numbers.lampAndDirection(photon),
-                             stream.numbers.place(photon));
+  Particle start = begin.particle;
   // A lamp may lie in a solid that its light never leaves.
   const MediumStack media = mediaAround(t, start.origin);
   start.flux *= t.shader.squaredIndex(media);
-  const bool isOfMinorLamp = t.settings.directVpls > 0 && minor.has(start.lamp);
   walkLightPathBy(
       t, start, media, 0, stream.numbers, photon, HaltonSampler::kWalkDimension, rays,
       [&](const Arrival& a) {
-        if (isForElements(t, a, isOfMinorLamp)) {
+        if (isForElements(t, a, begin.isOfMinorLamp)) {
           const uint64_t word = hashWords(photon, stream.index, hits.size() - first);
           const ElementHit hit = elementHit(t, surfaces, a, share * gain(a), word);
           if (hit.flux != 0) hits.push_back(hit);
         }
         return t.allows(a.diffuseBefore + 2);
       },
-      leave);
+      leave, trace);
 }
 
 // Every n/room-th of the n hits, which carry as much more.

@@ -24,16 +24,20 @@ class Stamp {
 
 }  // namespace
 
+uint64_t materialStamp(const Material& m) {
+  Stamp stamp;
+  stamp.add(m.baseColor), stamp.add(m.emission);
+  stamp.add(m.metallic), stamp.add(m.roughness), stamp.add(m.transmission), stamp.add(m.ior);
+  return stamp.value();
+}
+
 uint64_t sceneStamp(const Transport& t, const MinorLamps& minor) {
   Stamp stamp;
   for (const Instance& instance : t.scene.instances) {
     stamp.add(instance.toWorld);
     stamp.add(t.scene.meshes[static_cast<size_t>(instance.mesh)].shape);
   }
-  for (const Material& m : t.scene.materials) {
-    stamp.add(m.baseColor), stamp.add(m.emission);
-    stamp.add(m.metallic), stamp.add(m.roughness), stamp.add(m.transmission), stamp.add(m.ior);
-  }
+  for (const Material& m : t.scene.materials) stamp.add(materialStamp(m));
   for (const PunctualLight& light : t.lights) {
     stamp.add(light.position), stamp.add(light.direction), stamp.add(light.across);
     stamp.add(light.intensity);

@@ -15,6 +15,9 @@
 
 namespace ninefold {
 
+// Of what edits can change about a material.
+uint64_t materialStamp(const Material& material);
+
 // minor: the lamps whose direct light these photons bring.
 uint64_t sceneStamp(const Transport& transport, const MinorLamps& minor);
 

@@ -101,7 +101,8 @@ PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_
   const uint32_t end = std::min((row + 1) * kPhotonsOfRow, photons);
   for (uint32_t photon = row * kPhotonsOfRow; photon < end; ++photon)
     for (const PhotonStream& stream : streams)
-      shootPhoton(t_, *surfaces_, {}, stream, photon, share, left.hits, rays, leave, gain);
+      shootPhoton(t_, *surfaces_, photonStart(t_, {}, stream, photon), stream, photon, share,
+                  left.hits, rays, leave, gain);
   if (left.hits.size() > rows_.room())
     thinHits(left, rows_.room(), hashWords(t_.settings.seed, randomization, row));
   return left;

@@ -6,9 +6,11 @@
 
 namespace ninefold {
 
+Vec3 wayOutOfMedia() { return glm::normalize(Vec3(0.3f, 0.9f, 0.2f)); }
+
 MediumStack mediaAround(const Transport& t, Vec3 place) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
-  const Vec3 direction = glm::normalize(Vec3(0.3f, 0.9f, 0.2f));
+  const Vec3 direction = wayOutOfMedia();
   MediumStack media, entered;
   if (std::ranges::none_of(
           t.solidBounds, [&](const Bounds& box) { return meetsBox(box, place, direction, kFar); }))

@@ -8,6 +8,9 @@
 
 namespace ninefold {
 
+// Unit: the way of that ray.
+Vec3 wayOutOfMedia();
+
 MediumStack mediaAround(const Transport& transport, Vec3 place);
 
 }  // namespace ninefold

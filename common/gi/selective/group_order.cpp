@@ -45,7 +45,10 @@ class Field {
 
 }  // namespace
 
-uint32_t GroupOrder::rowAt(const StatePages& pages, const View& view, uint32_t rank) const {
+uint32_t GroupOrder::rowOf(const StatePages& pages, const View& view, const StepKey& step,
+                           uint32_t unit) const {
+  const uint32_t rank = unit - step.firstUnit;
+  if (step.units >= groups_.rows()) return rank % groups_.rows();
   const uint64_t key = keyOf(pages, view);
   const std::lock_guard lock(mutex_);
   if (order_.empty() || key_ != key) order_ = orderOf(pages, view), key_ = key;

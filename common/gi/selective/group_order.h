@@ -16,7 +16,7 @@
 // counted anew after each move of the camera, and is 1 until enough pilots were traced.)
 //
 // Source:  Dmitriev et al. 2002, 5.2 and 5.3.   Proved: tests/gi/selective_test.cpp.
-// Threads: rowAt from any thread; the order of one state is made once.   Errors: none.
+// Threads: rowOf from any thread; the order of one state is made once.   Errors: none.
 #pragma once
 
 #include <memory>
@@ -35,8 +35,10 @@ class GroupOrder {
              uint64_t stamp)
       : tracer_(tracer), groups_(groups), rows_(groups), surfaces_(surfaces), stamp_(stamp) {}
 
-  // Number `rank` of the rows in their order, counted round.
-  uint32_t rowAt(const StatePages& pages, const View& view, uint32_t rank) const;
+  // That a unit of a step traces; the order is counted round. Where a step has units for all rows,
+  // order means nothing, and a unit has the same row in each: who traced it may have kept its paths.
+  uint32_t rowOf(const StatePages& pages, const View& view, const StepKey& step,
+                 uint32_t unit) const;
 
  private:
   struct Urgency {

@@ -4,6 +4,7 @@
 
 #include "common/gi/elements/packed_flux.h"
 #include "common/gi/elements/photon_shooting.h"
+#include "common/gi/selective/path_replay.h"
 
 namespace ninefold {
 namespace {
@@ -36,14 +37,25 @@ PhotonRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t ve
   const double meanFlux = double{lampFlux} / groups.photons();
   const float share = 1 / static_cast<float>(groups.photons());
   const std::vector<PhotonStream> streams = photonStreams(t, SampleUse::groupPhoton, randomization);
+  PathReplay replay(kept == nullptr ? nullptr : kept->find(row, randomization), world,
+                    randomization, !t.solidBounds.empty());
+  const auto trace = [&](const Tracer& tracer, Vec3 origin, Vec3 direction) {
+    return replay.trace(tracer, origin, direction);
+  };
   for (uint32_t k = 0; k < groups.photonsOf(row); ++k) {
     const size_t first = left.hits.size();
     const uint32_t photon = groups.photon(row, k);
-    for (const PhotonStream& stream : streams)
-      shootPhoton(t, surfaces, minor, stream, photon, share, left.hits, rays, cosineWay,
-                  [](const Arrival&) { return 1.0f; });
+    for (const PhotonStream& stream : streams) {
+      const PhotonStart start = photonStart(t, minor, stream, photon);
+      if (replay.takeOver(start, left.hits)) continue;
+      shootPhoton(
+          t, surfaces, start, stream, photon, share, left.hits, rays, cosineWay,
+          [](const Arrival&) { return 1.0f; }, trace);
+      replay.end(left.hits);
+    }
     if (groups.hasPilots(row)) left.pilots.push_back(pilotOf(left.hits, first, meanFlux));
   }
+  if (kept != nullptr) kept->put(row, replay.finish(left.hits));
   if (left.hits.size() > room) thinHits(left, room, hashWords(t.settings.seed, randomization, row));
   return left;
 }

@@ -9,11 +9,13 @@
 //
 // What has no room in the row is thinned, and what is left carries more.
 //
+// Paths that an edit does not concern are not traced again (path_replay.h).
+//
 // A pilot's weight is the flux of its hits, each over T_e of what it fell onto (visual_masking.h).
 // Its unit is a photon's mean flux Phi/Z, and it is at most kMostWeight.
 //
 // Source:  Dmitriev et al. 2002, 4 and 5.   Proved: tests/gi/selective_test.cpp.
-// Threads: pure functions.   Errors: none.
+// Threads: shoot is a pure function, but for what is kept.   Errors: none.
 #pragma once
 
 #include "common/base/counters.h"
@@ -21,6 +23,7 @@
 #include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 #include "common/gi/selective/group_pages.h"
+#include "common/gi/selective/kept_paths.h"
 #include "common/gi/selective/visual_masking.h"
 
 namespace ninefold {
@@ -31,9 +34,11 @@ struct GroupShooting {
   const SurfaceNumbers& surfaces;
   const VisualMasking& masking;
   const MinorLamps& minor;
-  uint64_t stamp = 0;  // of the transport's scene
-  float lampFlux = 0;  // of all lamps as they are now, largest component [W]
-  size_t room = 0;     // hits that a row has room for
+  uint64_t stamp = 0;                      // of the transport's scene
+  float lampFlux = 0;                      // of all lamps as they are now, largest component [W]
+  size_t room = 0;                         // hits that a row has room for
+  std::shared_ptr<const PathWorld> world;  // of the transport's scene
+  KeptPaths* kept = nullptr;               // null: there are too many
 
   // version: that it is made for.
   PhotonRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;

@@ -36,9 +36,15 @@ std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePage
   return changes;
 }
 
+std::shared_ptr<KeptPaths> keptPaths(const PhotonGroups& groups,
+                                     const std::shared_ptr<KeptPaths>& before) {
+  if (before != nullptr || groups.photons() > KeptPaths::kMostPhotons) return before;
+  return std::make_shared<KeptPaths>(groups.rows());
+}
+
 }  // namespace
 
-Selective::Selective(const Transport& transport, const Selective* begun)
+Selective::Selective(const Transport& transport, const Selective* begun, const Selective* before)
     : LayeredMethod(transport),
       groups_(transport.settings),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
@@ -50,7 +56,10 @@ Selective::Selective(const Transport& transport, const Selective* begun)
                    ? begun->masking_
                    : std::make_shared<const VisualMasking>(
                          transport.scene, transport.settings.elementSize * transport.radius)),
-      order_(transport.tracer, groups_, *surfaces_, stamp_) {}
+      order_(transport.tracer, groups_, *surfaces_, stamp_),
+      world_(std::make_shared<const PathWorld>(transport)),
+      kept_(keptPaths(groups_,
+                      before != nullptr && before->groups_ == groups_ ? before->kept_ : nullptr)) {}
 
 std::shared_ptr<const FrameLight> Selective::light(const FrameKey& frame, int set,
                                                    std::span<const View>,
@@ -68,12 +77,12 @@ std::unique_ptr<Scratch> Selective::makeScratch() const {
 StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_t unit,
                            const View& view) const {
   const GroupPages rows(groups_);
-  const uint32_t row = order_.rowAt(pages, view, unit - step.firstUnit);
+  const uint32_t row = order_.rowOf(pages, view, step, unit);
   const std::optional<PhotonRow> before = rows.read(pages, row);
   const uint32_t randomization = before ? before->randomization : step.randomization;
   StepResult result;
-  const GroupShooting shooting{t_,     groups_, *surfaces_, *masking_,
-                               minor_, stamp_,  lampFlux_,  rows.room()};
+  const GroupShooting shooting{t_,     groups_,   *surfaces_,  *masking_, minor_,
+                               stamp_, lampFlux_, rows.room(), world_,    kept_.get()};
   const PhotonRow now = shooting.shoot(row, randomization, step.to, result.rays);
   result.deltas = rows.replace(pages, row, now);
   GroupPages::addPriorities(priorityChanges(groups_, pages, row, before, now), result.deltas);

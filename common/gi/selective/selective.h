@@ -15,6 +15,8 @@
 //                    edit shows in this way: of objects, materials and lamps.
 //
 // Beyond the paper:
+//   - A client keeps the paths that it traced, and traces those again alone that start otherwise
+//     than before, or met what has changed (path_replay.h).
 //   - A row's hits are kept (12 bytes each), so that old light is taken away without tracing it
 //     again with negative energy. A state of which all rows are traced is that of a fresh start, to
 //     the last bit.
@@ -34,6 +36,7 @@
 #include "common/gi/elements/surface_numbers.h"
 #include "common/gi/light_set/light_set.h"
 #include "common/gi/selective/group_order.h"
+#include "common/gi/selective/kept_paths.h"
 #include "common/gi/selective/photon_groups.h"
 #include "common/gi/selective/visual_masking.h"
 
@@ -41,8 +44,9 @@ namespace ninefold {
 
 class Selective final : public LayeredMethod {
  public:
-  // `begun`: of the scene that a gesture began with, or null.
-  Selective(const Transport& transport, const Selective* begun);
+  // `begun`: of the scene that a gesture began with, or null. `before`: of an earlier scene, or
+  // null; it saves work alone.
+  Selective(const Transport& transport, const Selective* begun, const Selective* before);
 
   // `state` may be null: the empty state, without a photon.
   std::shared_ptr<const FrameLight> light(const FrameKey& frame, int set,
@@ -67,6 +71,8 @@ class Selective final : public LayeredMethod {
   const float lampFlux_;  // of all lamps as they are now, largest component [W]
   const std::shared_ptr<const VisualMasking> masking_;  // a gesture keeps that of its beginning
   const GroupOrder order_;
+  const std::shared_ptr<const PathWorld> world_;
+  const std::shared_ptr<KeptPaths> kept_;  // null: there are too many
 };
 
 }  // namespace ninefold

@@ -1,0 +1,83 @@
+#include "common/gi/selective/path_replay.h"
+
+#include <bit>
+#include <utility>
+
+#include "common/sampling/hash.h"
+
+namespace ninefold {
+namespace {
+
+constexpr float kFar = 1e17f;  // where rays end that meet nothing [m]
+
+uint64_t stampOf(const PhotonStart& start) {
+  const Particle& p = start.particle;
+  uint64_t stamp = hashWords(p.lamp, p.punctual, start.isOfMinorLamp);
+  for (const Vec3& v : {p.origin, p.direction, p.flux})
+    for (int c = 0; c < 3; ++c) stamp = hashWords(stamp, std::bit_cast<uint32_t>(v[c]));
+  return stamp;
+}
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from, uint32_t first, uint32_t end) {
+  to.insert(to.end(), from.begin() + first, from.begin() + end);
+}
+
+}  // namespace
+
+PathReplay::PathReplay(std::shared_ptr<const KeptRow> kept, std::shared_ptr<const PathWorld> world,
+                       uint32_t randomization, bool asks)
+    : kept_(std::move(kept)),
+      asks_(asks),
+      changes_(kept_ == nullptr ? nullptr : &world->since(kept_->world)),
+      now_(std::make_shared<KeptRow>(KeptRow{std::move(world), randomization, {}, {}, {}})) {
+  if (kept_ == nullptr) return;
+  now_->paths.reserve(kept_->paths.size());
+  now_->points.reserve(kept_->points.size() + kept_->points.size() / 8);
+}
+
+bool PathReplay::isAsBefore(const KeptPath& path, uint64_t start, Vec3 origin) const {
+  if (changes_->everywhere || path.start != start) return false;
+  if (asks_ && changes_->concern(origin, kFar * wayOutOfMedia())) return false;
+  const std::vector<Vec3>& points = kept_->points;
+  for (uint32_t i = firstPoint_; i + 1 < path.pointsEnd; ++i)
+    if (changes_->concern(points[i], points[i + 1] - points[i])) return false;
+  return true;
+}
+
+bool PathReplay::takeOver(const PhotonStart& start, std::vector<ElementHit>& hits) {
+  start_ = stampOf(start), hasRay_ = false;
+  if (kept_ == nullptr || next_ == kept_->paths.size()) return false;
+  const KeptPath& path = kept_->paths[next_++];
+  const bool isSame = isAsBefore(path, start_, start.particle.origin);
+  if (isSame) {
+    append(hits, kept_->hits, firstHit_, path.hitsEnd);
+    append(now_->points, kept_->points, firstPoint_, path.pointsEnd);
+    end(hits);
+  }
+  firstPoint_ = path.pointsEnd, firstHit_ = path.hitsEnd;
+  return isSame;
+}
+
+Hit PathReplay::trace(const Tracer& tracer, Vec3 origin, Vec3 direction) {
+  const Hit hit = TraceRay{}(tracer, origin, direction);
+  std::vector<Vec3>& points = now_->points;
+  if (std::exchange(hasRay_, true))
+    points.back() = origin;
+  else
+    points.push_back(origin);
+  points.push_back(origin + (hit ? hit.t : kFar) * direction);
+  return hit;
+}
+
+void PathReplay::end(const std::vector<ElementHit>& hits) {
+  now_->paths.push_back(
+      {start_, static_cast<uint32_t>(now_->points.size()), static_cast<uint32_t>(hits.size())});
+}
+
+std::shared_ptr<const KeptRow> PathReplay::finish(const std::vector<ElementHit>& hits) {
+  now_->hits = hits;
+  return now_;
+}
+
+}  // namespace ninefold
