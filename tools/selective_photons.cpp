@@ -38,7 +38,8 @@ constexpr const char* kHelp =
     "  and the flags of ninefold-master, see there, that say what the picture is\n\n"
     "amiss: hits that lie elsewhere, or carry other light, than in a fresh start; found: the "
     "share\n"
-    "of them that is right after so many units; seconds: processor time of those units. elements:\n"
+    "of them that is right after so many units; seconds: processor time of those units. edit:\n"
+    "processor time until units can be traced. elements:\n"
     "processor time until what photons left is ready to be asked: in a fresh start, after the\n"
     "edit, and after all units.\n"
     "Exit status: 0 done, 1 a failure (one line on stderr), 2 wrong usage.\n";
@@ -112,12 +113,13 @@ auto timed(Json& times, const char* name, const Make& make) {
   return made;
 }
 
-Json update(const Renderer& before, const Renderer& after, const Settings& settings, int wanted) {
+Json update(const Renderer& before, const Renderer& after, const StatePages& afresh,
+            const Settings& settings, int wanted) {
   const StateFacts& facts = *factsOf(settings.method).state;
   const uint32_t all = facts.unitsOfAll(settings);
   const uint32_t step = wanted > 0 ? static_cast<uint32_t>(wanted) : facts.unitsInMotion(settings);
   StatePages pages = stateAtRest(before, settings, 0);
-  const Hits fresh = hitsOf(stateAtRest(after, settings, 0), settings);
+  const Hits fresh = hitsOf(afresh, settings);
   const auto amiss = missing(fresh, hitsOf(pages, settings));
   Json elements;
   auto light = timed(elements, "fresh", [&] { return before.digest(pages, nullptr); });
@@ -162,18 +164,25 @@ int run(int argc, char** argv) {
   const Settings settings = makeSettings(w.options, scene);
   const Script script = readScript(w.edit, scene);
   const SceneEdit edit = script.at(script.seconds, scene, settings.camera).edit;
-  const Scene changed = edited(scene, edit);
   const Tracer tracer(scene, Isa::automatic);
-  const Tracer tracerAfter(tracer, changed, movedInstances(scene, edit));
   const Renderer before(tracer, settings);
-  const Renderer after(tracerAfter, settings, &before);
+  Json edits;
+  const Scene changed = timed(edits, "scene", [&] { return edited(scene, edit); });
+  const auto tracerAfter = timed(edits, "tracer", [&] {
+    return std::make_unique<const Tracer>(tracer, changed, movedInstances(scene, edit));
+  });
+  const auto after = timed(edits, "renderer", [&] {
+    return std::make_unique<const Renderer>(*tracerAfter, settings, &before, &before);
+  });
+  const StatePages fresh = stateAtRest(Renderer(*tracerAfter, settings, &before), settings, 0);
   Json all{{"scene", scene.name},
+           {"edit", edits},
            {"photon_groups", settings.photonGroups},
            {"photon_pool", settings.photonPool},
            {"pilot_ratio", settings.pilotRatio}};
-  all.update(update(before, after, settings, w.units));
+  all.update(update(before, *after, fresh, settings, w.units));
   const PhotonGroups groups(settings);
-  const Transport began(tracer, settings), transport(tracerAfter, settings, &began);
+  const Transport began(tracer, settings), transport(*tracerAfter, settings, &began);
   for (const uint32_t group : w.paths) {
     if (group >= groups.groups())
       failUsage("--paths {}: there are {} groups", group, groups.groups());

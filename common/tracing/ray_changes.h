@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "common/math/bounds.h"
+#include "common/math/units.h"
 
 namespace ninefold {
 

@@ -6,6 +6,12 @@
 #include "common/scene/methods.h"
 
 namespace ninefold {
+namespace {
+
+constexpr Duration kAsLongAsItTakes = std::chrono::hours(1);
+
+}  // namespace
+
 LivePlan::LivePlan(const Setup& setup, Time now)
     : setup_(setup),
       state_(setup.state),
@@ -64,6 +70,7 @@ void LivePlan::follow(const LiveState& state, Time now) {
   asSeenFromHere.width = state_.settings.width, asSeenFromHere.height = state_.settings.height;
   if (state.scene != state_.scene || !(asSeenFromHere == state_.settings)) ++world_;
   if (states_.change(state.settings, state.scene != state_.scene)) voidSteps_ = nextFrame_;
+  if (isQuick_ && states_.isPaced()) states_.goAhead();
   state_ = state;
   changed_ = now;
   if (!dirty_) firstUnshown_ = now;
@@ -133,24 +140,26 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
 
 std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const std::optional<int64_t> left = moving_ ? std::nullopt : framesLeft();
-  const auto step = states_.nextStep(nextFrame_, moving_, left, stepTime());
+  const bool ahead = goesAhead();
+  const Duration usual = ahead ? kAsLongAsItTakes : quality_.target() / 2;
+  const auto step = states_.nextStep(nextFrame_, moving_, left, setup_.stepTime.value_or(usual));
   if (!step) return std::nullopt;
-  hasStepped_ = moving_;
   step_ = {step->key, step->units, moving_, now, {}};
   ++nextFrame_;
-  return StepOrder{open(now).order, step->key, step->units};
+  return StepOrder{open(now).order, step->key, step->units, ahead};
 }
 
-// The first step of a gesture may take as long as a whole frame: most of what a click changes is
-// right at once then.
-Duration LivePlan::stepTime() const {
-  const Duration usual = hasStepped_ ? quality_.target() / 2 : quality_.target();
-  return setup_.stepTime.value_or(usual);
+// No frame has shown the latest change of the scene.
+bool LivePlan::goesAhead() const { return moving_ && dirty_ && isQuick_ && states_.isPaced(); }
+
+bool LivePlan::isLitSoon(Time now) const {
+  return goesAhead() && states_.isCatchingUp() && now - firstUnshown_ < kLitSoon;
 }
 
 std::optional<LiveStep> LivePlan::stepDone(const StepKey& step, Time now) {
   states_.done(step, now - step_.opened);
   if (!(step_.key == step)) return std::nullopt;
+  if (moving_ && now - step_.opened > kLitSoon) isQuick_ = false;
   step_.done = stepEnded_ = now;
   return step_;
 }
@@ -165,7 +174,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
   if (!dirty_) {
     const bool isSettled = now - changed_ >= kSettle;
     if (isSettled && open_.empty()) {
-      moving_ = false;
+      moving_ = false, isQuick_ = true;
       restAnew();
       states_.restart();
       return next(now);
@@ -173,7 +182,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
     if (isSettled || !states_.hasNews()) return std::nullopt;
     firstUnshown_ = now;
   }
-  if (open_.size() >= kInMotion) return std::nullopt;
+  if (open_.size() >= kInMotion || isLitSoon(now)) return std::nullopt;
   const std::optional<uint32_t> version = states_.versionOfFrame(true);
   if (!version) return std::nullopt;
   LiveFrame frame = open(now);

@@ -13,6 +13,11 @@
 //            moving, and once more when it rests: sample streams are frozen in between
 //            (gi/light/transport.h).
 //
+//            Where a method's steps are paced, a step of all goes before the frame, which waits for
+//            it for at most kLitSoon, and then goes first. If it is as quick as that, the frame has
+//            the light of what it shows. If not, the gesture's later steps go beside frames, and
+//            take half of the time.
+//
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.
 // In motion the open frame is finished, else a hand that never rests would never see one.
@@ -80,6 +85,7 @@ class LivePlan {
  public:
   static constexpr Duration kSettle = milliseconds(250);
   static constexpr size_t kInMotion = 2;
+  static constexpr Duration kLitSoon = milliseconds(30);
 
   struct Setup {
     LiveState state;
@@ -138,7 +144,8 @@ class LivePlan {
   std::optional<int64_t> framesLeft() const;
   LiveFrame open(Time now);
   uint8_t planes() const;
-  Duration stepTime() const;
+  bool goesAhead() const;
+  bool isLitSoon(Time now) const;
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
   void restAnew();
@@ -158,8 +165,8 @@ class LivePlan {
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
   int64_t looked_ = 0;              // frames of the rest before its latest look
   bool moving_ = false, dirty_ = false;
-  bool hasStepped_ = false;  // the latest step was one in motion
-  bool urgent_ = false;      // somebody waits for the next frame at rest
+  bool isQuick_ = true;  // steps of this gesture were done within kLitSoon
+  bool urgent_ = false;  // somebody waits for the next frame at rest
   uint32_t world_ = 0;
   uint32_t scene_ = 0;      // LiveState::scene that latest_ shows
   bool unsettled_ = false;  // it was announced as moving

@@ -6,7 +6,8 @@
 //           beside the frame that i lights.
 //   motion  The latest version lights a frame. After a change of the scene a small step runs beside
 //           each frame, until all of the state has been made anew: the picture lags by as many
-//           frames. Where the facts say so, the step is as large as there is time for.
+//           frames. Where the facts say so, the step is as large as there is time for, and goes
+//           before the frame if its owner says so.
 //
 // A state that serves all frames (StateFacts::servesAll) is made once for a series at rest. The
 // latest one stays in motion.
@@ -58,6 +59,11 @@ class StatePlan {
                                Duration time = {});
   // `took`: since it was opened.
   void done(const StepKey& step, Duration took = {});
+  // In motion the next step need not wait for a frame.
+  void goAhead() { mayStep_ = true; }
+  bool isPaced() const { return facts_ != nullptr && facts_->isPaced; }
+  // A step in motion is under way that shows the present scene.
+  bool isCatchingUp() const { return open_ && !open_->makesAll && open_->scene == scene_; }
   // The version that lights the next frame, which is opened now; nothing while it is not there.
   std::optional<uint32_t> versionOfFrame(bool moving);
   // There is a version that no frame in motion has shown.

@@ -37,6 +37,7 @@ struct FrameOrder : JobOrder {
 struct StepOrder : JobOrder {
   StepKey key;
   int units = 1;
+  bool yields = false;  // to frames that somebody waits for
 };
 
 using WorkOrder = std::variant<FrameOrder, StepOrder>;

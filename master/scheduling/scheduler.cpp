@@ -81,8 +81,20 @@ int Scheduler::waiting() const {
   return sum;
 }
 
+int Scheduler::waitingFirst() const {
+  int sum = 0;
+  for (const auto& [number, frame] : frames_) sum += frame.yields() ? 0 : frame.waiting();
+  return sum;
+}
+
+bool Scheduler::isAwaited() const {
+  return std::ranges::any_of(frames_, [](const auto& f) {
+    return !f.second.isStep() && f.second.sharesSets() && f.second.waiting() > 0;
+  });
+}
+
 bool Scheduler::wantsFrame() const {
-  return !verification_.isFull() && (waiting() < pool_.freeCredit() || wouldShare());
+  return !verification_.isFull() && (waitingFirst() < pool_.freeCredit() || wouldShare());
 }
 
 int Scheduler::openFrames() const {
@@ -130,12 +142,12 @@ void Scheduler::openFrame(const FrameKey& key, const TileGrid& grid, FrameKind k
   nextFrame_ = key.frame + 1;
 }
 
-void Scheduler::openStep(uint32_t number, uint32_t firstUnit, int units, double rays) {
+void Scheduler::openStep(uint32_t number, uint32_t firstUnit, int units, double rays, bool yields) {
   NINEFOLD_CHECK(number >= nextFrame_);
   NINEFOLD_CHECK(units > 0);
   std::vector<ClientId> clients;
   pool_.forEach([&](const SchedulerClient& client) { clients.push_back(client.id()); });
-  frames_.emplace(number, SchedulerFrame(number, firstUnit, units, rays, clients));
+  frames_.emplace(number, SchedulerFrame(number, firstUnit, units, rays, yields, clients));
   pool_.setResultsWait(kResultsTogether);
   nextFrame_ = number + 1;
 }
@@ -281,18 +293,24 @@ void Scheduler::doubt(SchedulerClient& client, Time now) {
   pool_.update(client);
 }
 
-// Task by task to whoever would finish it first, so that a short supply is spread over all.
+// Task by task to whoever would finish it first, so that a short supply is spread over all. Units
+// of steps go in groups; the last ones are spread, too.
 void Scheduler::handOutWaiting(Actions& actions, Time now) {
-  for (int left = waiting(); left > 0 && !pool_.ready().empty(); --left) {
+  while (waiting() > 0 && !pool_.ready().empty()) {
     SchedulerClient& client = *pool_.find(pool_.ready().begin()->second);
     const auto [frame, set] = placeFor(client);
-    assign(client, *frame, frame->nextWaiting(set, client.id()), actions, now);
+    const int share = std::max(1, frame->waiting() / (2 * clients()));
+    const int group = frame->isStep() ? std::min(client.unitsAtOnce(), share) : 1;
+    for (int i = 0; i < group; ++i)
+      assign(client, *frame, frame->nextWaiting(set, client.id()), actions, now);
   }
 }
 
 Scheduler::Place Scheduler::placeFor(const SchedulerClient& client) {
   SchedulerFrame* oldest = nullptr;
+  const bool yield = isAwaited();
   for (auto& [number, frame] : frames_) {
+    if (yield && frame.yields()) continue;
     if (const auto set = frame.setToGoOnWith(client.id())) return {&frame, *set};
     if (oldest == nullptr && frame.waiting() > 0) oldest = &frame;
     if (oldest == &frame && frame.sharesSets()) return {&frame, frame.setToShare(client)};

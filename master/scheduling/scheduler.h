@@ -22,6 +22,8 @@
 //   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A
 //               change of the view leaves them. Each client begins with units of its own, the same
 //               ones in each step, as it may have kept work of the last one; then it helps others.
+//               They go out in groups. A step that yields lets tasks of urgent frames go first, and
+//               does not keep frames from being opened.
 //   checks      Chosen results are done again by a second client of the same pixel class, before
 //               any other work (verification.h). A frame does not wait for them. Actions::wrong
 //               tells.
@@ -78,7 +80,7 @@ class Scheduler {
   void openFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind = {});
   // A step of a method's state; one count of ids for frames and steps. Its tasks are
   // (number, firstUnit.., 0), each of so many rays.
-  void openStep(uint32_t number, uint32_t firstUnit, int units, double rays);
+  void openStep(uint32_t number, uint32_t firstUnit, int units, double rays, bool yields = false);
   // All open frames before `firstWanted` are superseded; steps are not.
   void viewChanged(uint32_t firstWanted, Time now);
   // All open steps before `firstWanted` are void; frames are not.
@@ -134,6 +136,8 @@ class Scheduler {
   const SchedulerFrame* findFrame(uint32_t frame) const;
   Verdict verdictOnClosed(uint32_t frame) const;
   int waiting() const;                          // tasks to hand out, over all open frames
+  int waitingFirst() const;                     // without those of steps that yield
+  bool isAwaited() const;                       // tasks of an urgent frame are to be handed out
   const SchedulerFrame* newestPicture() const;  // of the open frames; null: none
   bool runsAhead() const;
   bool wouldShare() const;

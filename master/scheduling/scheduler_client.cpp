@@ -36,6 +36,11 @@ int SchedulerClient::high() const {
   return low() + std::max((threads() + 1) / 2, tasksIn(resultsWait_, kMaxGroup));
 }
 
+int SchedulerClient::unitsAtOnce() const {
+  if (trust_ != Trust::trusted) return 1;
+  return std::clamp(kMaxPerThread * threads() - inFlight(), 1, kMaxGroup * threads());
+}
+
 int SchedulerClient::tasksIn(Duration time, int mostPerThread) const {
   const auto tasks = (threads() * time + taskTime() - Duration(1)) / taskTime();
   return static_cast<int>(std::min(tasks, int64_t{mostPerThread} * threads()));

@@ -64,6 +64,9 @@ class SchedulerClient {
   int high() const;
   // Tasks that may be sent now; 0 once refilled, until it falls to low().
   int credit() const { return refilling_ ? std::max(0, high() - inFlight()) : 0; }
+  // Units of a step that may be sent to it at once, whatever its credit: they are much shorter than
+  // tasks of frames, by which credit goes.
+  int unitsAtOnce() const;
 
   Duration taskTime() const { return taskTime_.value_or(kFirstGuess); }
   // From now until the result of one more task would be here.

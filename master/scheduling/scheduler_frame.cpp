@@ -29,11 +29,12 @@ SchedulerFrame::SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameK
 }
 
 SchedulerFrame::SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays,
-                               const std::vector<ClientId>& clients)
+                               bool yields, const std::vector<ClientId>& clients)
     : firstUnit_(firstUnit),
       isStep_(true),
       sharesSets_(true),
       wholeTiles_(false),
+      yields_(yields),
       rays_(std::max(1.0, rays)),
       sets_(1),
       left_(units),

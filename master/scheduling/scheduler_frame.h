@@ -42,11 +42,12 @@ class SchedulerFrame {
   SchedulerFrame(const FrameKey& key, const TileGrid& grid, FrameKind kind, int ordinal);
   // A step of `units` units from `firstUnit` on, each of so many rays. `clients`: those present;
   // each begins at a place of its own, which it has in the next step, too.
-  SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays,
+  SchedulerFrame(uint32_t number, uint32_t firstUnit, int units, double rays, bool yields = false,
                  const std::vector<ClientId>& clients = {});
 
   const FrameKey& key() const { return key_; }
   bool isStep() const { return isStep_; }
+  bool yields() const { return yields_; }  // to urgent frames
   int ordinal() const { return ordinal_; }
   bool sharesSets() const { return sharesSets_; }       // all clients work on it at once
   int sets() const { return wholeTiles_ ? 1 : sets_; }  // that tasks are of
@@ -119,7 +120,7 @@ class SchedulerFrame {
   FrameKey key_;
   int ordinal_ = 0;
   uint32_t firstUnit_ = 0;
-  bool isStep_, sharesSets_, wholeTiles_;
+  bool isStep_, sharesSets_, wholeTiles_, yields_ = false;
   double rays_;
   int sets_;  // = phases
   int left_ = 0, waiting_ = 0;

@@ -121,7 +121,7 @@ void Server::open(const StepOrder& order, Time now) {
   openSteps_[order.key.number] = {order, now};
   state_.open(order.key, order.units);
   scheduler_.openStep(order.key.number, order.key.firstUnit, order.units,
-                      factsOf(order.settings.method).state->rays(order.settings));
+                      factsOf(order.settings.method).state->rays(order.settings), order.yields);
   forgetStates();
 }
 

@@ -159,7 +159,9 @@ TEST(KeptPaths, SaveMostRaysWhenALittleThingMoves) {
   const Place first = begin(asRead);
   const StatePages pages = stateAtRest(*first.renderer, pool(), 3);
   SceneEdit moved;
-  moved.objects = {{.node = 4, .motion = glm::translate(DMat4(1), DVec3(0.1, 0, 0))}};
+  ObjectEdit box{4, DMat4(1)};
+  box.motion[3].x = 0.1;
+  moved.objects = {box};
   const Stepped known = step(after(first, asRead, moved, true), pages, rows());
   const Stepped traced = step(after(first, asRead, moved, false), pages, rows());
   EXPECT_LT(static_cast<double>(known.rays), 0.3 * static_cast<double>(traced.rays));

@@ -230,7 +230,7 @@ TEST(Selective, GroupsThatTheViewShowsGoFirst) {
     camera.verticalFov = 0.9f;
     std::set<uint32_t> first;
     for (uint32_t rank = 0; first.size() < 50; ++rank) {
-      const uint32_t row = order.rowAt(pages, {camera, 64, 64, {}}, rank);
+      const uint32_t row = order.rowOf(pages, {camera, 64, 64, {}}, StepKey{}, rank);
       if (!groups.hasPilots(row)) first.insert(row);
     }
     return first;
@@ -252,11 +252,12 @@ TEST(Selective, ARowThatIsTooLongIsThinned) {
   const SurfaceNumbers surfaces(scene);
   const VisualMasking masking(scene, 0.1f);
   const MinorLamps minor;
+  const auto world = std::make_shared<const PathWorld>(transport, minor);
   const uint32_t pilots = groups.groups();
   RayCounts rays;
   const auto shot = [&](size_t room) {
-    const GroupShooting shooting{transport, groups, surfaces,           masking,
-                                 minor,     1,      transport.lampFlux, room};
+    const GroupShooting shooting{transport,          groups, surfaces, masking, minor, 1,
+                                 transport.lampFlux, room,   world,    nullptr};
     return shooting.shoot(pilots, 3, 1, rays);
   };
   const auto flux = [](const PhotonRow& row) {

@@ -53,5 +53,17 @@ TEST(VisualMasking, GoesByTheSizeInTheScene) {
   EXPECT_NEAR(elevation(scene, 0.8f), before, 1e-3f * before);
 }
 
+// What is known of an earlier state saves work and changes nothing.
+TEST(VisualMasking, IsTheSameWhateverWasKnownBefore) {
+  const Scene read = board(16, 100);
+  const VisualMasking known(read, 0.4f);
+  Scene moved = read, larger = read;
+  moved.instances[0].toWorld[3].x = 2;
+  larger.instances[0].toWorld[0][0] = 3;
+  for (const Scene& scene : {read, moved, larger})
+    EXPECT_EQ(VisualMasking(scene, 0.4f, &known).elevation(0), elevation(scene, 0.4f));
+  EXPECT_EQ(VisualMasking(read, 0.1f, &known).elevation(0), elevation(read, 0.1f));
+}
+
 }  // namespace
 }  // namespace ninefold

@@ -55,6 +55,18 @@ TEST_F(SchedulerStep, AStepBeforeAFrameIsHandedOutFirst) {
   EXPECT_EQ(bench.sent[1][1].frame, bench.sent[1].size() > 2 ? 0u : bench.sent[1][1].frame);
 }
 
+TEST_F(SchedulerStep, AStepThatYieldsLetsUrgentFramesBeOpenedAndGoFirst) {
+  bench.join(1);
+  bench.scheduler.openStep(0, kFirst, 300, 100, true);
+  bench.pass(Duration(0));
+  EXPECT_TRUE(bench.scheduler.wantsFrame());
+  bench.open(1, bench.grid(4), 0, {.urgent = true});
+  while (bench.sent[1].at(0).frame == 0) bench.answer(1);
+  EXPECT_GT(bench.scheduler.tasksLeft(0), 200) << "tasks of the frame before most units";
+  bench.drain();
+  EXPECT_EQ(bench.scheduler.counts().completedUnits, 300u);
+}
+
 TEST_F(SchedulerStep, AChangeOfTheViewLeavesSteps) {
   bench.join(1);
   openStep(0, 3);

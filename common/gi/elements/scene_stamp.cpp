@@ -31,6 +31,26 @@ uint64_t materialStamp(const Material& m) {
   return stamp.value();
 }
 
+uint64_t lampsStamp(const Transport& t, const MinorLamps& minor) {
+  Stamp stamp;
+  for (uint32_t i = 0; i < t.emitters.size(); ++i) {
+    const Emitter& e = t.emitters[i];
+    stamp.add(hashWords(static_cast<uint64_t>(e.kind), e.instance, e.triangle, e.light));
+    stamp.add(e.a), stamp.add(e.b), stamp.add(e.c);
+    stamp.add(e.flux);
+    // A lamp's share of the samples decides what its photons carry.
+    stamp.add(t.streams.probability(i));
+  }
+  for (const PunctualLight& light : t.lights) {
+    stamp.add(light.position), stamp.add(light.direction), stamp.add(light.across);
+    stamp.add(light.intensity);
+  }
+  stamp.add(t.emitters.environmentStrength());
+  stamp.add(t.radius), stamp.add(t.scene.bounds.low), stamp.add(t.scene.bounds.high);
+  for (const uint32_t lamp : minor.lamps()) stamp.add(uint64_t{lamp});
+  return stamp.value();
+}
+
 uint64_t sceneStamp(const Transport& t, const MinorLamps& minor) {
   Stamp stamp;
   for (const Instance& instance : t.scene.instances) {
@@ -38,15 +58,7 @@ uint64_t sceneStamp(const Transport& t, const MinorLamps& minor) {
     stamp.add(t.scene.meshes[static_cast<size_t>(instance.mesh)].shape);
   }
   for (const Material& m : t.scene.materials) stamp.add(materialStamp(m));
-  for (const PunctualLight& light : t.lights) {
-    stamp.add(light.position), stamp.add(light.direction), stamp.add(light.across);
-    stamp.add(light.intensity);
-  }
-  stamp.add(t.emitters.environmentStrength());
-  // A lamp's share of the samples decides what its photons carry.
-  for (size_t i = 0; i < t.emitters.size(); ++i)
-    stamp.add(t.streams.probability(static_cast<uint32_t>(i)));
-  for (const uint32_t lamp : minor.lamps()) stamp.add(uint64_t{lamp});
+  stamp.add(lampsStamp(t, minor));
   return stamp.value();
 }
 

@@ -46,10 +46,12 @@ PhotonRow GroupShooting::shoot(uint32_t row, uint32_t randomization, uint32_t ve
     const size_t first = left.hits.size();
     const uint32_t photon = groups.photon(row, k);
     for (const PhotonStream& stream : streams) {
-      const PhotonStart start = photonStart(t, minor, stream, photon);
+      const auto start = [&] { return photonStart(t, minor, stream, photon); };
       if (replay.takeOver(start, left.hits)) continue;
+      const PhotonStart begin = start();
+      replay.begin(begin);
       shootPhoton(
-          t, surfaces, start, stream, photon, share, left.hits, rays, cosineWay,
+          t, surfaces, begin, stream, photon, share, left.hits, rays, cosineWay,
           [](const Arrival&) { return 1.0f; }, trace);
       replay.end(left.hits);
     }

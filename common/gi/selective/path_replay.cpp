@@ -10,14 +10,6 @@ namespace {
 
 constexpr float kFar = 1e17f;  // where rays end that meet nothing [m]
 
-uint64_t stampOf(const PhotonStart& start) {
-  const Particle& p = start.particle;
-  uint64_t stamp = hashWords(p.lamp, p.punctual, start.isOfMinorLamp);
-  for (const Vec3& v : {p.origin, p.direction, p.flux})
-    for (int c = 0; c < 3; ++c) stamp = hashWords(stamp, std::bit_cast<uint32_t>(v[c]));
-  return stamp;
-}
-
 template <typename T>
 void append(std::vector<T>& to, const std::vector<T>& from, uint32_t first, uint32_t end) {
   to.insert(to.end(), from.begin() + first, from.begin() + end);
@@ -36,24 +28,31 @@ PathReplay::PathReplay(std::shared_ptr<const KeptRow> kept, std::shared_ptr<cons
   now_->points.reserve(kept_->points.size() + kept_->points.size() / 8);
 }
 
-bool PathReplay::isAsBefore(const KeptPath& path, uint64_t start, Vec3 origin) const {
-  if (changes_->everywhere || path.start != start) return false;
-  if (asks_ && changes_->concern(origin, kFar * wayOutOfMedia())) return false;
+uint64_t PathReplay::stampOf(const PhotonStart& start) {
+  const Particle& p = start.particle;
+  uint64_t stamp = hashWords(p.lamp, p.punctual, start.isOfMinorLamp);
+  for (const Vec3& v : {p.origin, p.direction, p.flux})
+    for (int c = 0; c < 3; ++c) stamp = hashWords(stamp, std::bit_cast<uint32_t>(v[c]));
+  return stamp;
+}
+
+bool PathReplay::isAsBefore(const KeptPath& path) const {
   const std::vector<Vec3>& points = kept_->points;
+  if (path.pointsEnd == firstPoint_) return true;  // it carries nothing
+  if (asks_ && changes_->concern(points[firstPoint_], kFar * wayOutOfMedia())) return false;
   for (uint32_t i = firstPoint_; i + 1 < path.pointsEnd; ++i)
     if (changes_->concern(points[i], points[i + 1] - points[i])) return false;
   return true;
 }
 
-bool PathReplay::takeOver(const PhotonStart& start, std::vector<ElementHit>& hits) {
-  start_ = stampOf(start), hasRay_ = false;
-  if (kept_ == nullptr || next_ == kept_->paths.size()) return false;
+bool PathReplay::passOver(bool startsAlike, std::vector<ElementHit>& hits) {
   const KeptPath& path = kept_->paths[next_++];
-  const bool isSame = isAsBefore(path, start_, start.particle.origin);
+  const bool isSame = startsAlike && isAsBefore(path);
   if (isSame) {
     append(hits, kept_->hits, firstHit_, path.hitsEnd);
     append(now_->points, kept_->points, firstPoint_, path.pointsEnd);
-    end(hits);
+    now_->paths.push_back({path.start, static_cast<uint32_t>(now_->points.size()),
+                           static_cast<uint32_t>(hits.size())});
   }
   firstPoint_ = path.pointsEnd, firstHit_ = path.hitsEnd;
   return isSame;

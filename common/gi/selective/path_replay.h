@@ -24,9 +24,15 @@ class PathReplay {
   PathReplay(std::shared_ptr<const KeptRow> kept, std::shared_ptr<const PathWorld> world,
              uint32_t randomization, bool asks);
 
-  // The next path starts like this. True: it is taken over, and its hits are added to `hits`.
-  bool takeOver(const PhotonStart& start, std::vector<ElementHit>& hits);
-  // Else its rays are traced by this, and then it ends, with all hits so far.
+  // True: the next path is taken over, and its hits are added to `hits`. start(): how it starts.
+  template <typename Start>
+  bool takeOver(const Start& start, std::vector<ElementHit>& hits) {
+    if (changes_ == nullptr || changes_->everywhere || next_ == kept_->paths.size()) return false;
+    const KeptPath& path = kept_->paths[next_];
+    return passOver(!changes_->starts || path.start == stampOf(start()), hits);
+  }
+  // Else it starts, its rays are traced by this, and it ends, with all hits so far.
+  void begin(const PhotonStart& start) { start_ = stampOf(start), hasRay_ = false; }
   Hit trace(const Tracer& tracer, Vec3 origin, Vec3 direction);
   void end(const std::vector<ElementHit>& hits);
 
@@ -34,7 +40,9 @@ class PathReplay {
   std::shared_ptr<const KeptRow> finish(const std::vector<ElementHit>& hits);
 
  private:
-  bool isAsBefore(const KeptPath& path, uint64_t start, Vec3 origin) const;
+  static uint64_t stampOf(const PhotonStart& start);
+  bool passOver(bool startsAlike, std::vector<ElementHit>& hits);
+  bool isAsBefore(const KeptPath& path) const;
 
   const std::shared_ptr<const KeptRow> kept_;
   const bool asks_;

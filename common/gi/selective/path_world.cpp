@@ -17,9 +17,10 @@ bool PathChanges::concern(Vec3 origin, Vec3 way) const {
          });
 }
 
-PathWorld::PathWorld(const Transport& t)
+PathWorld::PathWorld(const Transport& t, const MinorLamps& minor)
     : settings_(t.settings),
       streams_(t.streams.count()),
+      lamps_(lampsStamp(t, minor)),
       answers_(t.tracer.answers()),
       solidRanks_(solidRanks(t.scene)) {
   for (const Instance& instance : t.scene.instances) {
@@ -43,7 +44,7 @@ PathChanges PathWorld::changesSince(const PathWorld& then) const {
   if (!moved || !facts->isKept(then.settings_, settings_) || then.streams_ != streams_ ||
       then.solidRanks_ != solidRanks_ || then.materials_.size() != materials_.size())
     return {.everywhere = true};
-  PathChanges changes;
+  PathChanges changes{.starts = then.lamps_ != lamps_};
   for (const Bounds& box : *moved) changes.add(box);
   for (uint32_t i = 0; i < materials_.size(); ++i)
     if (materials_[i] != then.materials_[i]) changes.add(boxOf(*answers_, i));

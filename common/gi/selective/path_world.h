@@ -3,9 +3,8 @@
 //
 //   rays         near what moved or shares a hierarchy with it (tracing/ray_changes.h)
 //   materials    where instances have one that is different now
+//   lamps        photons start otherwise; which ones, their starts tell, which cost no ray
 //   everything   another order of solids that overlap, other settings that photons go by
-//
-// How a photon starts is for the caller to compare: it costs no ray.
 //
 // Proved:  tests/gi/kept_paths_test.cpp.
 // Owner:   keeps geometry of its state alive.
@@ -17,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/gi/light/minor_lamps.h"
 #include "common/gi/light/transport.h"
 
 namespace ninefold {
@@ -24,7 +24,8 @@ namespace ninefold {
 // Boxes in which paths may be others.
 struct PathChanges {
   bool everywhere = false;
-  Bounds all = {};  // of the boxes
+  bool starts = false;  // some photons may start otherwise
+  Bounds all = {};      // of the boxes
   std::vector<Bounds> boxes = {};
 
   void add(const Bounds& box) {
@@ -37,7 +38,8 @@ struct PathChanges {
 
 class PathWorld {
  public:
-  explicit PathWorld(const Transport& transport);
+  // minor: as in lampsStamp.
+  PathWorld(const Transport& transport, const MinorLamps& minor);
 
   // From then to this state.
   const PathChanges& since(const std::shared_ptr<const PathWorld>& then) const;
@@ -47,6 +49,7 @@ class PathWorld {
 
   const Settings settings_;
   const size_t streams_;
+  const uint64_t lamps_;
   const std::shared_ptr<const RayAnswers> answers_;
   const std::vector<int> solidRanks_;
   std::vector<uint64_t> materials_;  // by instance: stamp of its material

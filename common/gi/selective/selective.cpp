@@ -55,9 +55,10 @@ Selective::Selective(const Transport& transport, const Selective* begun, const S
       masking_(begun != nullptr
                    ? begun->masking_
                    : std::make_shared<const VisualMasking>(
-                         transport.scene, transport.settings.elementSize * transport.radius)),
+                         transport.scene, transport.settings.elementSize * transport.radius,
+                         before != nullptr ? before->masking_.get() : nullptr)),
       order_(transport.tracer, groups_, *surfaces_, stamp_),
-      world_(std::make_shared<const PathWorld>(transport)),
+      world_(std::make_shared<const PathWorld>(transport, minor_)),
       kept_(keptPaths(groups_,
                       before != nullptr && before->groups_ == groups_ ? before->kept_ : nullptr)) {}
 

@@ -82,14 +82,21 @@ class Textured {
 
 }  // namespace
 
-VisualMasking::VisualMasking(const Scene& scene, Metres h) {
-  for (const Instance& instance : scene.instances) {
+VisualMasking::VisualMasking(const Scene& scene, Metres h, const VisualMasking* before) : h_(h) {
+  if (before != nullptr && before->known_.size() != scene.instances.size()) before = nullptr;
+  for (size_t i = 0; i < scene.instances.size(); ++i) {
+    const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+    const DMat3 linear(instance.toWorld);
+    if (before != nullptr && before->h_ == h && before->known_[i].linear == linear &&
+        before->known_[i].shape == mesh.shape) {
+      known_.push_back(before->known_[i]);
+      continue;
+    }
     const TextureUse& use = scene.materials[static_cast<size_t>(mesh.material)].baseColorMap;
     const bool hasTexture = use && !(use.uvSet == 0 ? mesh.uv0 : mesh.uv1).empty();
-    const double contrast =
-        hasTexture ? Textured(scene, mesh, DMat3(instance.toWorld), h).contrast() : 0;
-    elevations_.push_back(static_cast<float>(elevationOf(contrast)));
+    const double contrast = hasTexture ? Textured(scene, mesh, linear, h).contrast() : 0;
+    known_.push_back({linear, mesh.shape, static_cast<float>(elevationOf(contrast))});
   }
 }
 

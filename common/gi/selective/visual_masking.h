@@ -22,13 +22,19 @@ namespace ninefold {
 
 class VisualMasking {
  public:
-  // h: of mesh elements [m].
-  VisualMasking(const Scene& scene, Metres h);
+  // h: of mesh elements [m]. `before`: of another state of the scene, or null: it saves work alone.
+  VisualMasking(const Scene& scene, Metres h, const VisualMasking* before = nullptr);
   // T_e, at least 1.
-  float elevation(uint32_t instance) const { return elevations_[instance]; }
+  float elevation(uint32_t instance) const { return known_[instance].elevation; }
 
  private:
-  std::vector<float> elevations_;
+  struct Known {
+    DMat3 linear;    // of the instance
+    uint64_t shape;  // Mesh::shape
+    float elevation;
+  };
+  Metres h_;
+  std::vector<Known> known_;  // by instance
 };
 
 }  // namespace ninefold
