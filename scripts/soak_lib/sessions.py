@@ -274,6 +274,7 @@ class Watched(Session):
             digests.append(director.film(f"button down left {x} {y} -", f"move {to}", f"button up left {to}"))
             digests.append(director.film("camera 1"))
             digests.append(director.film(*(f"key {way} {key}" for key in ("90 c", "256 -") for way in ("down", "up"))))
+            check(len(set(digests)) == len(digests), f"{self.name}: turns that change nothing: {digests}")
             return digests
 
     def peace(self, outcome):
