@@ -77,7 +77,7 @@ TEST(WebHub, AtRestPicturesComeTwiceASecondAndAllViewersGetTheSame) {
   WebHub hub;
   std::array<ViewerId, 3> viewers{};
   for (ViewerId& id : viewers) id = hub.join(kStart);
-  std::set<WebBody const*> bodies;
+  std::set<std::shared_ptr<const WebBody>> bodies;
   std::array<int, 3> seen{};
   for (int frame = 0; frame < 200; ++frame) {  // 10 ms each
     const Time now = after(0.01 * frame);
@@ -87,7 +87,7 @@ TEST(WebHub, AtRestPicturesComeTwiceASecondAndAllViewersGetTheSame) {
       const auto update = hub.next(viewers[v], now);
       if (!update) continue;
       hub.hear(viewers[v], said::Shown{}, now);
-      if (update->body != nullptr) bodies.insert(update->body.get()), ++seen[v];
+      if (update->body != nullptr) bodies.insert(update->body), ++seen[v];
     }
   }
   EXPECT_EQ(seen, (std::array{4, 4, 4}));
