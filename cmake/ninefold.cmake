@@ -18,6 +18,8 @@ target_compile_options(ninefold_options INTERFACE
   -march=x86-64-v3 -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wconversion -Werror
   # Clang knows no "GCC ivdep".
   $<$<CXX_COMPILER_ID:Clang>:-Wno-unknown-pragmas>
+  # Boost 1.74 takes Clang's coroutines for an experiment, and forgets a header that GCC's standard one brings.
+  "$<$<CXX_COMPILER_ID:Clang>:-DBOOST_ASIO_HAS_CO_AWAIT=1;-DBOOST_ASIO_HAS_STD_COROUTINE=1;SHELL:-include utility>"
   # GCC warns falsely inside std::string (12, bug 105329) and inside moved std::variants (14).
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
   $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,14>>:-Wno-maybe-uninitialized>)

@@ -60,6 +60,7 @@ void Assembly::open(const FrameView& view) {
   auto slot = std::make_unique<Slot>();
   const auto tasks = static_cast<size_t>(view.shape.grid.tasks());
   slot->frame.view = view;
+  slot->opened = Clock::now();
   slot->frame.tasks.resize(tasks);
   const std::lock_guard lock(mutex_);
   books_.open(view.key.frame, view.shape.grid, isFiltered(view.shape));
@@ -196,7 +197,7 @@ std::optional<Assembly::Complete> Assembly::next(Time deadline) {
   if (!complete_.wait_until(lock, deadline, isReady)) return std::nullopt;
   held_ = books_.front();
   const Slot& slot = *slots_.at(*held_);
-  return Complete{slot.frame.view.key, slot.lastResult, slot.finished};
+  return Complete{slot.frame.view.key, slot.opened, slot.lastResult, slot.finished};
 }
 
 void Assembly::release(const Complete& frame) {

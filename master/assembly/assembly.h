@@ -86,6 +86,7 @@ class Assembly {
 
   struct Complete {
     FrameKey key;
+    Time opened;
     Time lastResult;  // when the last result came in
     Time finished;
   };
@@ -103,7 +104,7 @@ class Assembly {
   struct Slot {
     GatheredFrame frame;
     size_t bytes = 0;  // of all results that came
-    Time lastResult, finished;
+    Time opened, lastResult, finished;
   };
 
   // A result between the queue and its frame. Workers take several at once: a look at the

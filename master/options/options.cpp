@@ -176,6 +176,7 @@ void readLive(const RawOptions& raw, Options& o) {
   o.stepTime = raw.real("step-time", 1, 10000);
   if (o.window && raw.isOn("headless")) failUsage("--window and --headless exclude each other");
   readServe(raw, o);
+  if (isWatched(o)) o.framesAtRest = raw.whole("frames", 1, kMaxFrames);
   if (const auto view = raw.text("view")) {
     const auto known = viewNamed(*view);
     if (!known) failUsage("--view {}: must be {}", *view, fmt::join(kViewNames, ", "));

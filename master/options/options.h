@@ -64,7 +64,8 @@ struct Options {
   double frameTime = 100;          // target while something moves [ms]
   std::optional<double> stepTime;  // of a step of a state, then [ms]; nothing: by frameTime
 
-  StopRule stop;  // 64 frames if no flag says otherwise
+  StopRule stop;                        // 64 frames if no flag says otherwise
+  std::optional<int64_t> framesAtRest;  // of a picture that is watched; nothing: without end
 
   std::optional<std::string> output;      // .exr, .png, .hdr or .mp4
   std::optional<double> saveEvery;        // while it converges [s]

@@ -59,7 +59,9 @@ constexpr Flag kFilter{
     "neighbours that the discontinuity buffer averages: on one smooth surface, within the paper's "
     "thresholds, or none (default surface; paper paper)"};
 constexpr Flag kRun[] = {
-    {"frames", "N", "stop after N frames (default 64 if no other stop is given)"},
+    {"frames", "N",
+     "stop after N frames (default 64 if no other stop is given); with --window or --serve: frames "
+     "of a picture that rests (default without end)"},
     {"seconds", "S", "stop after S seconds"},
     {"until-error", "E",
      "stop when the relative standard error is below E; looked at after 16, 32, 64... frames"},

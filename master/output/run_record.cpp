@@ -53,6 +53,7 @@ RunStats RunRecord::stats(const Server& server, const Assembly::Busy& busy, int 
   Time before = *tally.firstDispatch;
   for (const Assembly::Complete& frame : frames_) {
     stats.frameMs.push_back(inMs(frame.finished - before));
+    stats.latencyMs.push_back(inMs(frame.finished - frame.opened));
     stats.tailMs.push_back(inMs(frame.finished - frame.lastResult));
     before = frame.finished;
   }

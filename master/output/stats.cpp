@@ -108,6 +108,7 @@ void addPerformance(const RunStats& s, Json& json) {
   json["seconds"] = s.seconds;
   json["fps"] = rate(frames, s.seconds);
   json["frame_ms"] = percentiles(s.frameMs);
+  json["latency_ms"] = percentiles(s.latencyMs);
   json["rays"] = object(s.rays);
   json["rays_per_second"] = rate(static_cast<double>(s.rays.total()), s.seconds);
   json["pixels_per_second"] = rate(pixels, s.seconds);

@@ -40,11 +40,12 @@ struct VerifyStats {
 };
 
 struct RunStats {
-  int64_t frames = 0;           // complete, at full size
-  int64_t framesBefore = 0;     // of them out of the checkpoint; rates and sums are of the others
-  double seconds = 0;           // first dispatch to last completion; gives fps and all rates
-  std::vector<double> frameMs;  // from one completion to the next, in order; gives frame_ms
-  RayCounts rays;               // of accepted results
+  int64_t frames = 0;             // complete, at full size
+  int64_t framesBefore = 0;       // of them out of the checkpoint; rates and sums are of the others
+  double seconds = 0;             // first dispatch to last completion; gives fps and all rates
+  std::vector<double> frameMs;    // from one completion to the next, in order; gives frame_ms
+  std::vector<double> latencyMs;  // of each from its opening to its completion; gives latency_ms
+  RayCounts rays;                 // of accepted results
   uint64_t bytesReceived = 0;
   std::vector<ClientStats> clients;
   double decodeMs = 0, filterMs = 0;  // master.decode_ms, filter_ms: mean for each frame

@@ -27,6 +27,7 @@ void LivePicture::begin(const GatheredFrame& frame, const LiveFrame& plan, const
   current_ = frame.view.key.frame;
   look_ = look;
   const TileGrid& grid = frame.view.shape.grid;
+  last_ = plan.last;
   rested_ = !plan.moving && frame.view.shape.layerMask != kDisplayMask;
   if (rested_) beginRest(frame.view.shape, plan.rested == 0);
   traced_ = setup_.reuses && !isFiltered(frame.view.shape);
@@ -153,7 +154,7 @@ void LivePicture::frameDone(const std::stop_token& stop) {
   if (rested_) light_.frameDone();
   if (rested_ && isPainted(look_.view)) painted_.frameDone();
   if (traced_) history_.frameDone();
-  if (rested_ && setup_.frames == frames()) showWholeMean();
+  if (rested_ && last_) showWholeMean();
   if (rested_ && guided_) touchUp(stop);
 }
 
@@ -167,8 +168,8 @@ void LivePicture::showWholeMean() {
 void LivePicture::touchUp(const std::stop_token& stop) {
   touch_.frameDone();
   if (!look_.exposure || !isLight(look_.view)) return;
-  touch_.show(light_.film(), image_->radiance, ToneMap(look_.tone()), setup_.frames == frames(),
-              setup_.workers, stop, image_->display);
+  touch_.show(light_.film(), image_->radiance, ToneMap(look_.tone()), last_, setup_.workers, stop,
+              image_->display);
 }
 
 double LivePicture::relativeError() const {

@@ -46,7 +46,6 @@ class LivePicture {
     int workers = 1;
     float depthScale = 1;  // [m], see view.h
     bool reuses = false;   // light of one frame in the next, while only the camera moves
-    std::optional<int64_t> frames = {};  // of a rest, its last one is seen; nothing: all are
   };
   explicit LivePicture(const Setup& setup);
 
@@ -85,6 +84,7 @@ class LivePicture {
   std::optional<uint32_t> current_;  // the frame whose tiles come; guarded by begin_
   LiveLook look_;
   bool rested_ = false;  // summed up; in a still of codes nothing is
+  bool last_ = false;    // LiveFrame::last
   RestFilm light_, painted_;
   bool guided_ = false;  // the frame brings what touch_ is guided by
   RestTouch touch_;

@@ -33,18 +33,25 @@ FramePlan LivePlan::planOfRest() const {
   return {s.photonRadius * setup_.sceneRadius, s.interleave.sets(), setup_.converging};
 }
 
+void LivePlan::restAnew() {
+  plan_ = planOfRest();
+  looked_ = 0;
+}
+
 std::optional<uint32_t> LivePlan::change(const LiveState& state, Time now) {
   if (!moving_ && setup_.motion && state.hasLightOf(state_)) {
     const bool isSeenAsBefore = state.isSeenAs(state_);
     state_ = state;
     if (isSeenAsBefore) return std::nullopt;
     urgent_ = true;
-    return supersede();
+    const auto firstWanted = supersede();
+    looked_ = plan_.opened();
+    return firstWanted;
   }
   if (state == state_) return std::nullopt;
   follow(state, now);
   if (!setup_.motion) {
-    plan_ = planOfRest();
+    restAnew();
     states_.restart();
     open_.clear();
     return nextFrame_;
@@ -72,7 +79,7 @@ void LivePlan::follow(const LiveState& state, Time now) {
 
 uint32_t LivePlan::openShutter() {
   moments_ = 0;
-  plan_ = planOfRest();
+  restAnew();
   states_.restart();
   open_.clear();
   return nextFrame_;
@@ -92,8 +99,8 @@ void LivePlan::expose(const LiveState& state, Time now) {
 }
 
 std::optional<int64_t> LivePlan::framesLeft() const {
-  const std::optional<int64_t> all = moments_ ? moments_ : setup_.frames;
-  return all ? std::optional(*all - plan_.opened()) : std::nullopt;
+  if (moments_) return *moments_ - plan_.opened();
+  return setup_.frames ? std::optional(looked_ + *setup_.frames - plan_.opened()) : std::nullopt;
 }
 
 // The plan goes on with the frames that are given up.
@@ -107,7 +114,7 @@ std::optional<uint32_t> LivePlan::supersede() {
 uint32_t LivePlan::giveUp() {
   open_.clear();
   dirty_ = moving_;
-  plan_ = planOfRest();
+  restAnew();
   states_.giveUp();
   if (moments_) moments_ = 0;
   return nextFrame_;
@@ -120,6 +127,7 @@ std::optional<LiveFrame> LivePlan::next(Time now) {
   if (!version) return std::nullopt;
   LiveFrame frame = open(now);
   frame.rested = plan_.opened();
+  frame.last = setup_.frames && frame.rested + 1 == looked_ + *setup_.frames;
   // Else the last picture of the motion, or of another look, stays for long.
   frame.order.urgent = std::exchange(urgent_, false) || frame.rested == 0;
   const FramePlan before = plan_;
@@ -170,7 +178,7 @@ std::optional<LiveFrame> LivePlan::nextInMotion(Time now) {
     const bool isSettled = now - changed_ >= kSettle;
     if (isSettled && open_.empty()) {
       moving_ = false;
-      plan_ = planOfRest();
+      restAnew();
       states_.restart();
       return next(now);
     }

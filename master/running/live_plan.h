@@ -2,8 +2,8 @@
 // frames come out. Pure.
 //
 //   rest     Frames of full quality, one after another, as FramePlan says. The film sums them up,
-//            for ever or as many as a still is to have. If somebody may click, the first of them
-//            carries pick planes, which hold for all.
+//            for ever or as many as a still is to have; another look brings as many more. If
+//            somebody may click, the first of them carries pick planes, which hold for all.
 //   motion   From a change until nothing has changed for kSettle. Each newest state gets one frame,
 //            at motion_quality's step, and another one when the method's state has caught up with
 //            it by a step; at most kInMotion are open. So that nothing flickers they
@@ -66,6 +66,7 @@ struct LiveFrame {
   bool moving = false;
   uint32_t world = 0;         // counts changes of anything but the camera and the size
   int64_t rested = 0;         // frames at rest before this one: 0 begins the film anew
+  bool last = false;          // of a rest: none follows until something changes
   float neighbourWeight = 1;  // of the filter, in [0, 1]
   Quality quality;
   Time changed{}, opened{};  // changed: when what it shows first for became known
@@ -91,7 +92,7 @@ class LivePlan {
     Duration target = milliseconds(100);
     std::optional<Duration> stepTime;  // of a step in motion; nothing: by the target
     bool motion = true;  // false: every state is shown as at rest, however long that takes
-    std::optional<int64_t> frames;  // of a state at rest; nothing: without end
+    std::optional<int64_t> frames;  // of a state and look at rest; nothing: without end
     Delivery delivery;              // of the first job
     bool picks = false;             // somebody may click
   };
@@ -145,6 +146,7 @@ class LivePlan {
   bool waitsForLight(Time now);
   void hold(LiveFrame& frame, const FrameKey& key, const FramePlan& before);
   FramePlan planOfRest() const;
+  void restAnew();
   Settings settingsAt(const Quality& quality) const;
   std::optional<LiveFrame> nextInMotion(Time now);
 
@@ -159,6 +161,7 @@ class LivePlan {
   std::optional<uint32_t> voidSteps_;
   LightCameras lightCameras_;
   std::optional<int64_t> moments_;  // exposed so far; nothing: there is no shutter
+  int64_t looked_ = 0;              // frames of the rest before its latest look
   bool moving_ = false, dirty_ = false;
   bool hasStepped_ = false;  // the latest step was one in motion
   bool urgent_ = false;      // somebody waits for the next frame at rest

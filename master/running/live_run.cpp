@@ -30,7 +30,7 @@ LiveRun::LiveRun(const Options& options, Job& job, const Listener::Keys& keys, P
       job_(job),
       onPicture_(std::move(onPicture)),
       picture_({options.surfaceTest, FrameMachine::workers(), kDepthShownWhite * job.sceneRadius,
-                pace.motion, pace.frames}),
+                pace.motion}),
       plan_(planSetup(options, job, pace), Clock::now()),
       wanted_(job.settings),
       needs_(job.needs),
@@ -225,7 +225,7 @@ LiveLook LiveRun::lookAt(const LiveFrame& frame) const {
   const bool isLightShown = !isFalseColor(view_);
   if (look.exposure && !isLightShown) look.exposure = 0;
   if (isLightShown) look.curve = pace_.curve;
-  const bool isSeen = frame.moving || !pace_.frames || frame.rested + 1 >= *pace_.frames;
+  const bool isSeen = pace_.person || frame.moving || !pace_.frames || frame.last;
   if (!isSeen) look.exposure.reset();
   return look;
 }
@@ -243,7 +243,10 @@ Delivery LiveRun::delivery(bool summedUp) const {
   return d;
 }
 
-void LiveRun::setDelivery() { plan_.setDelivery(delivery(pace_.frames != 1), delivery(false)); }
+// A person may want the radiance of a still of one frame, too.
+void LiveRun::setDelivery() {
+  plan_.setDelivery(delivery(pace_.person || pace_.frames != 1), delivery(false));
+}
 
 FrameShape LiveRun::shapeOf(const FrameOrder& order) const {
   switch (order.delivery.form) {

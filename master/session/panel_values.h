@@ -24,6 +24,7 @@ struct Selection {
 
 struct PanelView {
   const Shown* shown = nullptr;   // null: nothing yet
+  bool complete = false;          // it has all its frames, and shows what is to be seen now
   std::vector<float> frameTimes;  // the latest, oldest first [ms]
   double raysPerSecond = 0, tasksPerSecond = 0;
   std::string state;  // "loading the scene ...", "2 ready"

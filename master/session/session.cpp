@@ -43,6 +43,7 @@ void Session::start() {
   // An exposure that is not known yet is made of radiance.
   pace.codesOnly = wantsCodesOnly(options_) && job_->exposure;
   pace.person = true;
+  pace.frames = options_.framesAtRest;
   live_ = std::make_unique<LiveRun>(options_, *job_, loadKeys(options_), pace,
                                     [this](const std::shared_ptr<const Shown>& shown) {
                                       const std::lock_guard lock(latencyMutex_);
@@ -176,6 +177,8 @@ PanelView Session::panelView() const {
   view.needs = describe(live_->needs());
   view.settings = live_->settings();
   view.view = view_;
+  view.complete = board_.shown() != nullptr && board_.shown()->frame.last &&
+                  board_.shown()->state.isSeenAs(live_->state());
   view.autoExposure = autoExposure_;
   view.target = target_;
   view.speed = camera_->speed();

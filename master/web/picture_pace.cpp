@@ -8,10 +8,6 @@ size_t PicturePace::form(int64_t frames) const {
   return frames < kCalm ? std::max<size_t>(form_, 1) : form_;
 }
 
-bool PicturePace::isDue(int64_t frames, Time now) const {
-  return frames < kCalm || sentAt_ == Time::min() || now - sentAt_ >= kCalmly;
-}
-
 void PicturePace::shown(Time now) {
   const Duration took = now - sentAt_;
   if (took > kSlow) return coarser(took > 2 * kSlow ? 2 : 1);

@@ -6,8 +6,8 @@
 //                         was too much for the line, four times as many, up to 64
 //
 // One picture is under way at most, so that what a viewer sees is at most about kSlow old, however
-// thin its line. At rest a picture gets better by ever less: from kCalm frames on it is sent twice
-// a second, and without loss if the line bears it.
+// thin its line. At rest a picture gets better by ever less: from kCalm frames on it is sent
+// seldom (web_hub.h), and without loss if the line bears it.
 // Threads: plain value.   Errors: none.   Proved: tests/web/picture_pace_test.cpp.
 #pragma once
 
@@ -33,13 +33,10 @@ class PicturePace {
  public:
   static constexpr Duration kSlow = milliseconds(200);
   static constexpr Duration kFast = milliseconds(100);
-  static constexpr Duration kCalmly = milliseconds(500);
   static constexpr int64_t kCalm = 16;  // frames at rest
 
   // Into kPictureForms. `frames`: that the picture is the mean of; moving: 0.
   size_t form(int64_t frames) const;
-  // Whether a picture may be sent that is the mean of so many frames.
-  bool isDue(int64_t frames, Time now) const;
   void sent(Time now) { sentAt_ = now; }
   void shown(Time now);
 

@@ -94,6 +94,17 @@ void WebHub::send(ViewerId id, std::shared_ptr<const WebBody> file) {
   if (seat != seats_.end()) seat->second.file = std::move(file);
 }
 
+// Fewer frames: another film. As many: another look.
+const std::shared_ptr<WebPicture>& WebHub::latest(Time now) {
+  const auto& newest = offer_.picture;
+  if (newest == nullptr || newest == latest_) return latest_;
+  const bool isHardlyBetter = latest_ != nullptr && latest_->frames() >= PicturePace::kCalm &&
+                              newest->frames() > latest_->frames();
+  if (isHardlyBetter && now - latestAt_ < kCalmly) return latest_;
+  latest_ = newest, latestAt_ = now;
+  return latest_;
+}
+
 std::optional<WebUpdate> WebHub::next(ViewerId id, Time now) {
   Seat& seat = seats_.at(id);
   if (seat.waitsSince) return std::nullopt;
@@ -102,8 +113,8 @@ std::optional<WebUpdate> WebHub::next(ViewerId id, Time now) {
     seat.wantsFile = false;
     return update(id, seat, std::exchange(seat.file, {}), now);
   }
-  const auto& picture = offer_.picture;
-  if (picture != nullptr && picture != seat.picture && seat.pace.isDue(picture->frames(), now)) {
+  const auto& picture = latest(now);
+  if (picture != nullptr && picture != seat.picture) {
     seat.picture = picture;
     seat.isPictureUnderWay = true;
     auto body = picture->as(seat.pace.form(picture->frames()));

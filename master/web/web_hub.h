@@ -2,6 +2,9 @@
 // each gets next. Messages and the time go in, updates and what the session is to know come out.
 // Pure.
 //
+// Encoding is what costs. A picture at rest, from PicturePace::kCalm frames on, is taken from what
+// is offered twice a second, and all viewers get the same ones, each encoded once in each form.
+//
 // Threads: plain value, one owner.
 // Errors: join and hear throw Error in one line: the viewer's fault, its connection ends.
 // Proved: tests/web/web_hub_test.cpp.
@@ -29,6 +32,7 @@ class WebHub {
   static constexpr size_t kMostViewers = 16;
   static constexpr double kMostMessages = 480;                // a second, and at once twice as many
   static constexpr Duration kStateEvery = milliseconds(250);  // without a new picture
+  static constexpr Duration kCalmly = milliseconds(500);
   static constexpr Duration kShownWithin = std::chrono::seconds(30);
 
   ViewerId join(Time now);
@@ -62,6 +66,7 @@ class WebHub {
     bool wantsFile = false;
     std::shared_ptr<const WebBody> file;
   };
+  const std::shared_ptr<WebPicture>& latest(Time now);
   void pay(Seat& seat, Time now);
   void acknowledge(Seat& seat, Time now);
   void download(ViewerId id, Seat& seat, const said::Download& wish);
@@ -73,6 +78,8 @@ class WebHub {
   std::map<ViewerId, Seat> seats_;
   ViewerBook book_;
   WebOffer offer_;
+  std::shared_ptr<WebPicture> latest_;  // what viewers get; null: none yet
+  Time latestAt_{};                     // when it was taken from the offer
   std::vector<FromViewer> heard_;
 };
 

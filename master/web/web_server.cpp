@@ -172,7 +172,10 @@ struct WebServer::Impl {
 
 WebServer::WebServer(WebSetup setup) : impl_(std::make_unique<Impl>(std::move(setup))) {
   impl_->listen();
-  impl_->thread = std::thread([impl = impl_.get()] { impl->desk.io.run(); });
+  impl_->thread = std::thread([impl = impl_.get()] {
+    pthread_setname_np(pthread_self(), "browsers");  // as top shows it
+    impl->desk.io.run();
+  });
 }
 
 WebServer::~WebServer() {

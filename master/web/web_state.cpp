@@ -49,6 +49,7 @@ std::string stateText(const PanelView& view, const std::string& scene, const std
   if (view.shown != nullptr) {
     state["frames"] = view.shown->frames;
     state["moving"] = view.shown->frame.moving;
+    state["complete"] = view.complete;
     state["error"] = numberOrNull(view.shown->relativeError);
   }
   state["rays"] = view.raysPerSecond;

@@ -49,7 +49,7 @@ def replayed(cluster, options, table, scene, clients, flags, recording, alone):
         s = cluster.replay(scene, [*flags, "--frames", frames], recording, clients, "recorded", slower, THREADS)
         more = (f"{s['bytes_per_pixel']:.1f}", f"{8e-6 * s['bytes_received'] / s['seconds']:.0f}",
                 f"{100 * (1 - s['master']['idle_fraction']):.0f} %")
-        add(table, scene, clients, "replayed", slower, s["fps"], alone, interval=s["frame_ms"], more=more)
+        add(table, scene, clients, "replayed", slower, s["fps"], alone, interval=s["frame_ms"], latency=s["latency_ms"], more=more)
 
 
 def simulated(table, scene, clients, alone):
@@ -72,7 +72,7 @@ def measure(cluster, options, table, scene, clients):
     recording, stats = cluster.record(scene, flags, RECORDED, THREADS)
     alone = stats["fps"]
     table.rows.append([scene, "1", "rendering", "1", f"{alone:.2f}", "-", "-", quantiles(stats["frame_ms"]),
-                       "-", f"{stats['bytes_per_pixel']:.1f}", "-", "-"])
+                       quantiles(stats["latency_ms"]), f"{stats['bytes_per_pixel']:.1f}", "-", "-"])
     replayed(cluster, options, table, scene, clients, flags, recording, alone)
     simulated(table, scene, clients, alone)
 
@@ -92,8 +92,9 @@ def main(words):
         f"Clients of {THREADS} threads. \"rendering\": a real one beside the master. \"replayed\": NOT rendering: they answer with what",
         "that client gave, after F times the time that it took, light sets included, on the master's own cores; frames/s times F is what it",
         "would be if the master were F times as fast. \"simulated\": the scheduler under a simulated clock; no master, no line.",
-        "Interval: from one complete frame to the next; latency: from a frame's opening to its last result, with as many frames",
-        "under way as the scheduler opens; each as median and 95 %."))
+        "Interval: from one complete frame to the next. Latency, with as many frames under way as the scheduler opens: of replayed",
+        "clients MEASURED, from a frame's opening to the whole picture in the master; of simulated ones to the last result.",
+        "Each as median and 95 %."))
     return 0
 
 

@@ -15,6 +15,7 @@ sys.path.insert(0, os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 
 from bench_lib import links, output, viewer  # noqa: E402  the path comes first
 from bench_lib.cluster import Cluster, Failure, ended, last_line, program, progress, scene_file  # noqa: E402
+from bench_lib.processor_time import Meter  # noqa: E402
 from report_lib.tables import Table  # noqa: E402
 
 from browser import Viewer, request  # noqa: E402  found by viewer
@@ -23,6 +24,7 @@ SCENE, VIEWERS = "table_room", 8
 EVENT = 0.05  # seconds between two moves of the pointer
 WITHIN = 60  # seconds for whatever is waited for
 RECORDED, CALM = 4, 40  # frames of a session: that are recorded; after which its viewers get two pictures a second
+SETTLED = 5  # seconds after which a viewer on a good line gets pictures without loss
 
 
 def parse(words):
@@ -82,6 +84,9 @@ class Session:
         time.sleep(seconds)
         return (self.frames() - first) / (time.monotonic() - begin)
 
+    def meter(self, viewers):
+        return Meter({"master": [self.master], "viewers": viewers}, {"browsers"})
+
 
 def until(found, why, *processes):
     """What `found` gives once it is something; a Failure if that takes too long or one of the processes ends."""
@@ -130,30 +135,35 @@ def cost(cluster, options, table):
                 started("ninefold-replay-client", session, cluster, "--recording", recording, "--clients", options.clients,
                         "--pace", "recorded", "--slower", slower) as replay:
             session.reach(CALM, replay)
-            rates = rounds(session, options, slower)
-        add(table, options, slower, rates)
+            add(table, options, slower, *rounds(session, options, slower))
 
 
 def rounds(session, options, slower):
-    rates = {0: [], VIEWERS: []}
+    """Frames a second, and what they cost with viewers: lists, one entry a round."""
+    rates, costs = {0: [], VIEWERS: []}, []
     for number in range(options.rounds):
         for count in rates:
             progress(f"{slower:g} times as slow, round {number + 1} of {options.rounds}: {count} viewers")
             with contextlib.ExitStack() as stack:
-                for _ in range(count):
-                    stack.enter_context(looking("127.0.0.1", session.site, session.token, options.seconds + WITHIN))
-                time.sleep(1)
+                viewers = [stack.enter_context(looking("127.0.0.1", session.site, session.token, options.seconds + WITHIN))
+                           for _ in range(count)]
+                time.sleep(SETTLED)
+                meter = session.meter(viewers)
                 rates[count].append(session.rate(options.seconds))
-    return rates
+                if count:
+                    costs.append(meter.share())
+    return rates, costs
 
 
-def add(table, options, slower, rates):
+def add(table, options, slower, rates, costs):
     ratios = [b / a for a, b in zip(rates[0], rates[VIEWERS])]
-    table.data.append({"clients": options.clients, "slower": slower, "fps": statistics.median(rates[0]),
+    cost = {name: statistics.median(each[name] for each in costs) for name in costs[0]}
+    table.data.append({"clients": options.clients, "slower": slower, "processor": cost, "fps": statistics.median(rates[0]),
                        "watched_fps": statistics.median(rates[VIEWERS]), "ratio": statistics.median(ratios)})
     table.rows.append([str(options.clients), f"{slower:g}", *(f"{statistics.median(r):.2f}" for r in rates.values()),
                        f"{100 * (statistics.median(ratios) - 1):+.1f} %",
-                       f"{100 * (min(ratios) - 1):+.1f} to {100 * (max(ratios) - 1):+.1f} %"])
+                       f"{100 * (min(ratios) - 1):+.1f} to {100 * (max(ratios) - 1):+.1f} %",
+                       *(f"{100 * cost[name]:.1f} %" for name in ("browsers", "viewers"))])
 
 
 def thin_line(cluster, options, table):
@@ -205,7 +215,8 @@ def main(words):
     if words[:1] == ["--orbit"]:
         return orbit(*words[1:])
     options = parse(words)
-    watched = Table("cost", ["replay clients", "F", "frames/s", f"with {VIEWERS} viewers", "change", "of rounds"])
+    watched = Table("cost", ["replay clients", "F", "frames/s", f"with {VIEWERS} viewers", "change", "of rounds",
+                             "master's thread for browsers", "viewers' programs"])
     thin = Table("thin_line", ["line", "pictures/s", "age p50 [ms]", "p95 [ms]", "max [ms]", "KiB a picture"])
     try:
         with Cluster() as cluster:
@@ -216,7 +227,8 @@ def main(words):
         return 1
     output.write_table("bench_viewers", "A cluster that is looked at", watched, (
         f"{SCENE} {options.size} at rest. Replayed: NOT rendering: clients answer with what one real client gave, after F",
-        "times the time that it took. Viewers and clients are on the master's own cores."))
+        "times the time that it took. Viewers and clients are on the master's own cores; the last two columns are processor time",
+        "with viewers, in parts of one core: what the master does for them, and what they do themselves, elsewhere in a real cluster."))
     output.write_table("bench_viewers", "A viewer on a thin line", thin, (
         f"{SCENE} {options.size}, two local clients that render, the camera moving all along. Age: from the moment at which",
         "the exposure that comes with a picture was asked for, on the master's machine, to the moment at which the viewer has it",

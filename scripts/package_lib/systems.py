@@ -31,9 +31,13 @@ class System:
     def __init__(self, folder):
         self.folder = folder
 
-    def run(self, command, **more):
+    def run(self, command, compiled=None, **more):
+        """`compiled`: a folder where ccache keeps what it has compiled."""
         # Mounts go with the command.
-        mounts = 'mount --bind /proc "$0/proc"; mount --bind /dev "$0/dev"; exec chroot "$0" "$@"'
+        mounts = 'mount --bind /proc "$0/proc"; mount --bind /dev "$0/dev"; '
+        if compiled:
+            mounts += f'mkdir -p "$0/root/.cache/ccache"; mount --bind "{compiled}" "$0/root/.cache/ccache"; '
+        mounts += 'exec chroot "$0" "$@"'
         return run("unshare", "--mount", "sh", "-ec", mounts, self.folder, "env", "-i", "HOME=/root", "PATH=/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL=C",
                    "DEBIAN_FRONTEND=noninteractive", "sh", "-c", f"cd /root && {command}", **more)
 

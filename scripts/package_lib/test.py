@@ -11,7 +11,7 @@ import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from systems import ROOT, Failure, booted, run, system  # noqa: E402  the path comes first
+from systems import CACHE, ROOT, Failure, booted, run, system  # noqa: E402  the path comes first
 
 PAGE = dict(re.findall(r"^```sh (\S+)\n(.*?)^```$", (ROOT / "docs/cluster.md").read_text(), re.MULTILINE | re.DOTALL))
 WINDOW = ["libglfw3", "libgl1", "libx11-6", "libimgui-dev", "libwayland-client0"]
@@ -37,7 +37,9 @@ def build(release, folder, files):
         return run(ROOT / "scripts/package", folder)
     with system(release, files) as place:
         run("git", "clone", "-q", ROOT, place.path("/root/ninefold"))
-        place.run("apt-get update -qq && cd ninefold && scripts/package /root/packages")
+        compiled = CACHE / f"{release}-ccache"
+        compiled.mkdir(parents=True, exist_ok=True)
+        place.run("apt-get update -qq && cd ninefold && scripts/package /root/packages", compiled)
         folder.mkdir(parents=True)
         for package in place.path("/root/packages").glob("*.deb"):
             shutil.copy(package, folder)

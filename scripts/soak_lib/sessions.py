@@ -1,4 +1,5 @@
 """The three sessions of scripts/soak: in bad weather, then the same work in peace."""
+import contextlib
 import hashlib
 import json
 import pathlib
@@ -32,6 +33,11 @@ class Wrong(Exception):
 def check(condition, what):
     if not condition:
         raise Wrong(what)
+
+
+def unlike(outcome, peace):
+    """Which of two lists' members."""
+    return f"{[i for i, (a, b) in enumerate(zip(outcome, peace)) if a != b]} of {len(outcome)}, {len(peace)}"
 
 
 def tell(text):
@@ -106,25 +112,21 @@ class Session:
         outcome = self.weather(clients)
         check(not clients.faults, f"{self.name}: {clients.faults}")
         tell(f"{self.name}: {clients.counts}; in peace")
-        check(self.is_same(outcome, self.peace(outcome)), f"{self.name}: in peace the bytes are others")
+        peace = self.peace(outcome)
+        check(outcome == peace, f"{self.name}: in peace the bytes are others: {unlike(outcome, peace)}")
         for name, count, first, growth in self.memory.growths():
             tell(f"{self.name}: {name}: {first / 1e6:.1f} MB, grew by {growth / 1e6:+.2f} MB in {count} s")
             check(growth < GROWTH, f"{self.name}: {name} grew by {growth / 1e6:.2f} MB in {count} s")
 
-    def blow(self, clients, master, meanwhile=lambda: None):
-        """Until the time is over; gives back the master that is there then."""
+    def blow(self, clients, master, seconds, meanwhile=lambda: None):
+        """Gives back the master that is there at the end."""
         begin = time.monotonic()
-        while time.monotonic() < begin + self.seconds:
-            time.sleep(self.random.uniform(0.2, 1))
-            clients.step()
+        while time.monotonic() < begin + seconds:
+            clients.wait_for_gust()
             master = meanwhile() or master
             check(master.process.poll() is None, f"{self.name}: the master ended: {master.text[-2000:]}")
             self.memory.look([("master", master.process.pid), ("client", clients.guests[0].program.process.pid)])
-        clients.clear_up()
         return master
-
-    def is_same(self, outcome, peace):
-        return outcome == peace
 
     def is_expected(self, file):
         return file in self.FILES
@@ -150,7 +152,8 @@ class Still(Session):
                 master.ends()
                 master, kills, last = self.master(), kills + 1, time.monotonic()
             return master
-        master = self.blow(clients, master, maybe_kill)
+        master = self.blow(clients, master, self.seconds, maybe_kill)
+        clients.clear_up()
         master.waits_for(r"progress: .*frame [1-9]")
         end(master)
         clients.end()
@@ -184,7 +187,8 @@ class Pictures(Session):
         return hashlib.sha256((self.place.folder / f"{name}.{number:05}.png").read_bytes()).hexdigest()
 
     def weather(self, clients):
-        master = self.blow(clients, self.master("weather"))
+        master = self.blow(clients, self.master("weather"), self.seconds)
+        clients.clear_up()
         end(master)
         clients.end()
         count = master.text.count("picture ")
@@ -201,14 +205,17 @@ class Pictures(Session):
 
 
 class Watched(Session):
-    """A live session: a script edits, browsers come and go and take turns. At the end all rests."""
+    """A live session: a script edits, browsers come and go and take turns. Between two crowds one browser is alone in control
+    and takes turns of its own, each of which ends in a film of as many frames."""
     name = "a live session with browsers"
     FILES = Session.FILES | {"s.json"}
-    FILMS = 20  # that are looked at
+    CROWD = 10  # seconds of it
+    FRAMES = 12  # of a film
+    BLOCK = 57, 58  # where camera 0 sees the short block, on a page of 96x72
 
     def master(self):
         (self.place.folder / "s.json").write_text(json.dumps({"seconds": 10, "events": EDITS}))
-        master = self.place.master("--script", "s.json", "--serve", "127.0.0.1:0", "--exposure", 0)
+        master = self.place.master("--script", "s.json", "--serve", "127.0.0.1:0", "--exposure", 0, "--frames", self.FRAMES)
         found = master.waits_for(r"serving at http://\S+:(\d+)/#token=(\S+)")
         self.site = int(found.group(1)), found.group(2)
         return master
@@ -217,7 +224,19 @@ class Watched(Session):
         return Viewer("127.0.0.1", *self.site)
 
     def weather(self, clients):
-        master, viewers = self.master(), []
+        master, films = self.master(), []
+        begin = time.monotonic()
+        while (left := begin + self.seconds - time.monotonic()) > 0:
+            self.crowd(clients, master, min(self.CROWD, left))
+            films += self.films(len(films), clients.gust)
+        clients.clear_up()
+        end(master)
+        clients.end()
+        tell(f"{self.name}: {len(films)} films")
+        return films
+
+    def crowd(self, clients, master, seconds):
+        viewers = []
 
         def come_and_go():
             if len(viewers) < 6 and self.random.random() < 0.4:
@@ -226,10 +245,9 @@ class Watched(Session):
                 viewers.pop(self.random.randrange(len(viewers))).close()
             if viewers and not self.act(viewer := self.random.choice(viewers)):
                 viewers.remove(viewer)
-        master = self.blow(clients, master, come_and_go)
+        self.blow(clients, master, seconds, come_and_go)
         for viewer in viewers:
             viewer.close()
-        return self.at_the_end(master, clients)
 
     def act(self, viewer):
         """Looks, and asks for something; who is not in control is not heard, but may ask for it. False: it was turned away,
@@ -243,39 +261,53 @@ class Watched(Session):
             viewer.close()
             return False
 
-    def at_the_end(self, master, clients=None):
-        """Digests of the film's radiance at rest, from its first frame on, as one sees it."""
-        viewer = self.view()
-        viewer.look_until(lambda head: head.get("control") == head["you"])
-        for message in "view beauty", "exposure 0", "camera 1":
-            viewer.send(message)
-        viewer.look_until(lambda head: head["view"] == "beauty" and not head["moving"] and head["frames"] > 12)
-        viewer.send("camera 0")
-        viewer.look_until(lambda head: head["frames"] < 4)  # the film begins
-        digests = set()
-        while len(digests) < self.FILMS:
-            viewer.files.clear()
-            viewer.send("download exr")
-            head = viewer.look_until(lambda head: "file" in head)
-            if not head["moving"]:
-                digests.add(hashlib.sha256(DATE.sub(b"", viewer.files[head["file"]])).hexdigest())
-        viewer.close()
-        end(master)
-        if clients:
-            clients.end()
-        return digests
+    def films(self, before, gust=lambda: None):
+        """Digests of the films that four turns end in; `before`: how many films there were, which says how far this one drags."""
+        with contextlib.closing(Director(self.view(), gust)) as director:
+            director.viewer.look_until(lambda head: head.get("control") == head["you"] and head.get("playing") is False)
+            director.viewer.send("view beauty")
+            digests = [director.film("camera 0")]
+            x, y = self.BLOCK
+            director.viewer.click(x, y)
+            director.viewer.look_until(lambda head: head["selection"] == "short block")
+            to = f"{x - 4 - before // 4 % 20} {y - 2} -"
+            digests.append(director.film(f"button down left {x} {y} -", f"move {to}", f"button up left {to}"))
+            digests.append(director.film("camera 1"))
+            digests.append(director.film(*(f"key {way} {key}" for key in ("90 c", "256 -") for way in ("down", "up"))))
+            check(len(set(digests)) == len(digests), f"{self.name}: turns that change nothing: {digests}")
+            return digests
 
     def peace(self, outcome):
-        master = self.master()
-        viewer = self.view()
-        time.sleep(11)  # the script
-        viewer.close()
-        return self.at_the_end(master)
+        master, films = self.master(), []
+        while len(films) < len(outcome):
+            films += self.films(len(films))
+        end(master)
+        return films
 
-    def is_same(self, outcome, peace):
-        """Neither sees the film at all frames; what both saw is enough, as films that differ have nothing in common."""
-        tell(f"{self.name}: {len(outcome & peace)} of {len(outcome)} films seen again in peace")
-        return len(outcome & peace) >= self.FILMS // 4
+
+class Director:
+    """Asks for films, in whatever weather: `gust` is called between two looks."""
+
+    def __init__(self, viewer, gust):
+        self.viewer, self.gust, self.turn = viewer, gust, 0
+
+    def film(self, *messages):
+        """The digest of the radiance of what the messages lead to. An exposure of its own tells that they were heard."""
+        self.turn += 1
+        for message in *messages, f"exposure {self.turn / 8}":
+            self.viewer.send(message)
+        self.viewer.look_until(self.is_complete)
+        self.viewer.files.clear()
+        self.viewer.send("download exr")
+        head = self.viewer.look_until(lambda head: "file" in head)
+        return hashlib.sha256(DATE.sub(b"", self.viewer.files[head["file"]])).hexdigest()
+
+    def is_complete(self, head):
+        self.gust()
+        return head["exposure"] == self.turn / 8 and head["complete"]
+
+    def close(self):
+        self.viewer.close()
 
 
 def soak(seconds, seed):

@@ -42,6 +42,18 @@ class Weather:
         self.strangers = []  # (program, what it must say)
         self.faults = []
         self.counts = {}
+        self.next = 0.0  # when the next misfortune comes
+
+    def gust(self):
+        """A misfortune if it is time for one."""
+        if time.monotonic() < self.next:
+            return
+        self.step()
+        self.next = time.monotonic() + self.random.uniform(0.2, 1)
+
+    def wait_for_gust(self):
+        time.sleep(max(0, self.next - time.monotonic()))
+        self.gust()
 
     def step(self):
         """One misfortune, and the end of those that are over."""

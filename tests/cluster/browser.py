@@ -102,8 +102,13 @@ class WebSocket:
         data = bytes(b ^ mask[i % 4] for i, b in enumerate(body)) if masked else body
         try:
             self.connection.sendall(head + (mask if masked else b"") + data)
-        except (ConnectionError, ssl.SSLError) as error:
-            raise Closed(str(error)) from error
+        except (ConnectionError, ssl.SSLError):
+            self._read_to_the_end()
+
+    def _read_to_the_end(self):
+        """Who is turned away may notice only at the second message after it; why is in what has come."""
+        while True:
+            self.receive()
 
     def receive(self):
         """The next message as bytes. Pings are answered."""

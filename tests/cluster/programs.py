@@ -16,15 +16,21 @@ import unittest
 BIN = pathlib.Path(os.environ["NINEFOLD_BIN"])
 SCENES = pathlib.Path(os.environ["NINEFOLD_SCENES"])
 DEADLINE = 120  # seconds
+LOOK = 0.01  # seconds between two looks
+
+
+def looks():
+    """Until the deadline, counted in looks: a machine that stands still meanwhile, and its programs with it, is waited for."""
+    for _ in range(round(DEADLINE / LOOK)):
+        yield
+        time.sleep(LOOK)
 
 
 def eventually(condition, what):
-    end = time.monotonic() + DEADLINE
-    while time.monotonic() < end:
+    for _ in looks():
         result = condition()
         if result:
             return result
-        time.sleep(0.01)
     raise AssertionError(f"never happened: {what}")
 
 
@@ -63,13 +69,12 @@ class Program:
         return eventually(said, f"{pattern!r} in:\n{self.text}")
 
     def ends(self):
-        try:
-            status = self.process.wait(DEADLINE)
-        except subprocess.TimeoutExpired:
-            self.process.kill()
-            raise AssertionError(f"did not end; it said:\n{self.text}")
-        self.reader.join(DEADLINE)
-        return status
+        for _ in looks():
+            if self.process.poll() is not None:
+                self.reader.join(DEADLINE)
+                return self.process.returncode
+        self.process.kill()
+        raise AssertionError(f"did not end; it said:\n{self.text}")
 
     def children(self):
         """Process ids of the clients that a master has started."""

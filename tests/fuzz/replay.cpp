@@ -3,6 +3,7 @@
 // NINEFOLD_TEST_SEED=17 runs mutation 17 alone.
 //
 //   fuzz_<name> [FILE...]
+//   fuzz_<name> --seeds FOLDER       writes the seeds there, for libFuzzer to begin with
 //
 // Deterministic: the same inputs in every run. When one goes wrong, its number is printed.
 #include <algorithm>
@@ -12,6 +13,8 @@
 #include <fstream>
 #include <iterator>
 #include <random>
+#include <string>
+#include <string_view>
 
 #include "tests/fuzz/fuzz.h"
 
@@ -117,6 +120,17 @@ int replayFiles(int count, char** files) {
   return 0;
 }
 
+int writeSeeds(const std::string& folder) {
+  int number = 0;
+  for (const Input& seed : ninefoldFuzzSeeds()) {
+    std::ofstream file(folder + "/seed" + std::to_string(number++), std::ios::binary);
+    file.write(reinterpret_cast<const char*>(seed.data()),
+               static_cast<std::streamsize>(seed.size()));
+    if (!file.flush()) return std::fprintf(stderr, "%s: cannot write there\n", folder.c_str()), 1;
+  }
+  return 0;
+}
+
 }  // namespace
 
 // Replaced by the target's own, if it has one.
@@ -125,6 +139,7 @@ __attribute__((weak)) std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
 }
 
 int main(int argc, char** argv) {
+  if (argc == 3 && argv[1] == std::string_view("--seeds")) return writeSeeds(argv[2]);
   if (argc > 1) return replayFiles(argc - 1, argv + 1);
   for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
     std::signal(signal, onFailure);

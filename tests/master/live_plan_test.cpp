@@ -285,6 +285,42 @@ TEST_F(LivePlanTest, AStillHasAsManyFramesAsItShallHave) {
   }
 }
 
+// Somebody looks on: a picture that rests has so many frames, then nothing is done any more until
+// it moves or is looked at in another way.
+TEST_F(LivePlanTest, APictureThatIsWatchedHasAsManyFramesAsItShallHave) {
+  LivePlan::Setup watched = setup();
+  watched.frames = 3;
+  plan = LivePlan(watched, now);
+  const auto expectRest = [&](int64_t from, int64_t to) {
+    for (int64_t i = from; i < to; ++i) {
+      const LiveFrame frame = done();
+      EXPECT_EQ(frame.rested, i);
+      EXPECT_EQ(frame.last, i + 1 == to);
+    }
+    EXPECT_FALSE(plan.next(now));
+    EXPECT_FALSE(plan.nextStep(now));
+  };
+  expectRest(0, 3);
+  LiveState state = plan.state();
+  state.look = 2;
+  plan.change(state, now);
+  expectRest(3, 6);
+  state.look = 3;
+  plan.change(state, now);
+  EXPECT_FALSE(done().last);
+  const LiveFrame open = opened();
+  state.look = 4;
+  plan.change(state, now);
+  EXPECT_FALSE(plan.completed(open.order.key.frame, now));
+  expectRest(7, 10);
+  moveTo(1);
+  const LiveFrame moving = done();
+  EXPECT_TRUE(moving.moving);
+  EXPECT_FALSE(moving.last);
+  pass(LivePlan::kSettle);
+  expectRest(0, 3);
+}
+
 TEST_F(LivePlanTest, WhatNobodyCanRenderAnyMoreIsShownByOtherFrames) {
   done();
   opened();  // the second at rest

@@ -20,6 +20,7 @@ RunStats example() {
   RunStats s;
   s.frames = 4, s.seconds = 2;
   s.frameMs = {400, 500, 100, 1000};
+  s.latencyMs = {800, 900, 1100};
   s.rays = {.eye = 1000, .shadow = 20000, .photon = 300, .compensation = 0};
   s.bytesReceived = 6'144'000;
   s.clients = {
@@ -42,6 +43,7 @@ TEST(Stats, HasExactlyTheKeysOfTheInterface) {
                                             "seconds",
                                             "fps",
                                             "frame_ms",
+                                            "latency_ms",
                                             "rays",
                                             "rays_per_second",
                                             "pixels_per_second",
@@ -67,6 +69,7 @@ TEST(Stats, HasExactlyTheKeysOfTheInterface) {
     return all;
   };
   EXPECT_EQ(keysOf(json["frame_ms"]), "p50 p95 max ");
+  EXPECT_EQ(keysOf(json["latency_ms"]), "p50 p95 max ");
   EXPECT_EQ(keysOf(json["rays"]), "eye shadow photon compensation ");
   EXPECT_EQ(keysOf(json["clients"][0]), "name isa tasks busy_fraction sets_per_frame stuck ");
   EXPECT_EQ(keysOf(json["master"]), "decode_ms filter_ms idle_fraction cpu_ms tail_ms memory_mb ");
@@ -83,6 +86,7 @@ TEST(Stats, RatesFollowFromCounts) {
   EXPECT_DOUBLE_EQ(json["frame_ms"]["p50"], 400);
   EXPECT_DOUBLE_EQ(json["frame_ms"]["p95"], 1000);
   EXPECT_DOUBLE_EQ(json["frame_ms"]["max"], 1000);
+  EXPECT_DOUBLE_EQ(json["latency_ms"]["p50"], 900);
   EXPECT_EQ(json["seed"].get<uint64_t>(), std::numeric_limits<uint64_t>::max());
 }
 

@@ -83,15 +83,5 @@ TEST(PicturePace, AFormThatWasTooMuchIsSeldomTriedAgain) {
   EXPECT_LE(slow, 10000 / 65 + 5);
 }
 
-TEST(PicturePace, AtRestPicturesComeTwiceASecond) {
-  PicturePace pace;
-  const Time start = Time{} + std::chrono::hours(1);
-  EXPECT_TRUE(pace.isDue(PicturePace::kCalm, start));
-  pace.sent(start);
-  EXPECT_FALSE(pace.isDue(PicturePace::kCalm, start + milliseconds(499)));
-  EXPECT_TRUE(pace.isDue(PicturePace::kCalm - 1, start + milliseconds(1)));
-  EXPECT_TRUE(pace.isDue(PicturePace::kCalm, start + milliseconds(500)));
-}
-
 }  // namespace
 }  // namespace ninefold

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "common/base/error.h"
 
@@ -60,6 +62,53 @@ TEST(WebHub, TheNewestPictureComesNext) {
   hub.hear(id, said::Shown{}, after(0.1));
   const auto newest = picture(0, 11);
   EXPECT_EQ(hub.next(id, after(0.1))->body->bytes, newest->as(2)->bytes);
+}
+
+// Whether the viewer gets a picture at that time, which it shows at once.
+bool sees(WebHub& hub, ViewerId id, Time now) {
+  const auto update = hub.next(id, now);
+  if (!update) return false;
+  hub.hear(id, said::Shown{}, now);
+  return update->body != nullptr;
+}
+
+// A picture at rest that gets better with each frame.
+TEST(WebHub, AtRestPicturesComeTwiceASecondAndAllViewersGetTheSame) {
+  WebHub hub;
+  std::array<ViewerId, 3> viewers{};
+  for (ViewerId& id : viewers) id = hub.join(kStart);
+  std::set<std::shared_ptr<const WebBody>> bodies;
+  std::array<int, 3> seen{};
+  for (int frame = 0; frame < 200; ++frame) {  // 10 ms each
+    const Time now = after(0.01 * frame);
+    hub.offer(offerOf(picture(PicturePace::kCalm + frame)));
+    for (size_t v = 0; v < viewers.size(); ++v) {
+      if (frame % 7 != static_cast<int>(v)) continue;  // they look at different times
+      const auto update = hub.next(viewers[v], now);
+      if (!update) continue;
+      hub.hear(viewers[v], said::Shown{}, now);
+      if (update->body != nullptr) bodies.insert(update->body), ++seen[v];
+    }
+  }
+  EXPECT_EQ(seen, (std::array{4, 4, 4}));
+  EXPECT_EQ(bodies.size(), 4u);
+}
+
+TEST(WebHub, AtRestAnotherFilmAndAnotherLookComeAtOnce) {
+  WebHub hub;
+  hub.offer(offerOf(picture(PicturePace::kCalm)));
+  const ViewerId id = hub.join(kStart);
+  EXPECT_TRUE(sees(hub, id, kStart));
+  hub.offer(offerOf(picture(PicturePace::kCalm + 1)));
+  EXPECT_FALSE(sees(hub, id, after(0.01)));
+  hub.offer(offerOf(picture(PicturePace::kCalm)));
+  EXPECT_TRUE(sees(hub, id, after(0.02))) << "another exposure";
+  hub.offer(offerOf(picture(0)));
+  EXPECT_TRUE(sees(hub, id, after(0.03))) << "it moves";
+  hub.offer(offerOf(picture(1)));
+  EXPECT_TRUE(sees(hub, id, after(0.04)));
+  hub.offer(offerOf(picture(PicturePace::kCalm)));
+  EXPECT_TRUE(sees(hub, id, after(0.05))) << "the first of the calm ones";
 }
 
 TEST(WebHub, NothingNewIsNotSaid) {
