@@ -37,7 +37,7 @@ Camera after(const Camera& start, int steps) {
 
 class Session {
  public:
-  explicit Session(bool reuses) : picture_({SurfaceTest::surface, 1, 10, reuses, false}) {}
+  explicit Session(bool reuses) : picture_({SurfaceTest::surface, 1, 10, reuses}) {}
 
   RgbImage shown(const GatheredFrame& frame) {
     LiveFrame plan;
