@@ -49,7 +49,7 @@ uint64_t lampsStamp(const Transport& t, const MinorLamps& minor) {
     stamp.add(light.intensity);
   }
   // Lamps that were on when a gesture began have their shares, too: looks at the whole of a stream.
-  for (size_t s = 0; s < t.streams.count(); ++s)
+  for (size_t s = 0; s < t.streams.count() && !t.emitters.empty(); ++s)
     for (uint32_t look = 0; look < kLooks; ++look) {
       const auto choice = t.streams.choose(s, (static_cast<float>(look) + 0.5f) / kLooks);
       stamp.add(choice ? hashWords(choice->index, std::bit_cast<uint32_t>(choice->remapped)) : 0);
