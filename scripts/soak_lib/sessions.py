@@ -253,7 +253,8 @@ class Watched(Session):
         """Looks, and asks for something; who is not in control is not heard, but may ask for it. False: it was turned away,
         as it had not shown for 30 s what it got."""
         try:
-            viewer.look()
+            if viewer.wait(0.05):  # nothing comes of a picture that is complete
+                viewer.look()
             viewer.send(self.random.choice(["camera 0", "camera 1", "view depth", "view beauty", "exposure 1", "ask", "give",
                                             "button down right 40 40 -", "move 60 45 -", "button up right 60 45 -"]))
             return True
