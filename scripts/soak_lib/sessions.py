@@ -253,7 +253,8 @@ class Watched(Session):
         """Looks, and asks for something; who is not in control is not heard, but may ask for it. False: it was turned away,
         as it had not shown for 30 s what it got."""
         try:
-            viewer.look()
+            if viewer.wait(0.05):  # nothing comes of a picture that is complete
+                viewer.look()
             viewer.send(self.random.choice(["camera 0", "camera 1", "view depth", "view beauty", "exposure 1", "ask", "give",
                                             "button down right 40 40 -", "move 60 45 -", "button up right 60 45 -"]))
             return True
@@ -263,9 +264,9 @@ class Watched(Session):
 
     def films(self, before, gust=lambda: None):
         """Digests of the films that four turns end in; `before`: how many films there were, which says how far this one drags."""
-        with contextlib.closing(Director(self.view(), gust)) as director:
+        with contextlib.closing(Director(self.view(), self.FRAMES, gust)) as director:
             director.viewer.look_until(lambda head: head.get("control") == head["you"] and head.get("playing") is False)
-            director.viewer.send("view beauty")
+            director.go("view beauty", "camera 1")  # a film that the crowd saw may rest on: it is left
             digests = [director.film("camera 0")]
             x, y = self.BLOCK
             director.viewer.click(x, y)
@@ -288,15 +289,20 @@ class Watched(Session):
 class Director:
     """Asks for films, in whatever weather: `gust` is called between two looks."""
 
-    def __init__(self, viewer, gust):
-        self.viewer, self.gust, self.turn = viewer, gust, 0
+    def __init__(self, viewer, frames, gust):
+        self.viewer, self.frames, self.gust, self.turn = viewer, frames, gust, 0
 
-    def film(self, *messages):
-        """The digest of the radiance of what the messages lead to. An exposure of its own tells that they were heard."""
+    def go(self, *messages):
+        """The head of the complete picture that the messages lead to. An exposure of its own tells that they were heard."""
         self.turn += 1
         for message in *messages, f"exposure {self.turn / 8}":
             self.viewer.send(message)
-        self.viewer.look_until(self.is_complete)
+        return self.viewer.look_until(self.is_complete)
+
+    def film(self, *messages):
+        """The digest of its radiance."""
+        frames = self.go(*messages)["frames"]
+        check(frames == self.frames, f"a film has {frames} frames in place of {self.frames}")
         self.viewer.files.clear()
         self.viewer.send("download exr")
         head = self.viewer.look_until(lambda head: "file" in head)

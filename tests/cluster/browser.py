@@ -112,8 +112,8 @@ class WebSocket:
 
     def receive(self):
         """The next message as bytes. Pings are answered."""
-        whole = b""
-        while True:
+        whole, end = b"", time.monotonic() + DEADLINE
+        while time.monotonic() < end:  # pings alone are no news
             first, second = self.reader.take(2)
             size = second & 0x7F
             if size == 126:
@@ -130,6 +130,7 @@ class WebSocket:
                 whole += body
                 if first & 0x80:
                     return whole
+        raise AssertionError(f"nothing came within {DEADLINE} s")
 
     def wait(self, seconds):
         """Whether something comes within that time."""
