@@ -96,9 +96,10 @@ class LivePictureTest : public testing::Test {
     return shown(frame, plan, look);
   }
   static std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
-                                                 const LiveLook& look, LivePicture& by) {
+                                                 const LiveLook& look, LivePicture& by,
+                                                 bool isLast = false) {
     LiveFrame plan;
-    plan.rested = rested;
+    plan.rested = rested, plan.last = isLast;
     return shown(frame, plan, look, by);
   }
   std::shared_ptr<const LiveImage> atRest(const GatheredFrame& frame, int64_t rested,
@@ -221,7 +222,7 @@ TEST_F(LivePictureTest, FinishedTilesOfClientsAreNotTouched) {
 // The same as headless, which looks at the film once it is done.
 TEST_F(LivePictureTest, AStillTakesOfItsNeighboursWhatTheFilmAllows) {
   constexpr int64_t kFrames = 6;
-  LivePicture still{{kTest, 2, 1, false, kFrames}};
+  LivePicture still{{kTest, 2, 1, false}};
   const Interleave pattern = frameOf(0, 200, 130).view.shape.grid.interleave();
   const LiveLook look{kBeauty, 0.0f, {.pattern = pattern}};
   Film film(200, 130, look.keeps);
@@ -229,7 +230,7 @@ TEST_F(LivePictureTest, AStillTakesOfItsNeighboursWhatTheFilmAllows) {
   std::shared_ptr<const LiveImage> image;
   for (uint32_t i = 0; i < kFrames; ++i) {
     const GatheredFrame frame = frameOf(i, 200, 130);
-    image = atRest(frame, i, look, still);
+    image = atRest(frame, i, look, still, i + 1 == kFrames);
     for (int t = 0; t < frame.view.shape.grid.tiles(); ++t) {
       gather(frame, t, desk.patch);
       desk.filter.compose(desk.patch, frame.view.camera, frame.view.neighbourWeight, desk.beauty,
