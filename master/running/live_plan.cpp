@@ -153,7 +153,7 @@ std::optional<StepOrder> LivePlan::nextStep(Time now) {
 // For the gesture's first step, whatever was changed since.
 bool LivePlan::waitsForLight(Time now) {
   if (!step_.ahead || !states_.isStepping()) return false;
-  if (now - step_.opened < quality_.target() / 2) return true;
+  if (now - step_.opened < quality_.target()) return true;
   states_.giveUpStep();
   step_ = {};
   voidSteps_ = nextFrame_;

@@ -174,13 +174,13 @@ TEST_F(LivePlanState, AFrameHasTheLightOfWhatItShowsIfTheFirstStepIsQuick) {
 
 // A gesture's first step is one of all: 306 units, at 1 ms at rest. What is slow is void, and steps
 // go beside frames afterwards.
-TEST_F(LivePlanState, AFrameWaitsForAStepNoLongerThanHalfOfItsTime) {
+TEST_F(LivePlanState, AFrameWaitsForAStepNoLongerThanItsOwnTime) {
   pace();
   edit();
   const StepOrder all = step();
   EXPECT_EQ(all.units, 306);
   EXPECT_TRUE(all.yields);
-  pass(milliseconds(49));
+  pass(milliseconds(99));
   EXPECT_FALSE(plan.next(now));
   EXPECT_FALSE(plan.takeVoidSteps());
   pass(milliseconds(1));
@@ -204,13 +204,13 @@ TEST_F(LivePlanState, AFirstStepIsVoidWhateverWasChangedSince) {
   pace();
   edit();
   step();
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 6; ++i) {
     pass(milliseconds(16));
     edit();
     EXPECT_FALSE(plan.next(now));
     EXPECT_FALSE(plan.nextStep(now)) << "one at a time";
   }
-  pass(milliseconds(2));
+  pass(milliseconds(4));
   EXPECT_TRUE(plan.next(now));
   EXPECT_TRUE(plan.takeVoidSteps());
   EXPECT_TRUE(plan.nextStep(now));
