@@ -28,15 +28,18 @@ class TurnsAway(ServeTest):
             bad = self.view()
             bad.send(message)
             self.assertIn(why, self.turned_away(bad, why))
+            good.look_until(lambda head: head["viewers"] == 1)  # who answers no ping for long is sent away, too
         binary = self.view()
         binary.send(b"shown", BINARY)
         self.turned_away(binary, "not text")
+        good.look_until(lambda head: head["viewers"] == 1)
         long = self.view()
         long.send("x" * 1000)
         self.turned_away(long, "warning: browser at")
         bare = self.view()
         bare.send("shown", masked=False)
         self.turned_away(bare, "warning: browser at")
+        good.look_until(lambda head: head["viewers"] == 1)
         eager = self.view()
         with self.assertRaises(Closed):
             for _ in range(100):
