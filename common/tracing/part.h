@@ -9,9 +9,10 @@
 // by the same hierarchy before and after an edit, and answers with the same bits, also where two
 // triangles are met at the same distance.
 //
-// Triangles are in world space and geometry ids are the instances' indices. The parts of a scene are traced one after another (packet.h). Embree's
-// own way, a hierarchy of instances, costs a transform a part. Embree 3 also never returns from
-// coherent occlusion of sixteen rays through it on AVX-512.
+// Triangles are in world space and geometry ids are the instances' indices. The parts of a scene
+// are traced one after another (packet.h). Embree's own way, a hierarchy of instances, costs a
+// transform a part. Embree 3 also never returns from coherent occlusion of sixteen rays through it
+// on AVX-512.
 //
 // Owner:   shared by the tracers of successive edits. Keeps its geometry and the device alive;
 //          refers to the scene that was read, for alpha masks.
@@ -28,8 +29,8 @@ namespace ninefold {
 
 using Geometries = std::vector<std::shared_ptr<const InstanceGeometry>>;  // by instance
 
-// The mask bit of each instance: one a node while there are enough. Then nodes share bits, those
-// that reach through half of the scene one, the others the rest.
+// The mask bit of each instance. Each node has one of its own while there are enough. Else nodes
+// that reach through half of the scene share one bit, and all others share the rest.
 class MaskBits {
  public:
   MaskBits(const Scene& asRead, const Geometries& geometries);
@@ -66,8 +67,8 @@ struct SeenPart {
 };
 using Hierarchies = std::vector<SeenPart>;
 
-// The instances of the parts `left` and `moved`; none is empty. `mask`: of rays in `all`. A function
-// of the scene that was read and of `moved`.
+// The instances of the parts `left` and `moved`; none is empty. A function of the scene that was
+// read and of `moved`. mask: of rays in `all`.
 struct Partition {
   uint32_t mask = ~0u;
   std::vector<std::vector<uint32_t>> sets;

@@ -31,9 +31,9 @@ struct RayAnswers {
 // Of an instance, a little larger than it is: what touches it counts, too.
 Bounds boxOf(const RayAnswers& answers, uint32_t instance);
 
-// Boxes of all that changed, where it was and where it is. Nothing: any ray may have another answer,
-// as the scene's bounds grew, or as a triangle touches something transparent now and did not, or the
-// other way round.
+// Boxes of all that changed, where it was and where it is. Nothing: any ray may have another
+// answer. So it is if the scene's bounds grew, or if a triangle has begun or ceased to touch
+// something transparent.
 std::optional<std::vector<Bounds>> rayChanges(const RayAnswers& before, const RayAnswers& now);
 
 }  // namespace ninefold

@@ -13,10 +13,10 @@
 //            moving, and once more when it rests: sample streams are frozen in between
 //            (gi/light/transport.h).
 //
-//            Where clients remember (StateFacts), a gesture's first step is one of all, and the frame
-//            waits for it for as long as a frame may take. So it has the light of what it shows. If
-//            the step takes longer, it is void. Later steps go beside frames and take half of the
-//            time.
+//            Where clients remember (StateFacts), a gesture's first step makes all units anew. The
+//            frame waits for it, for as long as a frame may take. So it has the light of what it
+//            shows. A step that takes longer is void. Later steps go beside frames and take half of
+//            the time.
 //
 // The newest state wins. What changed while a frame was rendered is in the next one; changes that
 // no frame was opened for are never rendered. A change at rest supersedes the open frames at once.

@@ -22,7 +22,8 @@
 //   steps       Their units are tasks of a frame without pixels, whose light costs nothing. A
 //               change of the view leaves them. Each client begins with units of its own, the same
 //               ones in each step, as it may have kept work of the last one; then it helps others.
-//               They go out in groups. A step that yields does not keep frames from being asked for.
+//               They go out in groups. Frames are asked for beside a step that yields, although
+//               its units still wait.
 //   checks      Chosen results are done again by a second client of the same pixel class, before
 //               any other work (verification.h). A frame does not wait for them. Actions::wrong
 //               tells.

@@ -1,4 +1,4 @@
-// What a row lost and got makes of its hits the hits of the other version, whatever they are; and it
+// What a row lost and got leads from its hits to those of the other version, whatever they are. It
 // is little where little has changed.
 #include "common/gi/elements/hit_changes.h"
 

@@ -1,5 +1,5 @@
-// Paths that were kept stand for rays: after any edits, a client that knows the photons' paths gives
-// the rows of one that traces them all, to the last bit, and traces less.
+// Paths that were kept stand for rays. After any edits a client that knows the photons' paths gives
+// the same rows, to the last bit, as one that traces them all. It traces less.
 #include <gtest/gtest.h>
 
 #include <memory>

@@ -84,7 +84,8 @@ TEST(GltfUnread, WhatThePictureShowsInsteadIsSaid) {
       "materials": [{"extensions": {"KHR_materials_dispersion": {"dispersion": 1}}},
       {"extensions": {"KHR_materials_clearcoat": {"clearcoatNormalTexture": {"index": 0}},
       "KHR_materials_dispersion": {}, "KHR_materials_iridescence": {}}},
-      {"extensions": {"KHR_materials_diffuse_transmission": {"diffuseTransmissionFactor": 0.5}}}]})"),
+      {"extensions": {"KHR_materials_diffuse_transmission":
+                      {"diffuseTransmissionFactor": 0.5}}}]})"),
       "extensions KHR_materials_clearcoat.clearcoatNormalTexture (the coat follows the bumps "
       "below it), KHR_materials_diffuse_transmission (no light comes through diffusely), "
       "KHR_materials_dispersion (all colours refract alike), "

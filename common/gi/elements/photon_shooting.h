@@ -48,8 +48,8 @@ struct PhotonStart {
 PhotonStart photonStart(const Transport& t, const MinorLamps& minor, const PhotonStream& stream,
                         uint32_t photon);
 
-// Adds the hits of photon `photon`. leave, trace: as walkLightPathBy has them. gain(arrival): factor
-// on the flux of its hit.
+// Adds the hits of photon `photon`. leave, trace: as walkLightPathBy has them.
+// gain(arrival): factor on the flux of its hit.
 template <typename Leave, typename Gain, typename Trace = TraceRay>
 void shootPhoton(const Transport& t, const SurfaceNumbers& surfaces, const PhotonStart& begin,
                  const PhotonStream& stream, uint32_t photon, float share,

@@ -36,7 +36,8 @@ class GroupOrder {
       : tracer_(tracer), groups_(groups), rows_(groups), surfaces_(surfaces), stamp_(stamp) {}
 
   // That a unit of a step traces; the order is counted round. Where a step has units for all rows,
-  // order means nothing, and a unit has the same row in each: who traced it may have kept its paths.
+  // order means nothing. A unit has the same row in each such step: who traced it may have kept its
+  // paths.
   uint32_t rowOf(const StatePages& pages, const View& view, const StepKey& step,
                  uint32_t unit) const;
 

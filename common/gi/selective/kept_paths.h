@@ -2,9 +2,9 @@
 //
 // Each client keeps what it traced itself. Nothing but time depends on that (path_replay.h).
 //
-// Memory:  12 bytes a ray, 12 a hit, and 28 a photon and stream, twice, and what moved (path_world.h).
-//          Nothing is kept of pools of more than kMostPhotons photons: in those a gesture's first step
-//          is void (master/running/live_plan.h).
+// Memory:  12 bytes a ray, 12 a hit, 28 a photon and stream, all twice; and what moved
+//          (path_world.h). Pools of more than kMostPhotons photons are not kept: their first step
+//          in a gesture is void (master/running/live_plan.h).
 // Owner:   shared by the methods of successive edits.
 // Threads: any.   Errors: none.
 #pragma once

@@ -52,8 +52,7 @@ bool PathReplay::passOver(bool startsAlike, std::vector<ElementHit>& hits) {
   if (isSame) {
     append(hits, kept_->hits, firstHit_, path.hitsEnd);
     append(now_->points, kept_->points, firstPoint_, path.pointsEnd);
-    now_->paths.push_back({path.start, static_cast<uint32_t>(now_->points.size()),
-                           static_cast<uint32_t>(hits.size())});
+    close(path.start, hits);
   }
   firstPoint_ = path.pointsEnd, firstHit_ = path.hitsEnd;
   return isSame;
@@ -62,7 +61,8 @@ bool PathReplay::passOver(bool startsAlike, std::vector<ElementHit>& hits) {
 Hit PathReplay::trace(const Tracer& tracer, Vec3 origin, Vec3 direction) {
   const Hit hit = TraceRay{}(tracer, origin, direction);
   std::vector<Vec3>& points = now_->points;
-  // A ray starts so near to where the last one ended that one point stands for both, but for slivers.
+  // One point stands for the end of a ray and the start of the next: they are that near, but for
+  // slivers.
   const bool goesOn = std::exchange(hasRay_, true);
   if (goesOn && glm::distance(points.back(), origin) <= now_->world->margin())
     points.back() = origin;
@@ -72,9 +72,9 @@ Hit PathReplay::trace(const Tracer& tracer, Vec3 origin, Vec3 direction) {
   return hit;
 }
 
-void PathReplay::end(const std::vector<ElementHit>& hits) {
+void PathReplay::close(uint64_t start, const std::vector<ElementHit>& hits) {
   now_->paths.push_back(
-      {start_, static_cast<uint32_t>(now_->points.size()), static_cast<uint32_t>(hits.size())});
+      {start, static_cast<uint32_t>(now_->points.size()), static_cast<uint32_t>(hits.size())});
 }
 
 std::shared_ptr<const KeptRow> PathReplay::finish(const std::vector<ElementHit>& hits) {

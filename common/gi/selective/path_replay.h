@@ -33,7 +33,7 @@ class PathReplay {
   // Else it starts, its rays are traced by this, and it ends, with all hits so far.
   void begin(const PhotonStart& start) { start_ = stampOf(start), hasRay_ = false; }
   Hit trace(const Tracer& tracer, Vec3 origin, Vec3 direction);
-  void end(const std::vector<ElementHit>& hits);
+  void end(const std::vector<ElementHit>& hits) { close(start_, hits); }
 
   // All paths, with all hits.
   std::shared_ptr<const KeptRow> finish(const std::vector<ElementHit>& hits);
@@ -42,6 +42,7 @@ class PathReplay {
   static uint64_t stampOf(const PhotonStart& start);
   bool passOver(bool startsAlike, std::vector<ElementHit>& hits);
   bool isAsBefore(const KeptPath& path) const;
+  void close(uint64_t start, const std::vector<ElementHit>& hits);
 
   const std::shared_ptr<const KeptRow> kept_;
   const PathChanges* changes_ = nullptr;    // since kept_; null without

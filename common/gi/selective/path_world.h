@@ -1,5 +1,5 @@
-// path_world.h: what photons' paths depend on in one state of a scene, kept after that state is
-// gone: tells which paths of then may be others now.
+// path_world.h: what photons' paths depend on in one state of a scene. It stays when that state is
+// gone, and tells another state which paths may be others there.
 //
 //   rays         near what moved or shares a hierarchy with it (tracing/ray_changes.h)
 //   materials    where instances have one that is different now
@@ -7,8 +7,8 @@
 //   everything   another order of solids that overlap, other settings that photons go by
 //
 // Proved:  tests/gi/kept_paths_test.cpp.
-// Owner:   keeps geometry and hierarchies of its state alive; they must not be traced once its scene
-//          is gone. Knows other states without keeping them.
+// Owner:   keeps geometry and hierarchies of its state alive. They must not be traced once its
+//          scene is gone. Knows other states without keeping them.
 // Threads: const after construction; since may be called from any thread.   Errors: none.
 #pragma once
 
