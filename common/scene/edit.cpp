@@ -5,12 +5,12 @@
 #include <utility>
 
 #include "common/base/error.h"
+#include "common/scene/cover.h"
 #include "common/scene/world.h"
 
 namespace ninefold {
 namespace {
 
-constexpr double kGrowth = 1.25;     // of the bounds' half width
 constexpr double kLargest = 1e9;     // of an element of a motion
 constexpr float kBrightest = 1e12f;  // of a colour with units
 
@@ -42,20 +42,6 @@ void checkMotion(const DMat4& m) {
   for (int column = 0; column < 4; ++column)
     for (int row = 0; row < 3; ++row)
       if (std::abs(m[column][row]) > kLargest) fail("edit: a motion goes too far");
-}
-
-// The smallest box kGrowth^i times as wide as `bounds` that holds p too.
-void growTo(Bounds& bounds, Vec3 p) {
-  for (int axis = 0; axis < 3; ++axis) {
-    const double middle = 0.5 * (double(bounds.low[axis]) + double(bounds.high[axis]));
-    const double least = 1e-3 * std::max(1e-3, double(bounds.radius()));
-    double half = std::max(least, 0.5 * (double(bounds.high[axis]) - double(bounds.low[axis])));
-    const double reach = std::abs(double(p[axis]) - middle);
-    if (p[axis] >= bounds.low[axis] && p[axis] <= bounds.high[axis]) continue;
-    while (half < reach) half *= kGrowth;
-    bounds.low[axis] = static_cast<float>(middle - half);
-    bounds.high[axis] = static_cast<float>(middle + half);
-  }
 }
 
 }  // namespace
@@ -142,12 +128,8 @@ Scene edited(const Scene& asRead, const SceneEdit& all, const Scene* before) {
     for (Instance& instance : scene.instances)
       if (instance.node == e.node) instance.toWorld = e.motion * instance.toWorld;
   const std::vector<bool> moved = movedInstances(asRead, all);
-  for (size_t i = 0; i < moved.size(); ++i) {
-    if (!moved[i]) continue;
-    const Instance& instance = scene.instances[i];
-    for (const Vec3& p : std::as_const(scene).meshes[static_cast<size_t>(instance.mesh)].positions)
-      growTo(scene.bounds, worldPoint(instance.toWorld, p));
-  }
+  for (size_t i = 0; i < moved.size(); ++i)
+    if (moved[i]) coverInstance(scene, i);
   return scene;
 }
 

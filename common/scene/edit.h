@@ -7,8 +7,8 @@
 //   materials  the numbers that a person turns; maps stay
 //   shapes     vertices of a mesh, in pieces (shape_edit.h); its triangles stay
 //
-// The scene's bounds, and with them b and r, stay while things move inside of them. When something
-// leaves them, they grow by quarters.
+// The scene's bounds stay, and with them all sizes that go by them. What leads out of them widens
+// the cover (cover.h).
 //
 // Proved:  tests/scene/edit_test.cpp.   Threads: plain values.
 // Errors:  checkEdit throws Error naming what does not exist or is out of range.

@@ -1,5 +1,8 @@
 #include "common/scene/photon_scene.h"
 
+#include <algorithm>
+
+#include "common/scene/cover.h"
 #include "common/scene/reader.h"
 #include "common/scene/world.h"
 
@@ -30,16 +33,17 @@ void addPhotonScene(Scene& scene, const Scene& simple) {
 
 Scene photonSceneOf(const Scene& scene) {
   Scene met = scene;
+  met.instances = scene.photonInstances, met.photonInstances.clear(), met.cover = {};
+  const Bounds simple = boundsOf(met);
+  met.bounds.add(simple.low), met.bounds.add(simple.high);
   const auto isLamp = [&](const Instance& instance) {
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     return !isBlack(scene.materials[static_cast<size_t>(mesh.material)].emission);
   };
-  std::erase_if(met.instances, [&](const Instance& instance) { return !isLamp(instance); });
-  met.instances.insert(met.instances.end(), scene.photonInstances.begin(),
-                       scene.photonInstances.end());
-  met.photonInstances.clear();
-  const Bounds bounds = boundsOf(met);
-  met.bounds.add(bounds.low), met.bounds.add(bounds.high);
+  std::vector<Instance> lamps;
+  std::ranges::copy_if(scene.instances, std::back_inserter(lamps), isLamp);
+  met.instances.insert(met.instances.begin(), lamps.begin(), lamps.end());
+  for (size_t i = 0; i < lamps.size(); ++i) coverInstance(met, i);
   return met;
 }
 

@@ -22,6 +22,7 @@
 #include "common/math/camera.h"
 #include "common/math/units.h"
 #include "common/scene/animated_node.h"
+#include "common/scene/cover.h"
 #include "common/scene/deformation.h"
 #include "common/scene/environment_map.h"
 #include "common/scene/light_profile.h"
@@ -171,7 +172,8 @@ struct Scene {
   std::shared_ptr<const EnvironmentMap> environmentMap;  // null: the same from all directions
   std::optional<float> exposure;  // [EV] that it is meant to be shown with; not on the wire
   DVec3 origin{0};                // file coordinates = scene coordinates + origin
-  Bounds bounds;                  // of all instances, in scene coordinates
+  Bounds bounds;                  // of all instances as read, in scene coordinates
+  Cover cover;                    // of what edits led out of them; not on the wire
 };
 
 }  // namespace ninefold

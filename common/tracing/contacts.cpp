@@ -88,7 +88,7 @@ Contacts::Contacts(const Scene& scene, const Geometries& geometries,
       masks_(&masks),
       parts_(parts),
       bits_(&bits),
-      margin_(kMargin * scene.bounds.radius()),
+      margin_(kMargin * coverRadius(scene)),
       from_(geometries.size()),
       touching_(geometries.size()) {
   if (before != nullptr && before->margin_ != margin_) before = nullptr;

@@ -1,7 +1,8 @@
 // ray_changes.h: where rays may have other answers after an edit, to the last bit.
 //
 // An answer changes only near what is shown by another hierarchy: a thing that moved, and what
-// shares a hierarchy with it (part.h). So a ray that meets none of their boxes, neither where they
+// shares a hierarchy with it (part.h); and on a triangle that has begun or ceased to touch
+// something transparent or bright (contacts.h). So a ray that meets none of their boxes, neither where they
 // were nor where they are, has the answer that it had. Materials are for the caller to compare.
 //
 // Proved:  tests/tracing/ray_changes_test.cpp.
@@ -32,8 +33,7 @@ struct RayAnswers {
 Bounds boxOf(const RayAnswers& answers, uint32_t instance);
 
 // Boxes of all that changed, where it was and where it is. Nothing: any ray may have another
-// answer. So it is if the scene's bounds grew, or if a triangle has begun or ceased to touch
-// something transparent.
+// answer. So it is if the scene's cover grew (cover.h).
 std::optional<std::vector<Bounds>> rayChanges(const RayAnswers& before, const RayAnswers& now);
 
 }  // namespace ninefold

@@ -102,7 +102,6 @@ TEST(FieldSize, BoundsWhatAnEditMakes) {
   Settings s = fieldOf(27, 46, FieldDirect::vpls);
   Scene grown = scene;
   grown.instances[1].toWorld[0][0] = grown.instances[1].toWorld[1][1] = 2;
-  grown.bounds = scene.bounds;
   const size_t small = Made(scene, s).method.bytes(), large = Made(grown, s).method.bytes();
   ASSERT_GT(large, small + (size_t{2} << 20));
   s.maxFieldMemory = static_cast<int>((small + large) >> 21);

@@ -84,17 +84,29 @@ TEST(SceneEdit, LightsAndMaterialsTakeTheirValues) {
   EXPECT_EQ(editOfMaterial(scene, 0), editOfMaterial(twoSquares(), 0));
 }
 
-TEST(SceneEdit, BoundsStayUntilSomethingLeavesThemAndThenGrowInSteps) {
+TEST(SceneEdit, BoundsStayAndWhatHoldsTheSceneGrowsInSteps) {
   const Scene scene = twoSquares();
-  const auto radiusAt = [&](double x) {
+  const auto movedBy = [&](double x) {
     SceneEdit edit;
     edit.objects.push_back(moved(3, DVec3(x, 0, 0)));
-    return edited(scene, edit).bounds.radius();
+    const Scene after = edited(scene, edit);
+    EXPECT_EQ(after.bounds.radius(), scene.bounds.radius());
+    for (const Vec3& p : after.meshes[0].positions) {
+      const Vec3 at = worldPoint(after.instances[1].toWorld, p);
+      EXPECT_LE(glm::distance(at, after.bounds.centre()), 1.0001f * coverRadius(after));
+      EXPECT_LE(at.x, coverBox(after).high.x);
+    }
+    return after;
   };
+  const auto radiusAt = [&](double x) { return coverRadius(movedBy(x)); };
   EXPECT_EQ(radiusAt(1), scene.bounds.radius());
   EXPECT_EQ(radiusAt(1.5), scene.bounds.radius());
-  EXPECT_GT(radiusAt(6), scene.bounds.radius());
-  EXPECT_GT(radiusAt(20), radiusAt(6));
+  const double outOfTheBoxOnly = 4;  // half of the box is 4 wide, the ball 6.9
+  EXPECT_EQ(radiusAt(outOfTheBoxOnly), scene.bounds.radius());
+  EXPECT_GT(coverBox(movedBy(outOfTheBoxOnly)).high.x, scene.bounds.high.x);
+  EXPECT_EQ(coverBox(movedBy(1)).high, scene.bounds.high);
+  EXPECT_GT(radiusAt(8), scene.bounds.radius());
+  EXPECT_GT(radiusAt(20), radiusAt(8));
   int steps = 0;
   float last = radiusAt(0);
   for (double x = 0; x < 40; x += 0.1) {

@@ -13,17 +13,21 @@ namespace ninefold {
 namespace {
 
 // Each cloud of triangles is there twice, so that each ray meets two triangles at once. Numbers of
-// nodes are as many as `nodes`.
-Scene twins(Dice& dice, int count, int nodes) {
+// nodes are as many as `nodes`. Glass: one of the two lets light pass, and the other stays when it
+// moves.
+Scene twins(Dice& dice, int count, int nodes, bool withGlass = false) {
   std::vector<Mesh> meshes = {cube()};
   for (int i = 0; i < count; ++i) {
     const Mesh cloud = randomTriangles(dice, 1 + dice.below(40), 0.3f, 0.2f);
     meshes.push_back(cloud), meshes.push_back(cloud);
+    meshes.back().material = withGlass ? 1 : 0;
   }
   Scene scene = sceneOf(std::move(meshes));
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].alphaMode = AlphaMode::blend, scene.materials[1].opacity = 0.5f;
   for (size_t i = 1; i < scene.instances.size(); ++i) {
     const size_t pair = (i - 1) / 2;
-    scene.instances[i].node = 1 + static_cast<int>(pair) % nodes;
+    scene.instances[i].node = 1 + static_cast<int>(withGlass ? i - 1 : pair) % nodes;
     scene.instances[i].toWorld[3] =
         DVec4(0.6 * std::sin(double(pair)), 0.6 * std::cos(2.0 * double(pair)), 0, 1);
   }
@@ -35,13 +39,17 @@ bool sameBits(const Hit& a, const Hit& b) {
          a.t == b.t;
 }
 
-TEST(RayChanges, AnswersAreTheSameAwayFromWhatMoved) {
+bool sameBits(const SurfacePoint& a, const SurfacePoint& b) {
+  return a.position == b.position && a.error == b.error && a.contactCount == b.contactCount;
+}
+
+void expectTheSameAway(bool withGlass) {
   uint64_t compared = 0, skipped = 0;
   for (const uint64_t seed : seedsFrom(1, 40)) {
     const Repeatable repeatable(seed);
     Dice dice(seed);
     const int nodes = dice.below(2) == 0 ? 6 : 60;
-    const Scene asRead = twins(dice, 30, nodes);
+    const Scene asRead = twins(dice, 30, nodes, withGlass);
     std::vector<bool> moved(asRead.instances.size(), false);
     Scene scene = asRead;
     const int node = 1 + dice.below(nodes);
@@ -62,12 +70,18 @@ TEST(RayChanges, AnswersAreTheSameAwayFromWhatMoved) {
         continue;
       }
       ++compared;
-      ASSERT_TRUE(
-          sameBits(before.closest(origin, direction, 100), now.closest(origin, direction, 100)));
+      const Hit was = before.closest(origin, direction, 100);
+      const Hit is = now.closest(origin, direction, 100);
+      ASSERT_TRUE(sameBits(was, is));
+      if (was) ASSERT_TRUE(sameBits(before.surface(was), now.surface(is)));
     }
   }
   EXPECT_GT(compared, skipped);
 }
+
+TEST(RayChanges, AnswersAreTheSameAwayFromWhatMoved) { expectTheSameAway(false); }
+
+TEST(RayChanges, AnswersAreTheSameAwayFromWhatGlassLeft) { expectTheSameAway(true); }
 
 TEST(RayChanges, NothingHasChangedWithoutAnEdit) {
   Dice dice(3);

@@ -55,7 +55,7 @@ uint64_t lampsStamp(const Transport& t, const MinorLamps& minor) {
       stamp.add(choice ? hashWords(choice->index, std::bit_cast<uint32_t>(choice->remapped)) : 0);
     }
   stamp.add(t.emitters.environmentStrength());
-  stamp.add(t.radius), stamp.add(t.scene.bounds.low), stamp.add(t.scene.bounds.high);
+  stamp.add(coverRadius(t.scene));
   for (const uint32_t lamp : minor.lamps()) stamp.add(uint64_t{lamp});
   return stamp.value();
 }

@@ -35,7 +35,7 @@ IntersectionField::IntersectionField(const Transport& transport, const Intersect
     : IntersectionField(transport,
                         begun != nullptr
                             ? begun->field_.grid()
-                            : LineGrid(transport.scene.bounds, transport.settings.fieldDirections,
+                            : LineGrid(coverBox(transport.scene), transport.settings.fieldDirections,
                                        transport.settings.fieldDistances),
                         begun != nullptr ? begun : before) {}
 

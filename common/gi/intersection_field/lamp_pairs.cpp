@@ -76,7 +76,6 @@ bool LampPairs::isUsable(const LampScene& scene, const AreaLamp& lamp,
   if (sides_.size() != scene.elements.instances()) return false;
   const Settings &now = scene.t.settings, &was = then.t.settings;
   if (now.fieldWeights != was.fieldWeights || now.elementSize != was.elementSize) return false;
-  if (scene.t.radius != then.t.radius) return false;
   if (!scene.t.straightBounds.empty() || !then.t.straightBounds.empty()) return false;
   if (!scene.field.isShared(then.field, lamp.instance)) return false;
   return lamp.isEven || emissionOf(scene, lamp.instance) == emissionOf(then, lamp.instance);

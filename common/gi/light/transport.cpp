@@ -67,10 +67,10 @@ Transport::Transport(const Tracer& t, const Settings& s, const Transport* begun)
       streams(emitters, begun != nullptr ? &begun->emitters : nullptr),
       lights(offSurfaces(t, emitters)),
       needs(needsOf(t.scene(), s.environment)),
-      radius(isLit(begun) ? begun->radius : t.scene().bounds.radius()),
+      radius(t.scene().bounds.radius()),
       lampFlux(isLit(begun) ? begun->lampFlux : fluxOf(emitters)),
       bound(s.bound / std::max(radius * radius, 1e-30f)),
-      farRounding(kRayRounding * 2 * t.scene().bounds.radius()),
+      farRounding(kRayRounding * 2 * coverRadius(t.scene())),
       targets(aimTargets(t.scene(), shader, isLit(begun) ? &begun->targets : nullptr)),
       straightBounds(boundsOfAll(scene, [&](int m) { return shader.mayPassStraight(m); })),
       solidBounds(boundsOfAll(scene, [&](int m) { return shader.isSolid(m); })) {}

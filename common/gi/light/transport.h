@@ -2,7 +2,7 @@
 // the streams that sample them, the bound of the geometry term, and the targets of caustic photons.
 //
 // In a gesture one thing is touched, and the samples of all others shall stay. So the state that it
-// began with decides the share of the samples that a lamp and a target get, b, and how far photons
+// began with decides the share of the samples that a lamp and a target get, and how far photons
 // are spread (photon_radii.h). A gesture that began in the dark decides nothing.
 //
 // Owner:   refers to the Tracer and its Scene.   Threads: const after construction.
@@ -32,8 +32,8 @@ struct Transport {
   LightStreams streams;
   std::vector<PunctualLight> lights;  // the scene's, moved off surfaces that they lie in
   Needs needs;
-  Metres radius;   // R of the scene's bounds, by which b and photons go; of `begun` in a gesture
-  float lampFlux;  // of all lamps, largest component [W]; likewise
+  Metres radius;   // R of the scene's bounds, by which b and photons go
+  float lampFlux;  // of all lamps, largest component [W]; of `begun` in a gesture
   float bound;     // b = c/R^2 [1/m^2]
   Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
   std::vector<AimTarget> targets;
