@@ -73,12 +73,14 @@ bool Part::isOf(const Geometries& all, const std::vector<uint32_t>& instances) c
   return true;
 }
 
-Partition partition(const Scene& asRead, const MaskBits& bits, const std::vector<bool>& moved) {
+Partition partition(const Scene& asRead, const MaskBits& bits, const std::vector<bool>& moved,
+                    const std::vector<bool>& hidden) {
   Partition made;
   for (uint32_t i = 0; i < moved.size(); ++i)
-    if (moved[i]) made.mask &= ~bits.of(i);
+    if (moved[i] || hidden[i]) made.mask &= ~bits.of(i);
   made.sets.resize(1 + kMovingParts);
   for (uint32_t i = 0; i < moved.size(); ++i) {
+    if (hidden[i]) continue;
     const auto node = static_cast<size_t>(asRead.instances[i].node);
     if (moved[i])
       made.sets[1 + node % kMovingParts].push_back(i);

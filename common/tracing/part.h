@@ -48,6 +48,10 @@ class Part {
   RTCScene hierarchy() const { return hierarchy_.get(); }
   // Whether it holds just these instances, each with the geometry that it has in `all`.
   bool isOf(const Geometries& all, const std::vector<uint32_t>& instances) const;
+  // Whether rays have the same answers in both.
+  bool isLike(const Part& other) const {
+    return instances_ == other.instances_ && geometries_ == other.geometries_;
+  }
 
  private:
   void attach(uint32_t instance, const InstanceGeometry& geometry, const AlphaMask& mask,
@@ -68,11 +72,12 @@ struct SeenPart {
 using Hierarchies = std::vector<SeenPart>;
 
 // The instances of the parts `left` and `moved`; none is empty. A function of the scene that was
-// read and of `moved`. mask: of rays in `all`.
+// read, of `moved`, and of what rays shall not see. mask: of rays in `all`.
 struct Partition {
   uint32_t mask = ~0u;
   std::vector<std::vector<uint32_t>> sets;
 };
-Partition partition(const Scene& asRead, const MaskBits& bits, const std::vector<bool>& moved);
+Partition partition(const Scene& asRead, const MaskBits& bits, const std::vector<bool>& moved,
+                    const std::vector<bool>& hidden);
 
 }  // namespace ninefold

@@ -4,6 +4,7 @@
 
 #include "common/math/rounding.h"
 #include "common/tracing/geometry.h"
+#include "common/tracing/part.h"
 
 namespace ninefold {
 
@@ -38,6 +39,10 @@ void addTouching(const RayAnswers& before, const RayAnswers& now, uint32_t insta
 }
 
 }  // namespace
+
+bool answerAlike(const Part* a, const Part* b) {
+  return a == b || (a != nullptr && b != nullptr && a->isLike(*b));
+}
 
 Bounds boxOf(const RayAnswers& answers, uint32_t instance) {
   return widened(answers.geometries[instance]->bounds(), answers.margin);

@@ -29,6 +29,9 @@ struct RayAnswers {
   Metres margin = 0;                        // likewise
 };
 
+// Whether rays have the same answers in both; null: there is none.
+bool answerAlike(const Part* a, const Part* b);
+
 // Of an instance, a little larger than it is: what touches it counts, too.
 Bounds boxOf(const RayAnswers& answers, uint32_t instance);
 

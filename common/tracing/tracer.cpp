@@ -34,6 +34,8 @@ struct Tracer::Impl {
   std::string isaName;
   bool wide;  // Embree has 16-wide kernels here
   Geometries geometries;
+  std::vector<bool> moved;   // by instance: elsewhere than as read, at least
+  std::vector<bool> hidden;  // by instance: rays do not see it
   std::vector<AlphaMask> masks;
   std::shared_ptr<const MaskBits> bits;
   std::shared_ptr<const Part> all;                 // as it was read
@@ -47,23 +49,27 @@ struct Tracer::Impl {
         asRead(s),
         device(std::make_shared<const Device>(makeDevice(isa))),
         isaName(isaOf(device->get())),
-        wide(isaName == "avx512") {
+        wide(isaName == "avx512"),
+        moved(s.instances.size(), false),
+        hidden(s.instances.size(), false) {
     for (const Instance& instance : scene.instances)
       geometries.push_back(std::make_shared<const InstanceGeometry>(scene, instance));
     bits = std::make_shared<const MaskBits>(scene, geometries);
     std::vector<uint32_t> instances(scene.instances.size());
     std::iota(instances.begin(), instances.end(), 0u);
     all = std::make_shared<const Part>(device, asRead, geometries, *bits, std::move(instances));
-    build(nullptr, std::vector<bool>(scene.instances.size(), false));
+    build(nullptr);
   }
 
-  Impl(const Impl& before, const Scene& s, const std::vector<bool>& moved)
+  Impl(const Impl& before, const Scene& s, std::vector<bool> moves, std::vector<bool> hides)
       : scene(s),
         asRead(before.asRead),
         device(before.device),
         isaName(before.isaName),
         wide(before.wide),
         geometries(before.geometries),
+        moved(std::move(moves)),
+        hidden(std::move(hides)),
         bits(before.bits),
         all(before.all) {
     for (size_t i = 0; i < scene.instances.size(); ++i) {
@@ -72,14 +78,14 @@ struct Tracer::Impl {
           &scene.meshes[static_cast<size_t>(instance.mesh)] != &geometries[i]->mesh())
         geometries[i] = std::make_shared<const InstanceGeometry>(scene, instance);
     }
-    build(&before, moved);
+    build(&before);
   }
 
-  void build(const Impl* before, const std::vector<bool>& moved) {
+  void build(const Impl* before) {
     for (const auto& geometry : geometries)
       masks.push_back({&scene, &geometry->mesh(),
                        &scene.materials[static_cast<size_t>(geometry->mesh().material)]});
-    const Partition beside = partition(asRead, *bits, moved);
+    const Partition beside = partition(asRead, *bits, moved, hidden);
     hierarchies.push_back({all->hierarchy(), beside.mask});
     shows.assign(scene.instances.size(), all);
     for (const std::vector<uint32_t>& instances : beside.sets) {
@@ -107,7 +113,11 @@ Tracer::Tracer(const Scene& scene, Isa isa) try : impl_(std::make_unique<Impl>(s
 }
 
 Tracer::Tracer(const Tracer& before, const Scene& scene, const std::vector<bool>& moved)
-    : impl_(std::make_unique<Impl>(*before.impl_, scene, moved)) {}
+    : impl_(std::make_unique<Impl>(*before.impl_, scene, moved,
+                                   std::vector<bool>(moved.size(), false))) {}
+
+Tracer::Tracer(const Tracer& all, const std::vector<bool>& hidden)
+    : impl_(std::make_unique<Impl>(*all.impl_, all.scene(), all.impl_->moved, hidden)) {}
 
 Tracer::~Tracer() = default;
 
@@ -184,6 +194,10 @@ Vec3 Tracer::frontNormal(uint32_t instance, uint32_t triangle) const {
 std::shared_ptr<const RayAnswers> Tracer::answers() const {
   return std::make_shared<const RayAnswers>(RayAnswers{
       impl_->shows, impl_->geometries, impl_->contacts->touching(), impl_->contacts->margin()});
+}
+
+std::shared_ptr<const Part> Tracer::partOf(uint32_t instance) const {
+  return impl_->hidden[instance] ? nullptr : impl_->shows[instance];
 }
 
 const Scene& Tracer::scene() const { return impl_->scene; }

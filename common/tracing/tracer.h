@@ -49,6 +49,7 @@ enum class Isa : uint8_t { automatic, avx2, avx512 };
 
 struct RayLog;      // ray_log.h
 struct RayAnswers;  // ray_changes.h
+class Part;         // part.h
 
 class Tracer {
  public:
@@ -58,6 +59,8 @@ class Tracer {
   // that was read, and at least for those of `before`. The scene of the first Tracer must outlive
   // all that come from it.
   Tracer(const Tracer& before, const Scene& scene, const std::vector<bool>& moved);
+  // Of the same scene, for rays that do not see the instances of which `hidden` is true.
+  Tracer(const Tracer& all, const std::vector<bool>& hidden);
   ~Tracer();
   Tracer(const Tracer&) = delete;
   Tracer& operator=(const Tracer&) = delete;
@@ -95,6 +98,8 @@ class Tracer {
   // Keeps every ray in `log` until called with null. For measurements, with one tracing thread.
   void logTo(RayLog* log) { log_ = log; }
 
+  // The hierarchy that shows an instance to rays; null for a hidden one.
+  std::shared_ptr<const Part> partOf(uint32_t instance) const;
   // What decides about the answers of single rays, to be compared with that of other edits.
   std::shared_ptr<const RayAnswers> answers() const;
 

@@ -28,7 +28,7 @@ namespace ninefold {
 
 class ElementLight : public MethodState {
  public:
-  // `tracer`: of the scene that the elements are of. `before`: of other pages or another state of
+  // `tracer`: of the StillScene that the elements are of; likewise below. `before`: of other pages or another state of
   // the same scene, or null: it saves work alone.
   ElementLight(const Tracer& tracer, const StatePages& pages, const PhotonRows& rows,
                std::shared_ptr<const SurfaceNumbers> surfaces,

@@ -253,6 +253,10 @@ NodeParts::NodeParts(const Tracer& tracer, uint32_t instance, const ElementBlock
   making.keep();
 }
 
+NodeParts::NodeParts(const Tracer& tracer, uint32_t instance, const ElementBlock& block) {
+  Making(*this, tracer, instance, block, nullptr, {}).measure();
+}
+
 uint32_t NodeParts::partOf(uint32_t face, uint8_t side) const {
   const auto found = others_.find(16 * face + side);
   return found == others_.end() ? face : found->second;

@@ -45,6 +45,8 @@ class NodeParts {
   // it saves work alone.
   NodeParts(const Tracer& tracer, uint32_t instance, const ElementBlock& block,
             const NodeParts* before, std::span<const Bounds> changed);
+  // Not divided, whatever stands there.
+  NodeParts(const Tracer& tracer, uint32_t instance, const ElementBlock& block);
 
   size_t size() const { return areas_.size(); }
   float area(uint32_t part) const { return areas_[part]; }  // [m^2]

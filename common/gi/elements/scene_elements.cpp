@@ -2,6 +2,7 @@
 
 #include "common/base/error.h"
 #include "common/scene/world.h"
+#include "common/tracing/ray_changes.h"
 
 namespace ninefold {
 namespace {
@@ -14,32 +15,43 @@ Bounds boxOf(const Mesh& mesh, const DMat4& toWorld) {
 
 }  // namespace
 
-SceneElements::SceneElements(const Tracer& tracer, Metres size, const SceneElements* before)
-    : meshes_(tracer.scene().meshes), size_(size) {
-  const Scene& scene = tracer.scene();
-  if (before != nullptr && (before->instances() != scene.instances.size() || before->size_ != size))
+SceneElements::SceneElements(const StillScene& still, Metres size, const SceneElements* before)
+    : meshes_(still.tracer().scene().meshes), size_(size) {
+  const size_t count = still.tracer().scene().instances.size();
+  if (before != nullptr && (before->instances() != count || before->size_ != size))
     before = nullptr;
-  makeBlocks(scene, before);
+  makeBlocks(still, before);
   const std::vector<Bounds> changed =
       before == nullptr ? std::vector<Bounds>{} : boxesOfChanges(*before);
-  for (uint32_t i = 0; i < instances_.size(); ++i) {
-    InstanceElements& its = instances_[i];
-    const bool isThere = before != nullptr && its.toWorld == before->instances_[i].toWorld &&
-                         its.block == before->instances_[i].block;
-    Bounds around = its.box;
-    around.low -= NodeParts::reach(size), around.high += NodeParts::reach(size);
-    const bool isSame =
-        isThere && std::ranges::none_of(changed, [&](const Bounds& b) { return meets(around, b); });
-    its.parts = isSame ? before->instances_[i].parts
-                       : std::make_shared<const NodeParts>(
-                             tracer, i, *its.block,
-                             isThere ? before->instances_[i].parts.get() : nullptr, changed);
-  }
+  for (uint32_t i = 0; i < count; ++i)
+    instances_[i].parts = partsOf(still, i, before, changed);
 }
 
-void SceneElements::makeBlocks(const Scene& scene, const SceneElements* before) {
+std::shared_ptr<const NodeParts> SceneElements::partsOf(const StillScene& still, uint32_t instance,
+                                                        const SceneElements* before,
+                                                        const std::vector<Bounds>& changed) const {
+  const InstanceElements& its = instances_[instance];
+  const InstanceElements* was = before == nullptr ? nullptr : &before->instances_[instance];
+  const bool stands = its.shownBy != nullptr;
+  if (was != nullptr && (was->block != its.block || (was->shownBy != nullptr) != stands))
+    was = nullptr;
+  const Tracer& tracer = still.tracer();
+  if (!stands)
+    return was != nullptr ? was->parts
+                          : std::make_shared<const NodeParts>(tracer, instance, *its.block);
+  if (was != nullptr && was->toWorld != its.toWorld) was = nullptr;
+  Bounds around = its.box;
+  around.low -= NodeParts::reach(size_), around.high += NodeParts::reach(size_);
+  const auto isNear = [&](const Bounds& box) { return meets(around, box); };
+  if (was != nullptr && std::ranges::none_of(changed, isNear)) return was->parts;
+  return std::make_shared<const NodeParts>(tracer, instance, *its.block,
+                                           was != nullptr ? was->parts.get() : nullptr, changed);
+}
+
+void SceneElements::makeBlocks(const StillScene& still, const SceneElements* before) {
+  const Scene& scene = still.tracer().scene();
   size_t nodes = 0, points = 0;
-  for (size_t i = 0; i < scene.instances.size(); ++i) {
+  for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
     const DMat3 linear(instance.toWorld);
@@ -47,7 +59,7 @@ void SceneElements::makeBlocks(const Scene& scene, const SceneElements* before) 
     instances_.push_back({instance.toWorld, boxOf(mesh, instance.toWorld),
                           isKept ? before->instances_[i].block
                                  : std::make_shared<const ElementBlock>(scene, mesh, linear, size_),
-                          nullptr});
+                          still.tracer().partOf(i), nullptr});
     nodes += instances_[i].block->nodes(), points += instances_[i].block->points();
     if (nodes > ElementBlock::kMostNodes || points > ElementBlock::kMostPoints)
       fail(
@@ -57,33 +69,40 @@ void SceneElements::makeBlocks(const Scene& scene, const SceneElements* before) 
   }
 }
 
-// Where something was that moved or was bent, and where it is.
+// Where something stood that moved, was bent, or is met by other rays of its own, and where it
+// stands.
 std::vector<Bounds> SceneElements::boxesOfChanges(const SceneElements& before) const {
   std::vector<Bounds> boxes;
-  for (size_t i = 0; i < instances_.size(); ++i)
-    if (instances_[i].toWorld != before.instances_[i].toWorld ||
-        instances_[i].block != before.instances_[i].block)
-      boxes.push_back(before.instances_[i].box), boxes.push_back(instances_[i].box);
+  for (size_t i = 0; i < instances_.size(); ++i) {
+    const InstanceElements &is = instances_[i], &was = before.instances_[i];
+    if (is.toWorld == was.toWorld && is.block == was.block &&
+        answerAlike(is.shownBy.get(), was.shownBy.get()))
+      continue;
+    if (was.shownBy != nullptr) boxes.push_back(was.box);
+    if (is.shownBy != nullptr) boxes.push_back(is.box);
+  }
   return boxes;
 }
 
-bool SceneElements::isOf(const Tracer& tracer, Metres size) const {
-  const Scene& scene = tracer.scene();
+bool SceneElements::isOf(const StillScene& still, Metres size) const {
+  const Scene& scene = still.tracer().scene();
   if (scene.instances.size() != instances() || size_ != size) return false;
-  for (size_t i = 0; i < instances(); ++i) {
+  for (uint32_t i = 0; i < instances(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    if (instances_[i].toWorld != instance.toWorld ||
-        !instances_[i].block->isOf(mesh, DMat3(instance.toWorld), size))
+    const InstanceElements& its = instances_[i];
+    if (its.toWorld != instance.toWorld ||
+        !its.block->isOf(mesh, DMat3(instance.toWorld), size) ||
+        !answerAlike(its.shownBy.get(), still.tracer().partOf(i).get()))
       return false;
   }
   return true;
 }
 
 std::shared_ptr<const SceneElements> sceneElements(
-    const Tracer& tracer, Metres size, const std::shared_ptr<const SceneElements>& before) {
-  if (before != nullptr && before->isOf(tracer, size)) return before;
-  return std::make_shared<const SceneElements>(tracer, size, before.get());
+    const StillScene& still, Metres size, const std::shared_ptr<const SceneElements>& before) {
+  if (before != nullptr && before->isOf(still, size)) return before;
+  return std::make_shared<const SceneElements>(still, size, before.get());
 }
 
 }  // namespace ninefold

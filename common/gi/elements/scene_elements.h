@@ -1,5 +1,5 @@
 // scene_elements.h: the mesh elements of all instances, and what stands on them: a function of the
-// scene as it is now, and of h.
+// scene as it is now, of what moves in a gesture (still_scene.h), and of h.
 //
 // After an edit only those elements are looked at anew that the box of something meets which moved,
 // where it was or where it is.
@@ -12,16 +12,17 @@
 #include <vector>
 
 #include "common/gi/elements/node_parts.h"
+#include "common/gi/elements/still_scene.h"
 
 namespace ninefold {
 
 class SceneElements {
  public:
   // `before`: of another state of the scene, or null: it saves work alone.
-  SceneElements(const Tracer& tracer, Metres size, const SceneElements* before);
+  SceneElements(const StillScene& still, Metres size, const SceneElements* before);
 
   // Whether it would come out the same.
-  bool isOf(const Tracer& tracer, Metres size) const;
+  bool isOf(const StillScene& still, Metres size) const;
   size_t instances() const { return instances_.size(); }
   const ElementBlock& block(size_t instance) const { return *instances_[instance].block; }
   const NodeParts& parts(size_t instance) const { return *instances_[instance].parts; }
@@ -33,7 +34,7 @@ class SceneElements {
   bool isShared(const SceneElements& other, size_t instance) const {
     return instances_[instance].parts == other.instances_[instance].parts;
   }
-  // `tracer`: of a scene that is the same around the instance.
+  // `tracer`: of a StillScene that is the same around the instance.
   PartPlace at(const Tracer& tracer, const SurfaceNumbers::Surface& surface, float u,
                float v) const {
     return parts(surface.instance).at(tracer, block(surface.instance), surface, u, v);
@@ -44,9 +45,13 @@ class SceneElements {
     DMat4 toWorld;
     Bounds box;  // in the scene
     std::shared_ptr<const ElementBlock> block;
+    std::shared_ptr<const Part> shownBy;  // null: it stands nowhere
     std::shared_ptr<const NodeParts> parts;
   };
-  void makeBlocks(const Scene& scene, const SceneElements* before);
+  void makeBlocks(const StillScene& still, const SceneElements* before);
+  std::shared_ptr<const NodeParts> partsOf(const StillScene& still, uint32_t instance,
+                                           const SceneElements* before,
+                                           const std::vector<Bounds>& changed) const;
   std::vector<Bounds> boxesOfChanges(const SceneElements& before) const;
 
   SharedList<Mesh> meshes_;  // so that no other mesh takes the place of one
@@ -56,6 +61,6 @@ class SceneElements {
 
 // `before` itself, if it is what would be made.
 std::shared_ptr<const SceneElements> sceneElements(
-    const Tracer& tracer, Metres size, const std::shared_ptr<const SceneElements>& before);
+    const StillScene& still, Metres size, const std::shared_ptr<const SceneElements>& before);
 
 }  // namespace ninefold

@@ -37,18 +37,22 @@ IntersectionField::IntersectionField(const Transport& transport, const Intersect
                             ? begun->field_.grid()
                             : LineGrid(coverBox(transport.scene), transport.settings.fieldDirections,
                                        transport.settings.fieldDistances),
-                        begun != nullptr ? begun : before) {}
+                        begun, begun != nullptr ? begun : before,
+                        before != nullptr ? before : begun) {}
 
 IntersectionField::IntersectionField(const Transport& transport, const LineGrid& grid,
-                                     const IntersectionField* known)
+                                     const IntersectionField* begun,
+                                     const IntersectionField* known,
+                                     const IntersectionField* latest)
     : LayeredMethod(transport),
       rows_(fieldRows(transport.settings), kPhotonsOfRow),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
       stamp_(sceneStamp(transport, {})),
       lampFlux_(fluxOfLamps(transport.emitters)),
       order_(rows_, stamp_),
-      elements_(sceneElements(transport.tracer, transport.settings.elementSize * transport.radius,
-                              known == nullptr ? nullptr : known->elements_)),
+      still_(transport.tracer, begun != nullptr ? &begun->t_.scene : nullptr),
+      elements_(sceneElements(still_, transport.settings.elementSize * transport.radius,
+                              latest == nullptr ? nullptr : latest->elements_)),
       field_(checked(grid, transport, *elements_, known == nullptr ? nullptr : &known->field_),
              transport.scene, known == nullptr ? nullptr : &known->field_),
       lines_(field_, transport.scene, *elements_, known == nullptr ? nullptr : &known->field_,
@@ -110,7 +114,7 @@ PhotonRow IntersectionField::shoot(uint32_t row, uint32_t randomization, uint32_
 
 std::shared_ptr<const MethodState> IntersectionField::digest(const StatePages& pages,
                                                              const MethodState* before) const {
-  return std::make_shared<const ElementLight>(t_.tracer, pages, rows_, surfaces_, elements_,
+  return std::make_shared<const ElementLight>(still_.tracer(), pages, rows_, surfaces_, elements_,
                                               t_.settings.elementRule,
                                               static_cast<const ElementLight*>(before));
 }
@@ -126,7 +130,7 @@ void IntersectionField::query(const FrameLight& frameLight, const ReceiverSample
   } else {
     gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays);
   }
-  if (light.elements != nullptr) light.elements->addTo(t_.tracer, receivers);
+  if (light.elements != nullptr) light.elements->addTo(still_.tracer(), receivers);
 }
 
 }  // namespace ninefold

@@ -66,9 +66,10 @@ class IntersectionField final : public LayeredMethod {
              RayCounts& rays) const override;
 
  private:
-  // `known`: what it may use again.
+  // `known`, `latest`: what it may use again, of lines and of elements.
   IntersectionField(const Transport& transport, const LineGrid& grid,
-                    const IntersectionField* known);
+                    const IntersectionField* begun, const IntersectionField* known,
+                    const IntersectionField* latest);
   PhotonRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
 
   const PhotonRows rows_;
@@ -76,6 +77,7 @@ class IntersectionField final : public LayeredMethod {
   const uint64_t stamp_;
   const float lampFlux_;  // of all lamps as they are now, largest component [W]
   const RowOrder order_;
+  const StillScene still_;
   const std::shared_ptr<const SceneElements> elements_;
   const LineField field_;
   const SceneNodeLines lines_;

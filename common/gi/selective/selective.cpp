@@ -57,6 +57,7 @@ Selective::Selective(const Transport& transport, const Selective* begun, const S
                    : std::make_shared<const VisualMasking>(
                          transport.scene, transport.settings.elementSize * transport.radius,
                          before != nullptr ? before->masking_.get() : nullptr)),
+      still_(transport.tracer, begun != nullptr ? &begun->t_.scene : nullptr),
       order_(transport.tracer, groups_, *surfaces_, stamp_),
       world_(std::make_shared<const PathWorld>(transport, minor_)),
       kept_(keptPaths(groups_,
@@ -93,9 +94,9 @@ StepResult Selective::step(const StatePages& pages, const StepKey& step, uint32_
 std::shared_ptr<const MethodState> Selective::digest(const StatePages& pages,
                                                      const MethodState* before) const {
   const auto* earlier = static_cast<const ElementLight*>(before);
-  auto elements = sceneElements(t_.tracer, t_.settings.elementSize * t_.radius,
+  auto elements = sceneElements(still_, t_.settings.elementSize * t_.radius,
                                 earlier == nullptr ? nullptr : earlier->elements());
-  return std::make_shared<const ElementLight>(t_.tracer, pages, GroupPages(groups_), surfaces_,
+  return std::make_shared<const ElementLight>(still_.tracer(), pages, GroupPages(groups_), surfaces_,
                                               std::move(elements), t_.settings.elementRule,
                                               earlier);
 }
@@ -107,7 +108,7 @@ void Selective::query(const FrameLight& frameLight, const ReceiverSamples& sampl
   auto& scratch = static_cast<LampLightScratch&>(memory);
   gatherLampLight(t_, light, samples, pathVertices, scratch.lamps, receivers, caustic, rays,
                   minor_);
-  if (light.elements != nullptr) light.elements->addTo(t_.tracer, receivers);
+  if (light.elements != nullptr) light.elements->addTo(still_.tracer(), receivers);
 }
 
 }  // namespace ninefold

@@ -33,6 +33,7 @@
 // Threads, owner, errors: as method.h says.
 #pragma once
 
+#include "common/gi/elements/still_scene.h"
 #include "common/gi/elements/surface_numbers.h"
 #include "common/gi/light_set/light_set.h"
 #include "common/gi/selective/group_order.h"
@@ -70,6 +71,7 @@ class Selective final : public LayeredMethod {
   const uint64_t stamp_;
   const float lampFlux_;  // of all lamps as they are now, largest component [W]
   const std::shared_ptr<const VisualMasking> masking_;  // a gesture keeps that of its beginning
+  const StillScene still_;
   const GroupOrder order_;
   const std::shared_ptr<const PathWorld> world_;
   const std::shared_ptr<KeptPaths> kept_;  // null: there are too many
