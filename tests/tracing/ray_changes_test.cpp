@@ -73,7 +73,9 @@ void expectTheSameAway(bool withGlass) {
       const Hit was = before.closest(origin, direction, 100);
       const Hit is = now.closest(origin, direction, 100);
       ASSERT_TRUE(sameBits(was, is));
-      if (was) ASSERT_TRUE(sameBits(before.surface(was), now.surface(is)));
+      if (was) {
+        ASSERT_TRUE(sameBits(before.surface(was), now.surface(is)));
+      }
     }
   }
   EXPECT_GT(compared, skipped);
