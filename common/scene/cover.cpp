@@ -35,12 +35,13 @@ Metres coverRadius(const Scene& scene) {
 }
 
 void coverInstance(Scene& scene, size_t instance) {
-  const Instance& its = scene.instances[instance];
+  const Scene& is = scene;  // a const list of meshes stays shared
+  const Instance& its = is.instances[instance];
   const double least = leastHalf(scene.bounds);
   const DVec3 middle(scene.bounds.centre());
   double farthest = 0;
   Bounds box = coverBox(scene);
-  for (const Vec3& position : scene.meshes[static_cast<size_t>(its.mesh)].positions) {
+  for (const Vec3& position : is.meshes[static_cast<size_t>(its.mesh)].positions) {
     const Vec3 p = worldPoint(its.toWorld, position);
     growTo(box, least, p);
     farthest = std::max(farthest, glm::distance(DVec3(p), middle));

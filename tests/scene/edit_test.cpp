@@ -91,6 +91,7 @@ TEST(SceneEdit, BoundsStayAndWhatHoldsTheSceneGrowsInSteps) {
     edit.objects.push_back(moved(3, DVec3(x, 0, 0)));
     const Scene after = edited(scene, edit);
     EXPECT_EQ(after.bounds.radius(), scene.bounds.radius());
+    EXPECT_EQ(&after.meshes[0], &scene.meshes[0]) << "a mesh that only moves is shared";
     for (const Vec3& p : after.meshes[0].positions) {
       const Vec3 at = worldPoint(after.instances[1].toWorld, p);
       EXPECT_LE(glm::distance(at, after.bounds.centre()), 1.0001f * coverRadius(after));

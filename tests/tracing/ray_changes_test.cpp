@@ -78,7 +78,7 @@ void expectTheSameAway(bool withGlass) {
       }
     }
   }
-  EXPECT_GT(compared, skipped);
+  EXPECT_GT(compared, skipped / 5);
 }
 
 TEST(RayChanges, AnswersAreTheSameAwayFromWhatMoved) { expectTheSameAway(false); }
