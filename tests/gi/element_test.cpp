@@ -214,10 +214,17 @@ class Pool {
     return row;
   }
   std::shared_ptr<const ElementLight> digest(const StatePages& pages, const ElementLight* before,
-                                             const Tracer& tracer) const {
-    auto elements = sceneElements(tracer, 0.2f, before != nullptr ? before->elements() : nullptr);
-    return std::make_shared<const ElementLight>(tracer, pages, GroupPages(groups()), surfaces_,
-                                                elements, ElementRule::linear, before);
+                                             const StillScene& still) const {
+    auto elements = sceneElements(still, 0.2f, before != nullptr ? before->elements() : nullptr);
+    return std::make_shared<const ElementLight>(still.tracer(), pages, GroupPages(groups()),
+                                                surfaces_, elements, ElementRule::linear, before);
+  }
+  // All rows with light of their own.
+  StatePages pages() const {
+    const GroupPages rows(groups());
+    StatePages pages;
+    for (uint32_t g = 0; g < 306; ++g) pages.apply(rows.replace(pages, g, row(g)));
+    return pages;
   }
   // E at many points of both sides.
   std::vector<Irradiance> look(const ElementLight& light, const Tracer& tracer) const {
@@ -242,8 +249,7 @@ class Pool {
 TEST(ElementLight, DigestedAtOnceIsDigestedStepByStep) {
   const Pool pool;
   const GroupPages rows(pool.groups());
-  StatePages pages;
-  for (uint32_t g = 0; g < 306; ++g) pages.apply(rows.replace(pages, g, pool.row(g)));
+  StatePages pages = pool.pages();
   auto light = pool.digest(pages, nullptr, pool.tracer());
   Scene moved = pool.scene();
   for (const uint64_t step : seedsFrom(1, 8)) {
@@ -259,6 +265,28 @@ TEST(ElementLight, DigestedAtOnceIsDigestedStepByStep) {
     light = pool.digest(pages, light.get(), after);
     const auto fresh = pool.digest(pages, nullptr, late);
     EXPECT_EQ(pool.look(*light, after), pool.look(*fresh, late));
+  }
+}
+
+// What moves stands nowhere, so that nothing is looked at anew; and who comes late has the same.
+TEST(ElementLight, InAGestureElementsStay) {
+  const Pool pool;
+  const StatePages pages = pool.pages();
+  auto light = pool.digest(pages, nullptr, pool.tracer());
+  Scene moved = pool.scene();
+  for (int step = 0; step < 4; ++step) {
+    moved.instances[1].toWorld[3].x += 0.1371;
+    const Scene& now = moved;
+    const Tracer after(pool.tracer(), now, {false, true}), late(now, Isa::automatic);
+    const StillScene still(after, &pool.scene()), stillLate(late, &pool.scene());
+    auto next = pool.digest(pages, light.get(), still);
+    const auto fresh = pool.digest(pages, nullptr, stillLate);
+    EXPECT_EQ(pool.look(*next, still.tracer()), pool.look(*fresh, stillLate.tracer()));
+    for (uint32_t i = 0; i < 2 && step > 0; ++i)
+      EXPECT_TRUE(next->elements()->isShared(*light->elements(), i)) << "instance " << i;
+    light = next;
+    const auto atRest = pool.digest(pages, next.get(), after);
+    EXPECT_EQ(pool.look(*atRest, after), pool.look(*pool.digest(pages, nullptr, late), late));
   }
 }
 

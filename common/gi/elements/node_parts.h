@@ -15,7 +15,8 @@
 // Parts smaller than kLeast h^2 belong to the node's largest one: too few pieces tell their area,
 // and they would get hardly a photon.
 //
-// It is that of the scene as it is now: what moves uncovers where it was, and covers where it goes.
+// It is that of the scene as it is now: what moves uncovers where it was, and covers where it goes,
+// once it rests (still_scene.h).
 // Hits of photons name triangles and places, so that they need not be traced again for that.
 //
 // Source:  made for this project.   Proved: tests/gi/node_parts_test.cpp.
