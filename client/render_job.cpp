@@ -80,11 +80,12 @@ RenderJob::Light::Light(std::shared_ptr<const TracedScene> s, const Settings& it
                    ? Renderer(before->renderer, settings)
                    : Renderer(scene->tracer, settings, begun.get(),
                               before != nullptr ? &before->renderer : nullptr)),
+      latestState(before != nullptr && before->settings.method == settings.method
+                      ? before->latestState
+                      : std::make_shared<LatestState>()),
       states([this](const StatePages& pages,
                     const MethodState* last) { return renderer.digest(pages, last); },
-             before != nullptr && before->settings.method == settings.method
-                 ? before->states.latest()
-                 : nullptr),
+             latestState),
       sets([this](const FrameKey& frame, int set,
                   const MethodState* state) { return renderer.light(frame, set, state); },
            kFramesKept) {

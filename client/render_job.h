@@ -120,6 +120,7 @@ class RenderJob {
     const uint8_t layerMask;
     const std::shared_ptr<const Renderer> begun;  // of scene->begun
     const Renderer renderer;
+    const std::shared_ptr<LatestState> latestState;
     MethodStates states;
     LightSetCache sets;
     std::vector<std::unique_ptr<Desk>> desks;
