@@ -30,9 +30,7 @@ Bounds coverBox(const Scene& scene) {
   return scene.cover.box.empty() ? scene.bounds : scene.cover.box;
 }
 
-Metres coverRadius(const Scene& scene) {
-  return scene.cover.ballScale * scene.bounds.radius();
-}
+Metres coverRadius(const Scene& scene) { return scene.cover.ballScale * scene.bounds.radius(); }
 
 void coverInstance(Scene& scene, size_t instance) {
   const Scene& is = scene;  // a const list of meshes stays shared

@@ -1,6 +1,7 @@
 // Mesh elements: nodes, areas, and light that falls onto them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 
 #include "common/base/error.h"
@@ -275,7 +276,12 @@ TEST(ElementLight, InAGestureElementsStay) {
   auto light = pool.digest(pages, nullptr, pool.tracer());
   Scene moved = pool.scene();
   for (int step = 0; step < 4; ++step) {
-    moved.instances[1].toWorld[3].x += 0.1371;
+    DMat4& place = moved.instances[1].toWorld;
+    const DVec4 there = place[3] + DVec4(0.1371, 0, 0, 0);
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    place =
+        DMat4(DVec4(c, 0, -s, 0), DVec4(0, 1, 0, 0), DVec4(s, 0, c, 0), DVec4(0, 0, 0, 1)) * place;
+    place[3] = there;
     const Scene& now = moved;
     const Tracer after(pool.tracer(), now, {false, true}), late(now, Isa::automatic);
     const StillScene still(after, &pool.scene()), stillLate(late, &pool.scene());

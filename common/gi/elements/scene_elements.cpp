@@ -23,8 +23,7 @@ SceneElements::SceneElements(const StillScene& still, Metres size, const SceneEl
   makeBlocks(still, before);
   const std::vector<Bounds> changed =
       before == nullptr ? std::vector<Bounds>{} : boxesOfChanges(*before);
-  for (uint32_t i = 0; i < count; ++i)
-    instances_[i].parts = partsOf(still, i, before, changed);
+  for (uint32_t i = 0; i < count; ++i) instances_[i].parts = partsOf(still, i, before, changed);
 }
 
 std::shared_ptr<const NodeParts> SceneElements::partsOf(const StillScene& still, uint32_t instance,
@@ -54,7 +53,7 @@ void SceneElements::makeBlocks(const StillScene& still, const SceneElements* bef
   for (uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
-    const DMat3 linear(instance.toWorld);
+    const DMat3 linear = still.linearOf(i);
     const bool isKept = before != nullptr && before->block(i).isOf(mesh, linear, size_);
     instances_.push_back({instance.toWorld, boxOf(mesh, instance.toWorld),
                           isKept ? before->instances_[i].block
@@ -91,8 +90,7 @@ bool SceneElements::isOf(const StillScene& still, Metres size) const {
     const Instance& instance = scene.instances[i];
     const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
     const InstanceElements& its = instances_[i];
-    if (its.toWorld != instance.toWorld ||
-        !its.block->isOf(mesh, DMat3(instance.toWorld), size) ||
+    if (its.toWorld != instance.toWorld || !its.block->isOf(mesh, still.linearOf(i), size) ||
         !answerAlike(its.shownBy.get(), still.tracer().partOf(i).get()))
       return false;
   }

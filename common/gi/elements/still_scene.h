@@ -2,9 +2,9 @@
 //
 // What stands on a surface divides its nodes (node_parts.h). To look for it anew takes a client tens
 // of milliseconds, which a drag would pay for each frame. So what moves in a gesture stands nowhere
-// until it rests: rays for elements do not see it, and its own elements are not divided. Then all
-// other elements stay as they are for the whole gesture, and their light changes by hits that
-// differ alone.
+// until it rests: rays for elements do not see it, and its own elements are not divided. What turns
+// keeps the elements that it had. So elements stay as they are for the whole gesture, and their
+// light changes by hits that differ alone.
 //
 // Moves: an instance whose place or shape is another than in the scene that the gesture began with.
 //
@@ -22,14 +22,17 @@ namespace ninefold {
 
 class StillScene {
  public:
-  // `begun`: that a gesture began with; null at rest.
+  // `begun`: that a gesture began with; null at rest. Must outlive this.
   StillScene(const Tracer& all, const Scene* begun = nullptr);
 
   // Does not see what moves, and says so (partOf).
   const Tracer& tracer() const { return still_ != nullptr ? *still_ : all_; }
+  // Of the instance's toWorld, as its elements are cut: the one before it turned.
+  DMat3 linearOf(size_t instance) const;
 
  private:
   const Tracer& all_;
+  const Scene* begun_;
   std::unique_ptr<const Tracer> still_;  // null: nothing moves
 };
 

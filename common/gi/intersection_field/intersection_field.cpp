@@ -32,17 +32,15 @@ LineGrid checked(const LineGrid& grid, const Transport& t, const SceneElements& 
 
 IntersectionField::IntersectionField(const Transport& transport, const IntersectionField* begun,
                                      const IntersectionField* before)
-    : IntersectionField(transport,
-                        begun != nullptr
-                            ? begun->field_.grid()
-                            : LineGrid(coverBox(transport.scene), transport.settings.fieldDirections,
-                                       transport.settings.fieldDistances),
-                        begun, begun != nullptr ? begun : before,
-                        before != nullptr ? before : begun) {}
+    : IntersectionField(
+          transport,
+          begun != nullptr ? begun->field_.grid()
+                           : LineGrid(coverBox(transport.scene), transport.settings.fieldDirections,
+                                      transport.settings.fieldDistances),
+          begun, begun != nullptr ? begun : before, before != nullptr ? before : begun) {}
 
 IntersectionField::IntersectionField(const Transport& transport, const LineGrid& grid,
-                                     const IntersectionField* begun,
-                                     const IntersectionField* known,
+                                     const IntersectionField* begun, const IntersectionField* known,
                                      const IntersectionField* latest)
     : LayeredMethod(transport),
       rows_(fieldRows(transport.settings), kPhotonsOfRow),
