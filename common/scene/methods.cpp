@@ -98,6 +98,9 @@ bool haveSameGroups(const Settings& before, const Settings& after) {
          (before.minorLamps == 0 || (before.directVpls > 0) == (after.directVpls > 0));
 }
 
+// Clients keep the paths of so many.
+constexpr int kMostKeptPhotons = 1 << 19;
+
 constexpr StateFacts kSelectiveState{
     .unitsOfAll = rowsOfAll,
     .unitsInMotion = rowsInMotion,
@@ -105,7 +108,7 @@ constexpr StateFacts kSelectiveState{
     .beginsAnew = true,
     .isPaced = true,
     .isKept = haveSameGroups,
-    .remembers = true,
+    .remembers = [](const Settings& s) { return s.photonPool <= kMostKeptPhotons; },
 };
 
 // Lines stand for rays, and take about half as long.

@@ -46,9 +46,9 @@ struct StateFacts {
   bool (*isKept)(const Settings& before, const Settings& after);
   // A line for the log, said if what stands before its first comma is new; null: nothing.
   std::string (*describe)(const StatePages& pages) = nullptr;
-  // Clients keep what an edit leaves alone, so that units after it are quick: a step of all may be
-  // done before a frame begins.
-  bool remembers = false;
+  // Whether clients keep what an edit leaves alone, so that units after it are quick: a step of all
+  // may be done before a frame begins. Null: never.
+  bool (*remembers)(const Settings& settings) = nullptr;
 };
 
 struct MethodFacts {

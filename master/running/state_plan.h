@@ -63,7 +63,9 @@ class StatePlan {
   void done(const StepKey& step, Duration took = {});
   // In motion the next step need not wait for a frame.
   void goAhead() { mayStep_ = true; }
-  bool remembers() const { return facts_ != nullptr && facts_->remembers; }
+  bool remembers() const {
+    return facts_ != nullptr && facts_->remembers != nullptr && facts_->remembers(settings_);
+  }
   bool isStepping() const { return open_ && !open_->makesAll; }
   // The version that lights the next frame, which is opened now; nothing while it is not there.
   std::optional<uint32_t> versionOfFrame(bool moving);

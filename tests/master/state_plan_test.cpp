@@ -118,6 +118,17 @@ TEST_F(StatePlanTest, WhatWasMadeOfAnOlderSceneLightsNoFrameAtRest) {
   EXPECT_FALSE(p.versionOfFrame(false)) << "of a series before";
 }
 
+TEST_F(StatePlanTest, ClientsRememberWhatHasRoom) {
+  const auto remembers = [&](Method method, int pool) {
+    settings.method = method, settings.photonPool = pool;
+    return plan().remembers();
+  };
+  EXPECT_TRUE(remembers(Method::selective, 147456));
+  EXPECT_FALSE(remembers(Method::selective, 1 << 20));
+  EXPECT_FALSE(remembers(Method::photonMap, 147456));
+  EXPECT_FALSE(remembers(Method::instantRadiosity, 147456));
+}
+
 TEST_F(StatePlanTest, OtherSettingsVoidTheStepAndTheState) {
   StatePlan p = plan();
   p.done(step(p)->key);

@@ -3,8 +3,7 @@
 // Each client keeps what it traced itself. Nothing but time depends on that (path_replay.h).
 //
 // Memory:  12 bytes a ray, 12 a hit, 28 a photon and stream, all twice; and what moved
-//          (path_world.h). Pools of more than kMostPhotons photons are not kept: their first step
-//          in a gesture is void (master/running/live_plan.h).
+//          (path_world.h). Large pools are not kept (StateFacts::remembers).
 // Owner:   shared by the methods of successive edits.
 // Threads: any.   Errors: none.
 #pragma once
@@ -35,8 +34,6 @@ struct KeptRow {
 
 class KeptPaths {
  public:
-  static constexpr uint32_t kMostPhotons = 1 << 19;
-
   explicit KeptPaths(uint32_t rows) : rows_(rows) {}
   // Null: it is not here.
   std::shared_ptr<const KeptRow> find(uint32_t row, uint32_t randomization) const;

@@ -5,6 +5,7 @@
 #include "common/gi/elements/scene_stamp.h"
 #include "common/gi/light_set/lamp_light.h"
 #include "common/gi/selective/group_shooting.h"
+#include "common/scene/methods.h"
 #include "common/state/fixed_point.h"
 
 namespace ninefold {
@@ -36,9 +37,10 @@ std::vector<int64_t> priorityChanges(const PhotonGroups& groups, const StatePage
   return changes;
 }
 
-std::shared_ptr<KeptPaths> keptPaths(const PhotonGroups& groups,
+std::shared_ptr<KeptPaths> keptPaths(const Settings& settings, const PhotonGroups& groups,
                                      const std::shared_ptr<KeptPaths>& before) {
-  if (before != nullptr || groups.photons() > KeptPaths::kMostPhotons) return before;
+  const bool areKept = factsOf(settings.method).state->remembers(settings);
+  if (before != nullptr || !areKept) return before;
   return std::make_shared<KeptPaths>(groups.rows());
 }
 
@@ -60,7 +62,7 @@ Selective::Selective(const Transport& transport, const Selective* begun, const S
       still_(transport.tracer, begun != nullptr ? &begun->t_.scene : nullptr),
       order_(transport.tracer, groups_, *surfaces_, stamp_),
       world_(std::make_shared<const PathWorld>(transport, minor_)),
-      kept_(keptPaths(groups_,
+      kept_(keptPaths(transport.settings, groups_,
                       before != nullptr && before->groups_ == groups_ ? before->kept_ : nullptr)) {}
 
 std::shared_ptr<const FrameLight> Selective::light(const FrameKey& frame, int set,
@@ -96,9 +98,9 @@ std::shared_ptr<const MethodState> Selective::digest(const StatePages& pages,
   const auto* earlier = static_cast<const ElementLight*>(before);
   auto elements = sceneElements(still_, t_.settings.elementSize * t_.radius,
                                 earlier == nullptr ? nullptr : earlier->elements());
-  return std::make_shared<const ElementLight>(still_.tracer(), pages, GroupPages(groups_), surfaces_,
-                                              std::move(elements), t_.settings.elementRule,
-                                              earlier);
+  return std::make_shared<const ElementLight>(still_.tracer(), pages, GroupPages(groups_),
+                                              surfaces_, std::move(elements),
+                                              t_.settings.elementRule, earlier);
 }
 
 void Selective::query(const FrameLight& frameLight, const ReceiverSamples& samples,
