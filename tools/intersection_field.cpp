@@ -66,12 +66,14 @@ struct Parts {
 
   Parts(const Transport& t, const Parts* before) {
     elements = timed(elementSeconds, [&] {
-      return std::make_unique<SceneElements>(t.tracer, t.settings.elementSize * t.radius,
+      return std::make_unique<SceneElements>(StillScene(t.tracer, nullptr),
+                                             t.settings.elementSize * t.radius,
                                              before == nullptr ? nullptr : before->elements.get());
     });
-    const LineGrid grid(t.scene.bounds, t.settings.fieldDirections, t.settings.fieldDistances);
+    const LineGrid grid(coverBox(t.scene), t.settings.fieldDirections, t.settings.fieldDistances);
     const LineField* known = before == nullptr ? nullptr : before->field.get();
-    checkFieldSize(grid, {t.scene, *elements, areaLamps(t).size(), known}, t.settings);
+    checkFieldSize(grid, {t.scene, coverBox(t.scene), *elements, areaLamps(t).size(), known},
+                   t.settings);
     field = timed(fieldSeconds, [&] { return std::make_unique<LineField>(grid, t.scene, known); });
     lines = timed(nodeSeconds, [&] {
       return before == nullptr

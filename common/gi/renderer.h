@@ -21,7 +21,7 @@ namespace ninefold {
 class Renderer {
  public:
   // `begun`: of the scene that a gesture began with, under the same settings; null at rest. Counts,
-  // shares, b and the photons' radii stay as they are in `begun` (transport.h).
+  // shares and the photons' radii stay as they are in `begun` (transport.h).
   // `before`: of the same scene before an edit, under any settings; null: none. It may save work;
   // nothing else depends on it.
   Renderer(const Tracer& tracer, const Settings& settings, const Renderer* begun = nullptr,

@@ -1,6 +1,7 @@
 #include "common/scene/cover.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/scene/world.h"
 
@@ -33,18 +34,19 @@ Bounds coverBox(const Scene& scene) {
 Metres coverRadius(const Scene& scene) { return scene.cover.ballScale * scene.bounds.radius(); }
 
 void coverInstance(Scene& scene, size_t instance) {
-  const Scene& is = scene;  // a const list of meshes stays shared
-  const Instance& its = is.instances[instance];
+  const auto& meshes = std::as_const(scene).meshes;  // const: a list of meshes stays shared
+  const Instance& placed = scene.instances[instance];
   const double least = leastHalf(scene.bounds);
   const DVec3 middle(scene.bounds.centre());
   double farthest = 0;
   Bounds box = coverBox(scene);
-  for (const Vec3& position : is.meshes[static_cast<size_t>(its.mesh)].positions) {
-    const Vec3 p = worldPoint(its.toWorld, position);
+  for (const Vec3& position : meshes[static_cast<size_t>(placed.mesh)].positions) {
+    const Vec3 p = worldPoint(placed.toWorld, position);
     growTo(box, least, p);
     farthest = std::max(farthest, glm::distance(DVec3(p), middle));
   }
-  while (coverRadius(scene) < farthest) scene.cover.ballScale *= float{kGrowth};
+  while ((1 + double{kBallRounding}) * double{coverRadius(scene)} < farthest)
+    scene.cover.ballScale *= kGrowth;
   const bool isWider = box.low != scene.bounds.low || box.high != scene.bounds.high;
   if (isWider) scene.cover.box = box;
 }

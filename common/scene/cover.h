@@ -6,7 +6,7 @@
 // sun, and no ray.
 //
 //   coverBox      low, high; of each axis by itself
-//   coverRadius   of a ball; R 1.25^i                          [m]
+//   coverRadius   of a ball; R 1.25^i; it holds all but for kBallRounding of its radius   [m]
 //
 // Proved:  tests/scene/edit_test.cpp.   Threads: plain values.   Errors: none.
 #pragma once
@@ -17,6 +17,9 @@
 namespace ninefold {
 
 struct Scene;
+
+// Corners of the bounds lie on the ball, wherever rounding puts them.
+inline constexpr float kBallRounding = 5e-5f;
 
 struct Cover {
   Bounds box;           // empty: the scene's bounds hold everything

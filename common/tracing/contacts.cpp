@@ -82,7 +82,7 @@ void Contacts::forEachNear(Vec3 p, float radius, Visit visit) const {
 
 Contacts::Contacts(const Scene& scene, const Geometries& geometries,
                    const std::vector<AlphaMask>& masks, const Hierarchies& parts,
-                   const MaskBits& bits, const Contacts* before)
+                   const MaskBits& bits, const std::vector<bool>& hidden, const Contacts* before)
     : scene_(&scene),
       geometries_(geometries),
       masks_(&masks),
@@ -95,10 +95,11 @@ Contacts::Contacts(const Scene& scene, const Geometries& geometries,
   const std::vector<Bounds> changed =
       before != nullptr ? changedSince(*before) : std::vector<Bounds>();
   for (uint32_t i = 0; i < geometries.size(); ++i) {
-    if (opacity(material(i)) == 2 && isBlack(material(i).emission)) continue;
+    if (hidden[i] || (opacity(material(i)) == 2 && isBlack(material(i).emission))) continue;
     const bool known = before != nullptr && before->from_[i] != nullptr && !isNear(i, changed);
     from_[i] = known ? before->from_[i] : std::make_shared<const Marks>(findFrom(i));
-    mark(*from_[i]);
+    for (const auto& [one, other] : *from_[i])
+      if (!hidden[other.first]) mark(one), mark(other);
   }
 }
 
@@ -131,12 +132,16 @@ Contacts::Face Contacts::face(uint32_t instance, uint32_t triangle) const {
   return {instance, triangle, geometry.corners(triangle), geometry.frontNormal(triangle)};
 }
 
-void Contacts::mark(const Marks& marks) {
-  for (const auto& [instance, triangle] : marks) {
-    std::vector<bool>& flags = touching_[instance];
-    if (flags.empty()) flags.resize(geometries_[instance]->mesh().triangles.size());
-    flags[triangle] = true;
-  }
+uint8_t Contacts::rankOf(uint32_t instance) const {
+  const Material& m = material(instance);
+  return static_cast<uint8_t>(2 * opacity(m) + (isBlack(m.emission) ? 0 : 1));
+}
+
+void Contacts::mark(const Mark& mark) {
+  const auto& [instance, triangle] = mark;
+  std::vector<bool>& flags = touching_[instance];
+  if (flags.empty()) flags.resize(geometries_[instance]->mesh().triangles.size());
+  flags[triangle] = true;
 }
 
 Contacts::Marks Contacts::findFrom(uint32_t instance) const {
@@ -153,8 +158,7 @@ Contacts::Marks Contacts::findFrom(uint32_t instance) const {
       if (!liesInPlane(one.at, other.at, one.normal, other.normal) &&
           !liesInPlane(other.at, one.at, other.normal, one.normal))
         return;
-      marks.emplace_back(instance, i);
-      marks.emplace_back(otherInstance, otherTriangle);
+      marks.push_back({{instance, i}, {otherInstance, otherTriangle}});
     };
     forEachNear(0.5f * (low + high), 0.5001f * glm::length(high - low) + margin_, visit);
   }

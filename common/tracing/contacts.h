@@ -33,9 +33,10 @@ namespace ninefold {
 class Contacts {
  public:
   // `parts` hold all geometries, are committed, and number their triangles as the geometries do.
-  // `before`: of the same scene before an edit, or null.
+  // `hidden`, by instance: touches nothing. `before`: of the same scene before an edit, or null.
   Contacts(const Scene& scene, const Geometries& geometries, const std::vector<AlphaMask>& masks,
-           const Hierarchies& parts, const MaskBits& bits, const Contacts* before);
+           const Hierarchies& parts, const MaskBits& bits, const std::vector<bool>& hidden,
+           const Contacts* before);
 
   Hit which(const Hit& hit, Vec3 direction) const {
     return touches(hit) ? foremost(hit, direction) : hit;
@@ -50,6 +51,8 @@ class Contacts {
   Metres margin() const { return margin_; }
   // [instance][triangle]: whether it touches any; empty where nothing touches.
   const std::vector<std::vector<bool>>& touching() const { return touching_; }
+  // What which() goes by first, of an instance.
+  uint8_t rankOf(uint32_t instance) const;
 
  private:
   // A triangle with its plane.
@@ -68,12 +71,13 @@ class Contacts {
   bool touches(const Hit& hit) const {
     return !touching_[hit.instance].empty() && touching_[hit.instance][hit.triangle];
   }
-  using Marks = std::vector<std::pair<uint32_t, uint32_t>>;  // (instance, triangle)
+  using Mark = std::pair<uint32_t, uint32_t>;        // (instance, triangle)
+  using Marks = std::vector<std::pair<Mark, Mark>>;  // that touch each other
 
   bool isNear(uint32_t instance, const std::vector<Bounds>& changed) const;
   std::vector<Bounds> changedSince(const Contacts& before) const;
   Marks findFrom(uint32_t instance) const;
-  void mark(const Marks& marks);
+  void mark(const Mark& mark);
   Hit foremost(const Hit& hit, Vec3 direction) const;
   void addSolids(const Hit& hit, SurfacePoint& p) const;
   std::vector<Contact> at(const Hit& hit, Vec3 position) const;

@@ -7,8 +7,9 @@
 #include "common/tracing/part.h"
 
 namespace ninefold {
-
 namespace {
+
+constexpr size_t kMostTriangles = 16;  // of an instance, with boxes of their own
 
 // Larger by what matters to contacts, and by what coordinates there are rounded by.
 Bounds widened(Bounds box, Metres margin) {
@@ -34,15 +35,19 @@ void addTouching(const RayAnswers& before, const RayAnswers& now, uint32_t insta
                  std::vector<Bounds>& boxes) {
   const std::vector<bool>&was = before.touching[instance], &is = now.touching[instance];
   if (was == is) return;
+  std::vector<Bounds> found;
   for (uint32_t t = 0; t < std::max(was.size(), is.size()); ++t)
-    if (touches(was, t) != touches(is, t)) boxes.push_back(triangleBox(now, instance, t));
+    if (touches(was, t) != touches(is, t)) found.push_back(triangleBox(now, instance, t));
+  if (found.size() > kMostTriangles) found = {boxOf(now, instance)};
+  boxes.insert(boxes.end(), found.begin(), found.end());
+}
+
+// Whether rays have the same answers in both; null: there is none.
+bool areAlike(const Part* a, const Part* b) {
+  return a == b || (a != nullptr && b != nullptr && a->isLike(*b));
 }
 
 }  // namespace
-
-bool answerAlike(const Part* a, const Part* b) {
-  return a == b || (a != nullptr && b != nullptr && a->isLike(*b));
-}
 
 Bounds boxOf(const RayAnswers& answers, uint32_t instance) {
   return widened(answers.geometries[instance]->bounds(), answers.margin);
@@ -52,12 +57,14 @@ std::optional<std::vector<Bounds>> rayChanges(const RayAnswers& before, const Ra
   if (before.margin != now.margin || before.shows.size() != now.shows.size()) return std::nullopt;
   std::vector<Bounds> boxes;
   for (uint32_t i = 0; i < now.shows.size(); ++i) {
-    if (before.shows[i] == now.shows[i]) {
-      addTouching(before, now, i, boxes);
+    const bool wasSeen = before.shows[i] != nullptr, isSeen = now.shows[i] != nullptr;
+    if (areAlike(before.shows[i].get(), now.shows[i].get()) && before.ranks[i] == now.ranks[i]) {
+      if (isSeen) addTouching(before, now, i, boxes);
       continue;
     }
-    boxes.push_back(boxOf(before, i));
-    if (now.geometries[i] != before.geometries[i]) boxes.push_back(boxOf(now, i));
+    if (wasSeen) boxes.push_back(boxOf(before, i));
+    if (isSeen && (!wasSeen || now.geometries[i] != before.geometries[i]))
+      boxes.push_back(boxOf(now, i));
   }
   return boxes;
 }

@@ -1,9 +1,10 @@
 // ray_changes.h: where rays may have other answers after an edit, to the last bit.
 //
 // An answer changes only near what is shown by another hierarchy: a thing that moved, and what
-// shares a hierarchy with it (part.h); and on a triangle that has begun or ceased to touch
-// something transparent or bright (contacts.h). So a ray that meets none of their boxes, neither where they
-// were nor where they are, has the answer that it had. Materials are for the caller to compare.
+// shares a hierarchy with it (part.h). It changes also on a triangle that has begun or ceased to
+// touch something transparent or bright, and on what has become so (contacts.h). So a ray that
+// meets none of their boxes, neither where they were nor where they are, has the answer that it
+// had. Else materials are for the caller to compare.
 //
 // Proved:  tests/tracing/ray_changes_test.cpp.
 // Owner:   keeps geometry and hierarchies of its state alive.
@@ -23,14 +24,13 @@ class InstanceGeometry;
 class Part;
 
 struct RayAnswers {
-  std::vector<std::shared_ptr<const Part>> shows;  // by instance: the hierarchy that shows it
+  // By instance: the hierarchy that shows it; null: it is hidden.
+  std::vector<std::shared_ptr<const Part>> shows;
   std::vector<std::shared_ptr<const InstanceGeometry>> geometries;
-  std::vector<std::vector<bool>> touching;  // contacts.h
+  std::vector<uint8_t> ranks;               // contacts.h
+  std::vector<std::vector<bool>> touching;  // likewise
   Metres margin = 0;                        // likewise
 };
-
-// Whether rays have the same answers in both; null: there is none.
-bool answerAlike(const Part* a, const Part* b);
 
 // Of an instance, a little larger than it is: what touches it counts, too.
 Bounds boxOf(const RayAnswers& answers, uint32_t instance);

@@ -40,8 +40,9 @@ struct Tracer::Impl {
   std::shared_ptr<const MaskBits> bits;
   std::shared_ptr<const Part> all;                 // as it was read
   std::vector<std::shared_ptr<const Part>> parts;  // those beside it
-  std::vector<std::shared_ptr<const Part>> shows;  // by instance: the part that rays see it in
-  Hierarchies hierarchies;                         // of all of them
+  // By instance: the part that rays see it in; null if they do not.
+  std::vector<std::shared_ptr<const Part>> shows;
+  Hierarchies hierarchies;  // of all of them
   std::optional<Contacts> contacts;
 
   Impl(const Scene& s, Isa isa)
@@ -87,13 +88,13 @@ struct Tracer::Impl {
                        &scene.materials[static_cast<size_t>(geometry->mesh().material)]});
     const Partition beside = partition(asRead, *bits, moved, hidden);
     hierarchies.push_back({all->hierarchy(), beside.mask});
-    shows.assign(scene.instances.size(), all);
+    for (const bool isHidden : hidden) shows.push_back(isHidden ? nullptr : all);
     for (const std::vector<uint32_t>& instances : beside.sets) {
       parts.push_back(part(before, instances));
       hierarchies.push_back({parts.back()->hierarchy(), ~0u});
       for (const uint32_t i : instances) shows[i] = parts.back();
     }
-    contacts.emplace(scene, geometries, masks, hierarchies, *bits,
+    contacts.emplace(scene, geometries, masks, hierarchies, *bits, hidden,
                      before != nullptr ? &*before->contacts : nullptr);
   }
 
@@ -192,12 +193,11 @@ Vec3 Tracer::frontNormal(uint32_t instance, uint32_t triangle) const {
 }
 
 std::shared_ptr<const RayAnswers> Tracer::answers() const {
-  return std::make_shared<const RayAnswers>(RayAnswers{
-      impl_->shows, impl_->geometries, impl_->contacts->touching(), impl_->contacts->margin()});
-}
-
-std::shared_ptr<const Part> Tracer::partOf(uint32_t instance) const {
-  return impl_->hidden[instance] ? nullptr : impl_->shows[instance];
+  RayAnswers answers{
+      impl_->shows, impl_->geometries, {}, impl_->contacts->touching(), impl_->contacts->margin()};
+  for (uint32_t i = 0; i < answers.shows.size(); ++i)
+    answers.ranks.push_back(impl_->contacts->rankOf(i));
+  return std::make_shared<const RayAnswers>(std::move(answers));
 }
 
 const Scene& Tracer::scene() const { return impl_->scene; }

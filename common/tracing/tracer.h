@@ -49,7 +49,6 @@ enum class Isa : uint8_t { automatic, avx2, avx512 };
 
 struct RayLog;      // ray_log.h
 struct RayAnswers;  // ray_changes.h
-class Part;         // part.h
 
 class Tracer {
  public:
@@ -98,8 +97,6 @@ class Tracer {
   // Keeps every ray in `log` until called with null. For measurements, with one tracing thread.
   void logTo(RayLog* log) { log_ = log; }
 
-  // The hierarchy that shows an instance to rays; null for a hidden one.
-  std::shared_ptr<const Part> partOf(uint32_t instance) const;
   // What decides about the answers of single rays, to be compared with that of other edits.
   std::shared_ptr<const RayAnswers> answers() const;
 

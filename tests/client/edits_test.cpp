@@ -3,6 +3,8 @@
 // leaves no choice.
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "client/render_job.h"
 #include "common/scene/methods.h"
 #include "tests/scene/random_edits.h"
@@ -21,15 +23,21 @@ Settings smallPicture(const Scene& scene, Method method) {
   return s;
 }
 
-// All tasks of a frame, as they would travel.
-std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene, Method method) {
-  RenderJob job(scene, 1, smallPicture(*scene->scene, method), {}, 1);
+// All tasks of a frame, as they would travel. `state`: the version of `pages`; 0: without a state.
+std::vector<Bytes> render(RenderJob& job, uint32_t state, const StatePages& pages) {
   FrameKey key;
-  key.photonRadius = 0.05f;
+  key.photonRadius = 0.05f, key.state = state;
   std::vector<Bytes> tiles;
   for (uint32_t phase = 0; phase < 9; ++phase)
-    tiles.push_back(job.run(key, {0, phase, 0}, 1, 1, 0, [] { return Time(); }).result.encoded);
+    tiles.push_back(job.run(
+                           key, {0, phase, 0}, 1, 1, 0, [] { return Time(); }, pages)
+                        .result.encoded);
   return tiles;
+}
+
+std::vector<Bytes> render(const std::shared_ptr<const TracedScene>& scene, Method method) {
+  RenderJob job(scene, 1, smallPicture(*scene->scene, method), {}, 1);
+  return render(job, 0, {});
 }
 
 TEST(Edits, AThousandFollowedOrTakenAtOnceGiveTheSameBytes) {
@@ -77,6 +85,37 @@ TEST(Edits, AGestureFollowedOrTakenAtOnceGivesTheSameBytes) {
   for (const MethodFacts& by : allMethods()) {
     EXPECT_EQ(render(followed, by.method), render(inTheMiddle, by.method)) << by.name;
     EXPECT_NE(render(followed, by.method), render(atRest, by.method)) << by.name;
+  }
+}
+
+// Two gestures with rest between them, one job after another. Who comes late has the same light.
+TEST(Edits, AStateInGesturesIsTheSameForWhoComesLate) {
+  const auto read = std::make_shared<const Scene>(tableRoomWithSpot());
+  const TracedScene late(std::make_shared<const Scene>(*read), Isa::automatic);
+  for (const MethodFacts& by : allMethods()) {
+    if (by.state == nullptr) continue;
+    const Settings settings = smallPicture(*read, by.method);
+    RandomEdits random(*read, 8);
+    SceneEdit all, settled;
+    auto scene = std::make_shared<const TracedScene>(read, Isa::automatic);
+    auto job = std::make_unique<RenderJob>(scene, 1, settings, Delivery{}, 1);
+    const std::array<StatePages, 2> pages = {job->stateAtRest(0), job->stateAtRest(1)};
+    std::shared_ptr<const TracedScene> begun;
+    for (int step = 0; step < 8; ++step) {
+      const bool rests = step % 4 == 3;
+      if (step % 4 == 0) begun = scene, settled = all;
+      merge(all, random.next());
+      scene = std::make_shared<const TracedScene>(*scene, all, rests ? nullptr : begun);
+      job = std::make_unique<RenderJob>(scene, 1, settings, Delivery{}, 1, job.get());
+      const uint32_t version = 1 + step % 2;
+      const std::vector<Bytes> followed = render(*job, version, pages[version - 1]);
+      if (step % 4 == 0) continue;
+      const auto lateBegun = rests ? nullptr : std::make_shared<const TracedScene>(late, settled);
+      const auto lateScene =
+          std::make_shared<const TracedScene>(rests ? late : *lateBegun, all, lateBegun);
+      RenderJob fresh(lateScene, 1, settings, Delivery{}, 1);
+      EXPECT_EQ(followed, render(fresh, version, pages[version - 1])) << by.name << ", " << step;
+    }
   }
 }
 

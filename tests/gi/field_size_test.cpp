@@ -64,7 +64,7 @@ TEST(FieldSize, IsToldBeforeWithinAFewPercent) {
                                    nullptr);
       const size_t lamps = direct == FieldDirect::field ? 1 : 0;
       const auto bytes = static_cast<double>(made.method.bytes());
-      EXPECT_NEAR(fieldBytes(made.method.field().grid(), {scene, elements, lamps}), bytes,
+      EXPECT_NEAR(fieldBytes(made.method.field().grid(), {scene, scene.bounds, elements, lamps}), bytes,
                   0.05 * bytes);
     }
 }

@@ -117,6 +117,19 @@ TEST(SceneEdit, BoundsStayAndWhatHoldsTheSceneGrowsInSteps) {
   EXPECT_LE(steps, 11) << "1.25^11 is more than ten times as wide";
 }
 
+TEST(SceneEdit, CornersOfTheBoundsLieInTheCover) {
+  for (const float size : {0.1f, 1.0f, 3.7f, 1234.5f}) {
+    Scene scene = twoSquares();
+    scene.bounds = {Vec3(-size), Vec3(size)};
+    scene.meshes[0].positions = {Vec3(-size), Vec3(size), Vec3(size, size, -size)};
+    SceneEdit edit;
+    edit.objects.push_back({.node = 3, .motion = DMat4(1)});
+    edit.objects.push_back({.node = scene.instances[0].node, .motion = DMat4(1)});
+    scene.instances[0].toWorld = scene.instances[1].toWorld = DMat4(1);
+    EXPECT_EQ(coverRadius(edited(scene, edit)), scene.bounds.radius()) << size;
+  }
+}
+
 TEST(SceneEdit, RefusesWhatIsNotThereOrCannotBe) {
   const Scene scene = twoSquares();
   SceneEdit edit;

@@ -28,8 +28,8 @@ namespace ninefold {
 
 class ElementLight : public MethodState {
  public:
-  // `tracer`: of the StillScene that the elements are of; likewise below. `before`: of other pages or another state of
-  // the same scene, or null: it saves work alone.
+  // `tracer`: of the StillScene that the elements are of; likewise below.
+  // `before`: of other pages, or of another state of the same scene; or null. It saves work alone.
   ElementLight(const Tracer& tracer, const StatePages& pages, const PhotonRows& rows,
                std::shared_ptr<const SurfaceNumbers> surfaces,
                std::shared_ptr<const SceneElements> elements, ElementRule rule,

@@ -12,9 +12,15 @@ uint16_t placeOf(float barycentric) {
 
 }  // namespace
 
-float fluxOfLamps(const Emitters& emitters) {
+float fluxOfLamps(const Transport& t) {
+  // Emitters reckon with a beam of the scene's radius.
+  const double widening = double{coverRadius(t.scene)} / double{t.radius};
   glm::dvec3 sum(0);
-  for (size_t i = 0; i < emitters.size(); ++i) sum += glm::dvec3(emitters[i].flux);
+  for (size_t i = 0; i < t.emitters.size(); ++i) {
+    const EmitterKind kind = t.emitters[i].kind;
+    const bool isBeam = kind == EmitterKind::directional || kind == EmitterKind::environment;
+    sum += (isBeam ? widening * widening : 1) * glm::dvec3(t.emitters[i].flux);
+  }
   return static_cast<float>(std::max({sum.x, sum.y, sum.z}));
 }
 

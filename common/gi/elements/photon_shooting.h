@@ -24,7 +24,7 @@
 namespace ninefold {
 
 // Of all lamps as they are now, largest component [W]: PhotonRow::lampFlux.
-float fluxOfLamps(const Emitters& emitters);
+float fluxOfLamps(const Transport& transport);
 
 // One stream of lamps, and its numbers.
 struct PhotonStream {

@@ -2,7 +2,6 @@
 
 #include "common/base/error.h"
 #include "common/scene/world.h"
-#include "common/tracing/ray_changes.h"
 
 namespace ninefold {
 namespace {
@@ -16,14 +15,15 @@ Bounds boxOf(const Mesh& mesh, const DMat4& toWorld) {
 }  // namespace
 
 SceneElements::SceneElements(const StillScene& still, Metres size, const SceneElements* before)
-    : meshes_(still.tracer().scene().meshes), size_(size) {
+    : meshes_(still.tracer().scene().meshes), size_(size), answers_(still.tracer().answers()) {
   const size_t count = still.tracer().scene().instances.size();
   if (before != nullptr && (before->instances() != count || before->size_ != size))
     before = nullptr;
+  const auto changed = before == nullptr ? std::nullopt : rayChanges(*before->answers_, *answers_);
+  if (!changed) before = nullptr;
   makeBlocks(still, before);
-  const std::vector<Bounds> changed =
-      before == nullptr ? std::vector<Bounds>{} : boxesOfChanges(*before);
-  for (uint32_t i = 0; i < count; ++i) instances_[i].parts = partsOf(still, i, before, changed);
+  for (uint32_t i = 0; i < count; ++i)
+    instances_[i].parts = partsOf(still, i, before, changed.value_or(std::vector<Bounds>()));
 }
 
 std::shared_ptr<const NodeParts> SceneElements::partsOf(const StillScene& still, uint32_t instance,
@@ -31,11 +31,10 @@ std::shared_ptr<const NodeParts> SceneElements::partsOf(const StillScene& still,
                                                         const std::vector<Bounds>& changed) const {
   const InstanceElements& its = instances_[instance];
   const InstanceElements* was = before == nullptr ? nullptr : &before->instances_[instance];
-  const bool stands = its.shownBy != nullptr;
-  if (was != nullptr && (was->block != its.block || (was->shownBy != nullptr) != stands))
+  if (was != nullptr && (was->block != its.block || before->stands(instance) != stands(instance)))
     was = nullptr;
   const Tracer& tracer = still.tracer();
-  if (!stands)
+  if (!stands(instance))
     return was != nullptr ? was->parts
                           : std::make_shared<const NodeParts>(tracer, instance, *its.block);
   if (was != nullptr && was->toWorld != its.toWorld) was = nullptr;
@@ -58,7 +57,7 @@ void SceneElements::makeBlocks(const StillScene& still, const SceneElements* bef
     instances_.push_back({instance.toWorld, boxOf(mesh, instance.toWorld),
                           isKept ? before->instances_[i].block
                                  : std::make_shared<const ElementBlock>(scene, mesh, linear, size_),
-                          still.tracer().partOf(i), nullptr});
+                          nullptr});
     nodes += instances_[i].block->nodes(), points += instances_[i].block->points();
     if (nodes > ElementBlock::kMostNodes || points > ElementBlock::kMostPoints)
       fail(
@@ -68,33 +67,15 @@ void SceneElements::makeBlocks(const StillScene& still, const SceneElements* bef
   }
 }
 
-// Where something stood that moved, was bent, or is met by other rays of its own, and where it
-// stands.
-std::vector<Bounds> SceneElements::boxesOfChanges(const SceneElements& before) const {
-  std::vector<Bounds> boxes;
-  for (size_t i = 0; i < instances_.size(); ++i) {
-    const InstanceElements &is = instances_[i], &was = before.instances_[i];
-    if (is.toWorld == was.toWorld && is.block == was.block &&
-        answerAlike(is.shownBy.get(), was.shownBy.get()))
-      continue;
-    if (was.shownBy != nullptr) boxes.push_back(was.box);
-    if (is.shownBy != nullptr) boxes.push_back(is.box);
-  }
-  return boxes;
-}
-
 bool SceneElements::isOf(const StillScene& still, Metres size) const {
   const Scene& scene = still.tracer().scene();
   if (scene.instances.size() != instances() || size_ != size) return false;
   for (uint32_t i = 0; i < instances(); ++i) {
-    const Instance& instance = scene.instances[i];
-    const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-    const InstanceElements& its = instances_[i];
-    if (its.toWorld != instance.toWorld || !its.block->isOf(mesh, still.linearOf(i), size) ||
-        !answerAlike(its.shownBy.get(), still.tracer().partOf(i).get()))
-      return false;
+    const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+    if (!instances_[i].block->isOf(mesh, still.linearOf(i), size)) return false;
   }
-  return true;
+  const auto changed = rayChanges(*answers_, *still.tracer().answers());
+  return changed && changed->empty();
 }
 
 std::shared_ptr<const SceneElements> sceneElements(

@@ -1,8 +1,8 @@
 // scene_elements.h: the mesh elements of all instances, and what stands on them: a function of the
 // scene as it is now, of what moves in a gesture (still_scene.h), and of h.
 //
-// After an edit only those elements are looked at anew that the box of something meets which moved,
-// where it was or where it is.
+// After an edit only those elements are looked at anew where rays may have other answers
+// (tracing/ray_changes.h).
 //
 // Threads: const after construction.   Owner: shares the scene's meshes.
 // Errors:  throws Error if there are too many elements.
@@ -13,6 +13,7 @@
 
 #include "common/gi/elements/node_parts.h"
 #include "common/gi/elements/still_scene.h"
+#include "common/tracing/ray_changes.h"
 
 namespace ninefold {
 
@@ -45,17 +46,17 @@ class SceneElements {
     DMat4 toWorld;
     Bounds box;  // in the scene
     std::shared_ptr<const ElementBlock> block;
-    std::shared_ptr<const Part> shownBy;  // null: it stands nowhere
     std::shared_ptr<const NodeParts> parts;
   };
   void makeBlocks(const StillScene& still, const SceneElements* before);
   std::shared_ptr<const NodeParts> partsOf(const StillScene& still, uint32_t instance,
                                            const SceneElements* before,
                                            const std::vector<Bounds>& changed) const;
-  std::vector<Bounds> boxesOfChanges(const SceneElements& before) const;
+  bool stands(uint32_t instance) const { return answers_->shows[instance] != nullptr; }
 
   SharedList<Mesh> meshes_;  // so that no other mesh takes the place of one
   Metres size_;
+  std::shared_ptr<const RayAnswers> answers_;  // that parts were looked for with
   std::vector<InstanceElements> instances_;
 };
 

@@ -18,7 +18,7 @@ namespace ninefold {
 // Of what edits can change about a material.
 uint64_t materialStamp(const Material& material);
 
-// Of how photons start: lamps, their shares of the photons, and the bounds of the scene.
+// Of how photons start: lamps, their shares of the photons, and the ball around the scene.
 // minor: the lamps whose direct light these photons bring.
 uint64_t lampsStamp(const Transport& transport, const MinorLamps& minor);
 

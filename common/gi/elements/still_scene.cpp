@@ -38,7 +38,7 @@ DMat3 StillScene::linearOf(size_t instance) const {
   const DMat3 now(all_.scene().instances[instance].toWorld);
   if (begun_ == nullptr) return now;
   const DMat3 then(begun_->instances[instance].toWorld);
-  return isTurned(then, now) ? then : now;
+  return then != now && isTurned(then, now) ? then : now;
 }
 
 }  // namespace ninefold

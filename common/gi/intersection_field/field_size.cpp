@@ -66,7 +66,7 @@ Lines fittingLines(const FieldPlan& plan, const Settings& s, double bytes) {
     int distances = std::max(static_cast<int>(s.fieldDistances * shrink), kFewestDistances);
     while (std::gcd(directions, distances) != 1) --distances;
     if (distances < kFewestDistances) directions = kFewestDirections, distances = kFewestDistances;
-    if (fieldBytes(LineGrid(coverBox(plan.scene), directions, distances), plan) <= most)
+    if (fieldBytes(LineGrid(plan.box, directions, distances), plan) <= most)
       return {directions, distances};
   }
   return {0, 0};

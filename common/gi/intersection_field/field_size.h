@@ -21,6 +21,7 @@ namespace ninefold {
 // What a field is made for.
 struct FieldPlan {
   const Scene& scene;
+  const Bounds box;  // that the lines pass through
   const SceneElements& elements;
   size_t lamps = 0;                   // that have maps
   const LineField* before = nullptr;  // of the scene before an edit

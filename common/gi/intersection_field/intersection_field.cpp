@@ -20,11 +20,13 @@ bool lightsDirectly(const Settings& settings) {
   return settings.fieldDirect == FieldDirect::field && settings.directVpls > 0;
 }
 
-// The grid, once its lines are known to have room.
-LineGrid checked(const LineGrid& grid, const Transport& t, const SceneElements& elements,
-                 const LineField* before) {
+// The grid around `held`, once its lines are known to have room.
+LineGrid checkedGrid(const Transport& t, const Scene& held, const SceneElements& elements,
+                     const LineField* before) {
+  const Bounds box = coverBox(held);
+  const LineGrid grid(box, t.settings.fieldDirections, t.settings.fieldDistances);
   const size_t lamps = lightsDirectly(t.settings) ? areaLamps(t).size() : 0;
-  checkFieldSize(grid, {t.scene, elements, lamps, before}, t.settings);
+  checkFieldSize(grid, {t.scene, box, elements, lamps, before}, t.settings);
   return grid;
 }
 
@@ -32,35 +34,39 @@ LineGrid checked(const LineGrid& grid, const Transport& t, const SceneElements& 
 
 IntersectionField::IntersectionField(const Transport& transport, const IntersectionField* begun,
                                      const IntersectionField* before)
-    : IntersectionField(
-          transport,
-          begun != nullptr ? begun->field_.grid()
-                           : LineGrid(coverBox(transport.scene), transport.settings.fieldDirections,
-                                      transport.settings.fieldDistances),
-          begun, begun != nullptr ? begun : before, before != nullptr ? before : begun) {}
+    : IntersectionField(transport, begun, knownOf(begun, before)) {}
 
-IntersectionField::IntersectionField(const Transport& transport, const LineGrid& grid,
-                                     const IntersectionField* begun, const IntersectionField* known,
-                                     const IntersectionField* latest)
+// In a gesture lines go on from its beginning, elements from its latest frame.
+IntersectionField::Known IntersectionField::knownOf(const IntersectionField* begun,
+                                                    const IntersectionField* before) {
+  if (begun == nullptr) return {before, before};
+  const bool goesOn = before != nullptr && before->still_.begun() == &begun->t_.scene;
+  return {begun, goesOn ? before : begun};
+}
+
+IntersectionField::IntersectionField(const Transport& transport, const IntersectionField* begun,
+                                     const Known& known)
     : LayeredMethod(transport),
       rows_(fieldRows(transport.settings), kPhotonsOfRow),
       surfaces_(std::make_shared<const SurfaceNumbers>(transport.scene)),
       stamp_(sceneStamp(transport, {})),
-      lampFlux_(fluxOfLamps(transport.emitters)),
+      lampFlux_(fluxOfLamps(transport)),
       order_(rows_, stamp_),
       still_(transport.tracer, begun != nullptr ? &begun->t_.scene : nullptr),
       elements_(sceneElements(still_, transport.settings.elementSize * transport.radius,
-                              latest == nullptr ? nullptr : latest->elements_)),
-      field_(checked(grid, transport, *elements_, known == nullptr ? nullptr : &known->field_),
-             transport.scene, known == nullptr ? nullptr : &known->field_),
-      lines_(field_, transport.scene, *elements_, known == nullptr ? nullptr : &known->field_,
-             known == nullptr ? nullptr : known->elements_.get(),
-             known == nullptr ? nullptr : &known->lines_),
-      lamps_(
-          lightsDirectly(transport.settings)
-              ? std::make_unique<const LampVisibility>(
-                    transport, field_, *elements_, known == nullptr ? nullptr : known->lamps_.get())
-              : nullptr) {}
+                              known.elements == nullptr ? nullptr : known.elements->elements_)),
+      field_(checkedGrid(transport, begun != nullptr ? begun->t_.scene : transport.scene,
+                         *elements_, known.lines == nullptr ? nullptr : &known.lines->field_),
+             transport.scene, known.lines == nullptr ? nullptr : &known.lines->field_),
+      lines_(field_, transport.scene, *elements_,
+             known.lines == nullptr ? nullptr : &known.lines->field_,
+             known.lines == nullptr ? nullptr : known.lines->elements_.get(),
+             known.lines == nullptr ? nullptr : &known.lines->lines_),
+      lamps_(lightsDirectly(transport.settings)
+                 ? std::make_unique<const LampVisibility>(
+                       transport, field_, *elements_,
+                       known.lines == nullptr ? nullptr : known.lines->lamps_.get())
+                 : nullptr) {}
 
 size_t IntersectionField::bytes() const {
   return field_.bytes() + lines_.bytes() + (lamps_ == nullptr ? 0 : lamps_->bytes());

@@ -66,10 +66,12 @@ class IntersectionField final : public LayeredMethod {
              RayCounts& rays) const override;
 
  private:
-  // `known`, `latest`: what it may use again, of lines and of elements.
-  IntersectionField(const Transport& transport, const LineGrid& grid,
-                    const IntersectionField* begun, const IntersectionField* known,
-                    const IntersectionField* latest);
+  // What may be used again: lines and their light, and elements. Null: nothing.
+  struct Known {
+    const IntersectionField *lines, *elements;
+  };
+  static Known knownOf(const IntersectionField* begun, const IntersectionField* before);
+  IntersectionField(const Transport& transport, const IntersectionField* begun, const Known& known);
   PhotonRow shoot(uint32_t row, uint32_t randomization, uint32_t version, RayCounts& rays) const;
 
   const PhotonRows rows_;

@@ -5,9 +5,9 @@
 //   point        uniform directions        flux = 4 pi I / P
 //   spot         uniform in the cone       flux = 2 pi (1-cos outer) I(omega) / P
 //   goniometric  I(omega)/(I Omega)        flux = I Omega / P, see profile_sampling.h
-//   directional  disk of the scene's R     flux = pi R^2 E0 / P
-//   environment  directions, then disk     flux = pi R^2 L(w) / (q(w) P), q as in direct_light.h
-// P: probability of the emitter in its stream (light_streams.h). A sample of an emitter that is off
+//   directional  disk of radius r          flux = pi r^2 E0 / P
+//   environment  directions, then disk     flux = pi r^2 L(w) / (q(w) P), q as in direct_light.h
+// r: a little more than that of the ball around the scene (cover.h). P: probability of the emitter in its stream (light_streams.h). A sample of an emitter that is off
 // now carries nothing.
 //
 // Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q.

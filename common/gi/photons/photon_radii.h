@@ -12,7 +12,7 @@
 // Then j falls by up to 2 where the lamp's photons do not lie evenly within r_j (photon_spread.h).
 //
 //   r, r_first   radius of this frame and of the first frame                                   [m]
-//   R            radius of the scene's bounds; R and E_0 as a gesture found them (transport.h)  [m]
+//   R            radius of the scene's bounds. E_0 is as a gesture found it (transport.h)      [m]
 //
 // j depends on the first radii alone, so all r_j shrink with r: the estimate stays consistent, and
 // blur goes with r^2 (image/radius_bias.h).

@@ -53,7 +53,7 @@ Selective::Selective(const Transport& transport, const Selective* begun, const S
       minor_(transport.emitters, transport.settings.minorLamps,
              begun != nullptr ? &begun->minor_ : nullptr),
       stamp_(sceneStamp(transport, minor_)),
-      lampFlux_(fluxOfLamps(transport.emitters)),
+      lampFlux_(fluxOfLamps(transport)),
       masking_(begun != nullptr
                    ? begun->masking_
                    : std::make_shared<const VisualMasking>(

@@ -29,7 +29,7 @@
 // Source:  Dmitriev, Brabec, Myszkowski and Seidel 2002.
 // Proved:  tests/gi (all tests over the table of methods; selective_test.cpp).
 // Fails:   light that has bounced is blurred over an element, on its side of what stands there
-//          (node_parts.h).
+//          (node_parts.h), or, in a gesture, of what stands still there (still_scene.h).
 // Threads, owner, errors: as method.h says.
 #pragma once
 
