@@ -60,12 +60,12 @@ TEST(FieldSize, IsToldBeforeWithinAFewPercent) {
     for (const auto& [directions, distances] : {std::pair(9, 16), std::pair(19, 32)}) {
       const Settings settings = fieldOf(directions, distances, direct);
       const Made made(scene, settings);
-      const SceneElements elements(made.tracer, settings.elementSize * made.transport.radius,
-                                   nullptr);
+      const SceneElements elements(StillScene(made.tracer, nullptr),
+                                   settings.elementSize * made.transport.radius, nullptr);
       const size_t lamps = direct == FieldDirect::field ? 1 : 0;
       const auto bytes = static_cast<double>(made.method.bytes());
-      EXPECT_NEAR(fieldBytes(made.method.field().grid(), {scene, scene.bounds, elements, lamps}), bytes,
-                  0.05 * bytes);
+      EXPECT_NEAR(fieldBytes(made.method.field().grid(), {scene, scene.bounds, elements, lamps}),
+                  bytes, 0.05 * bytes);
     }
 }
 

@@ -23,7 +23,7 @@ struct Made {
         tracer(scene, Isa::automatic),
         settings(settingsOf()),
         transport(tracer, settings),
-        elements(tracer, settings.elementSize * transport.radius, nullptr),
+        elements(StillScene(tracer, nullptr), settings.elementSize * transport.radius, nullptr),
         field(LineGrid(scene.bounds, 9, 16), scene, nullptr),
         lamps(transport, field, elements) {}
 

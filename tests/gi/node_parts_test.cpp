@@ -49,7 +49,7 @@ TEST(NodeParts, AreTheFacesOfNodesWhereNothingStands) {
     b.box(grey, Vec3(-0.4f, 0.1f, -0.4f), Vec3(0.4f, 0.5f, 0.4f), false);  // floats
   });
   const Tracer tracer(scene, Isa::automatic);
-  const SceneElements elements(tracer, kSize, nullptr);
+  const SceneElements elements(StillScene(tracer, nullptr), kSize, nullptr);
   EXPECT_EQ(elements.parts(0).size(), 2 * elements.block(0).nodes());
   for (uint32_t n = 0; n < elements.block(0).nodes(); ++n)
     for (uint32_t face = 0; face < 2; ++face)
@@ -69,7 +69,7 @@ TEST(NodeParts, AreOnOneSideOfAWall) {
             b.quad(grey, (shift + side) * across - 2.0f * along, 4.0f * along, Vec3(0, 1, 0));
         });
         const Tracer tracer(scene, Isa::automatic);
-        const SceneElements elements(tracer, kSize, nullptr);
+        const SceneElements elements(StillScene(tracer, nullptr), kSize, nullptr);
         const Seen seen = lookAtFloor(tracer, elements);
         std::vector<std::array<double, 2>> weightOf(elements.parts(0).size(), {0, 0});
         for (size_t i = 0; i < seen.points.size(); ++i) {
@@ -94,7 +94,7 @@ TEST(NodeParts, LeaveOutWhatABoxCovers) {
     const Scene scene =
         floorWith([&](SceneBuilder& b, int grey) { b.box(grey, low, high, false); });
     const Tracer tracer(scene, Isa::automatic);
-    const SceneElements elements(tracer, kSize, nullptr);
+    const SceneElements elements(StillScene(tracer, nullptr), kSize, nullptr);
     const Seen seen = lookAtFloor(tracer, elements, 300);
     std::vector<double> light(elements.parts(0).size(), 0);
     const double share = 4.0 / static_cast<double>(seen.points.size());

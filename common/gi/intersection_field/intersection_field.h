@@ -24,9 +24,10 @@
 // Source:  Ren, Hua, Chen and Bao, "Intersection Fields for Interactive Global Illumination", 2005.
 // Proved:  tests/gi (all tests over the table of methods; intersection_field_test.cpp).
 // Fails:   light that has bounced is blurred over an element, on its side of what stands there
-//          (node_parts.h). What is smaller than the lines lie apart is missed: its shadows, and gaps
-//          through which light comes. By field-direct field, what stands on an element darkens the
-//          light straight from lamps, too.
+//          (node_parts.h), or, in a gesture, of what stands still there (still_scene.h). What is
+//          smaller than the lines lie apart is missed: its shadows, and gaps through which light
+//          comes. By field-direct field, what stands on an element darkens the light straight from
+//          lamps, too.
 // Threads, owner, errors: as method.h says.
 #pragma once
 

@@ -7,8 +7,8 @@
 //   goniometric  I(omega)/(I Omega)        flux = I Omega / P, see profile_sampling.h
 //   directional  disk of radius r          flux = pi r^2 E0 / P
 //   environment  directions, then disk     flux = pi r^2 L(w) / (q(w) P), q as in direct_light.h
-// r: a little more than that of the ball around the scene (cover.h). P: probability of the emitter in its stream (light_streams.h). A sample of an emitter that is off
-// now carries nothing.
+// r: a little more than that of the ball around the scene (cover.h). P: probability of the emitter
+// in its stream (light_streams.h). A sample of an emitter that is off now carries nothing.
 //
 // Aimed: the direction (for parallel light: the place on the disk) comes from a mixture q.
 //   flux = J(omega) / q(omega),  J = emitted W/sr (parallel light: W/m^2) divided by P
