@@ -97,7 +97,7 @@ void checkFieldSize(const LineGrid& grid, const FieldPlan& plan, const Settings&
   const double most = s.maxFieldMemory * 0x1p20;
   if (fieldBytes(grid, plan) < most / 2) return;
   // All clients decide alike, whatever they know already.
-  const FieldPlan fresh{plan.scene, plan.elements, plan.lamps};
+  const FieldPlan fresh{plan.scene, plan.box, plan.elements, plan.lamps};
   const double bytes = fieldBytes(grid, fresh);
   if (bytes <= most) return;
   const std::string refusal = fmt::format(
