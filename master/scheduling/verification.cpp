@@ -50,7 +50,7 @@ void Verification::accepted(ClientId client, const HeldTask& task,
                             const std::optional<Digest>& digest,
                             const std::vector<ClientId>& copies) {
   if (!isOn()) return;
-  givers_.at(client).latest = ++order_;
+  givers_.at(client).latest[task.isStep] = ++order_;
   if (!isChosen(task.task)) return;
   NINEFOLD_CHECK(digest.has_value());
   Check check{task, {{client, *digest, order_}}};
@@ -73,7 +73,7 @@ void Verification::answered(ClientId client, const TaskId& task, const Digest& d
   NINEFOLD_CHECK(found != checks_.end() && found->second.holder == client);
   Check& check = found->second;
   check.holder.reset();
-  givers_.at(client).latest = ++order_;
+  givers_.at(client).latest[check.task.isStep] = ++order_;
   check.opinions.push_back({client, digest, order_});
   judge(found);
 }
@@ -87,8 +87,9 @@ void Verification::judge(Checks::iterator found) {
   ++counts_.checked;
   for (const Opinion& opinion : check.opinions) {
     Giver& giver = givers_.at(opinion.client);
+    uint64_t& agreed = giver.agreed[check.task.isStep];
     if (agrees(opinion))
-      giver.agreed = std::max(giver.agreed, opinion.order);
+      agreed = std::max(agreed, opinion.order);
     else
       ++counts_.wrong, wrong_.push_back({opinion.client, check.task});
   }
@@ -164,7 +165,9 @@ bool Verification::isTrusted() const {
   };
   return std::ranges::all_of(mark_->latest, [&](const auto& latest) {
     const Giver& giver = givers_.at(latest.first);
-    return giver.agreed >= latest.second || !giver.present || isAlone(latest.first, giver);
+    const auto& [tasks, units] = latest.second;
+    const bool isVouchedFor = giver.agreed[0] >= tasks && giver.agreed[1] >= units;
+    return isVouchedFor || !giver.present || isAlone(latest.first, giver);
   });
 }
 

@@ -7,8 +7,10 @@
 //   dispute      all opinions so far differ: one more client is asked, until two agree
 //
 // Every result of a client has a place in the order in which results came. An agreement vouches for
-// all that the client gave up to then. A *mark* is a moment that somebody wants to come back to: it
-// is trusted once all clients have an agreement later than it, and no older opinion is open.
+// all of its kind (tasks of frames, units of steps) that the client gave up to then: who errs in
+// units may be right in all tasks. A *mark* is a moment that somebody wants to come back to: it is
+// trusted once all clients have agreements later than what they gave before it, and no older
+// opinion is open.
 // Nobody vouches for a client that is alone in its class, or has left: it counts as trusted as soon
 // as none of its opinions is open.
 //
@@ -20,6 +22,7 @@
 // Proved: tests/master/verification_test.cpp, tests/cluster/verify_test.py.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -86,10 +89,11 @@ class Verification {
     std::optional<ClientId> holder = std::nullopt;
     bool isDispute() const { return opinions.size() > 1; }
   };
+  using Orders = std::array<uint64_t, 2>;  // of results among all: of a task's, of a unit's
   struct Giver {
     std::string pixelClass;
     bool present = true;
-    uint64_t latest = 0, agreed = 0;  // order of its latest result; of the latest that agreed
+    Orders latest{}, agreed{};  // of its latest results; of the latest that agreed
   };
   using Checks = std::map<TaskId, Check>;
 
@@ -105,7 +109,7 @@ class Verification {
   std::map<ClientId, Giver> givers_;
   struct Mark {
     uint64_t order = 0;
-    std::map<ClientId, uint64_t> latest;
+    std::map<ClientId, Orders> latest;
   };
   std::optional<Mark> mark_;
   std::vector<WrongNote> wrong_;

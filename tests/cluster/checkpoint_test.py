@@ -76,17 +76,18 @@ class Checkpoint(ClusterTest):
         return re.sub(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d", b"", picture.read_bytes())
 
     def test_an_ended_run_keeps_all_whole_frames_and_a_finished_one_needs_no_client(self):
-        calm = self.render("--local-clients", 2, frames=30)
-        master = self.keeps(frames=30)
-        master.waits_for(r"progress: \d+% frame [2-9]")
+        frames = 400  # so many that the signal comes before the last one
+        calm = self.render("--local-clients", 2, frames=frames)
+        master = self.keeps(frames=frames)
+        master.waits_for(r"progress: \d+% frame [1-9]")
         self.send(master.process.pid, signal.SIGTERM)
         self.assertEqual(master.ends(), 143, master.text)
         so_far = json.loads(master.stats_file.read_text())
-        on = self.finish(self.keeps(frames=30))
+        on = self.finish(self.keeps(frames=frames))
         self.assertEqual(on["frames_before"], so_far["frames"])
         self.assertEqual(on["image_hash"], calm["image_hash"])
-        again = self.finish(self.keeps(frames=30))
-        self.assertEqual((again["frames_before"], again["fps"]), (30, 0))
+        again = self.finish(self.keeps(frames=frames))
+        self.assertEqual((again["frames_before"], again["fps"]), (frames, 0))
         self.assertEqual(again["image_hash"], calm["image_hash"])
 
     def test_another_command_is_refused_in_one_line(self):

@@ -83,6 +83,20 @@ TEST_F(VerificationTest, TwoThatAgreeVouchForAllBefore) {
   EXPECT_TRUE(wrong().empty());
 }
 
+// Who errs in units alone has many agreements, of tasks.
+TEST_F(VerificationTest, TasksDoNotVouchForUnits) {
+  join({1, 2});
+  books.accepted(1, taskOf(0, 0, true), digestOf(5), {});
+  books.drop(1, true);  // it is not checked
+  give(1, 1, 5);
+  books.mark();
+  ASSERT_TRUE(check(2, 5));
+  EXPECT_FALSE(books.isTrusted()) << "nobody looked at the unit";
+  books.accepted(1, taskOf(2, 0, true), digestOf(6), {});
+  ASSERT_TRUE(check(2, 6));
+  EXPECT_TRUE(books.isTrusted());
+}
+
 // A fault that comes and goes: client 1 is wrong in a twentieth of its results, client 2 checks and
 // client 3 settles. What stays wrong is what came before the last agreement, which nobody checked.
 // Of the wrong results each is the first that is checked with probability P, so that (1-P)/P come
