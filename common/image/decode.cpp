@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,13 @@ bool startsWith(std::span<const std::byte> file, std::string_view magic) {
 size_t bigEndian(std::span<const std::byte> file, size_t at, int bytes) {
   size_t value = 0;
   for (int i = 0; i < bytes; ++i)
+    value = value << 8 | std::to_integer<size_t>(file[at + static_cast<size_t>(i)]);
+  return value;
+}
+
+size_t littleEndian(std::span<const std::byte> file, size_t at, int bytes) {
+  size_t value = 0;
+  for (int i = bytes - 1; i >= 0; --i)
     value = value << 8 | std::to_integer<size_t>(file[at + static_cast<size_t>(i)]);
   return value;
 }
@@ -110,10 +118,7 @@ const char* formatOf(std::span<const std::byte> file) {
   fail("not a PNG, JPEG, BMP or TGA image: convert it to PNG");
 }
 
-void checkSize(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits) {
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1)
-    fail("an image of {} x {} x {} pixels", spec.width, spec.height, spec.depth);
-  const auto width = static_cast<uint64_t>(spec.width), height = static_cast<uint64_t>(spec.height);
+void checkSize(uint64_t width, uint64_t height, size_t fileBytes, ImageLimits limits) {
   if (width > limits.side || height > limits.side)
     fail("{} x {} pixels, more than {} on a side: scale it down", width, height, limits.side);
   if (width * height > limits.texels)
@@ -121,7 +126,58 @@ void checkSize(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits
          width, height, limits.texels);
   if (width * height / kMaxPixelsPerByte > fileBytes)
     fail("truncated: {} bytes cannot hold {} x {} pixels", fileBytes, width, height);
+}
+
+void checkSize(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits) {
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1)
+    fail("an image of {} x {} x {} pixels", spec.width, spec.height, spec.depth);
+  checkSize(static_cast<uint64_t>(spec.width), static_cast<uint64_t>(spec.height), fileBytes,
+            limits);
   if (spec.nchannels < 1) fail("no channels");
+}
+
+// Of a frame header, the first segment that says a size.
+bool isJpegFrame(size_t marker) {
+  return marker >= 0xFFC0 && marker <= 0xFFCF && marker != 0xFFC4 && marker != 0xFFC8 &&
+         marker != 0xFFCC;
+}
+
+void checkJpegSize(std::span<const std::byte> file, ImageLimits limits) {
+  constexpr size_t kFrame = 2 + 2 + 1 + 2 + 2;  // marker, length, bits, height, width
+  for (size_t at = 2; file.size() - at >= kFrame;) {
+    const size_t marker = bigEndian(file, at, 2);
+    if (marker == 0xFFFF) {  // any number of these bytes may stand before a marker
+      ++at;
+      continue;
+    }
+    const bool hasLength = marker >= 0xFFC0 && (marker < 0xFFD0 || marker > 0xFFD9);
+    if (!hasLength) break;
+    if (isJpegFrame(marker))
+      return checkSize(bigEndian(file, at + 7, 2), bigEndian(file, at + 5, 2), file.size(), limits);
+    const size_t length = 2 + bigEndian(file, at + 2, 2);
+    if (length > file.size() - at) break;
+    at += length;
+  }
+  fail("damaged: the JPEG does not say its size");
+}
+
+void checkBmpSize(std::span<const std::byte> file, ImageLimits limits) {
+  constexpr size_t kInfo = 14, kSize = kInfo + 4, kEnd = kSize + 8, kOldInfo = 12;
+  if (file.size() < kEnd) fail("truncated: the BMP ends in its header");
+  if (littleEndian(file, kInfo, 4) == kOldInfo)
+    return checkSize(littleEndian(file, kSize, 2), littleEndian(file, kSize + 2, 2), file.size(),
+                     limits);
+  const auto height = static_cast<int32_t>(littleEndian(file, kSize + 4, 4));
+  const auto rows = static_cast<uint64_t>(std::abs(int64_t{height}));  // negative: from the top
+  checkSize(littleEndian(file, kSize, 4), rows, file.size(), limits);
+}
+
+// What OpenImageIO takes memory for all pixels of when it opens them: a BMP packed by runs, a JPEG
+// in several scans.
+void checkSizeBeforeOpening(std::string_view format, std::span<const std::byte> file,
+                            ImageLimits limits) {
+  if (format == "jpeg") checkJpegSize(file, limits);
+  if (format == "bmp") checkBmpSize(file, limits);
 }
 
 // OpenImageIO's messages may have several lines.
@@ -134,6 +190,7 @@ std::string firstLine(const std::string& text) {
 
 DecodedImage decodeImage(std::span<const std::byte> file, ImageLimits limits) {
   const char* format = formatOf(file);
+  checkSizeBeforeOpening(format, file, limits);
   BoundedReader memory(file.data(), file.size());
   OIIO::ImageSpec config, spec;
   config["oiio:UnassociatedAlpha"] = 1;

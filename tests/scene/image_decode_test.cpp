@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <span>
 
@@ -62,6 +63,32 @@ TEST(ImageDecode, HoldsBothLimits) {
               decode(file, {20, 199});
             }),
             "20 x 10 pixels are more than the 199 that are left for all textures: scale them down");
+}
+
+// The BMP was found by fuzzing: OpenImageIO takes 2 GB when it opens it.
+TEST(ImageDecode, HoldsLimitsBeforeMemoryIsTaken) {
+  Bytes bmp = {'B', 'M', 58,   0,    0,    0,    0, 0, 0, 0, 54, 0, 0,  0, 40, 0,
+               0,   0,   0x7A, 0x66, 0x69, 0x6C, 1, 0, 0, 0, 1,  0, 24, 0, 2};  // packed by runs
+  bmp.resize(58);
+  const Bytes jpeg = {0xFF, 0xD8, 0xFF, 0xFF, 0xFE, 0,    2,                    // a comment
+                      0xFF, 0xC2, 0,    11,   8,    0xFF, 0xDC, 0xFF, 0xDC, 1,  // 65500 x 65500
+                      1,    0x22, 0,                                            // grey
+                      0xFF, 0xDA, 0,    8,    1,    1,    0,    0,    0,    0, 0xFF, 0xD9};
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  EXPECT_EQ(errorOf([&] { decode(bmp); }),
+            "1818846842 x 1 pixels, more than 1000 on a side: scale it down");
+  EXPECT_EQ(errorOf([&] { decode(jpeg); }),
+            "65500 x 65500 pixels, more than 1000 on a side: scale it down");
+  getrusage(RUSAGE_SELF, &after);
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, 100 * 1024) << "kilobytes";
+}
+
+// What stands before a JPEG's size must be what the library takes it for, too.
+TEST(ImageDecode, FindsTheSizeOfAJpegOrRefuses) {
+  const Bytes hidden = {0xFF, 0xD8, 0xFF, 0x01, 0xFF, 0xC2, 0, 11,   8,   0xFF,
+                        0xDC, 0xFF, 0xDC, 1,    1,    0x22, 0, 0xFF, 0xD9};
+  EXPECT_EQ(errorOf([&] { decode(hidden); }), "damaged: the JPEG does not say its size");
 }
 
 TEST(ImageDecode, TruncatedFilesAreErrors) {
