@@ -146,11 +146,15 @@ void checkJpegSize(std::span<const std::byte> file, ImageLimits limits) {
   constexpr size_t kFrame = 2 + 2 + 1 + 2 + 2;  // marker, length, bits, height, width
   for (size_t at = 2; file.size() - at >= kFrame;) {
     const size_t marker = bigEndian(file, at, 2);
-    if (marker == 0xFFFF) {  // any number of these bytes may stand before a marker
+    if (marker <= 0xFF00 || marker == 0xFFFF) {  // libjpeg passes over what is no marker
       ++at;
       continue;
     }
-    const bool hasLength = marker >= 0xFFC0 && (marker < 0xFFD0 || marker > 0xFFD9);
+    if (marker == 0xFF01 || (marker >= 0xFFD0 && marker <= 0xFFD7)) {  // alone
+      at += 2;
+      continue;
+    }
+    const bool hasLength = marker >= 0xFFC0 && marker != 0xFFD8 && marker != 0xFFD9;
     if (!hasLength) break;
     if (isJpegFrame(marker))
       return checkSize(bigEndian(file, at + 7, 2), bigEndian(file, at + 5, 2), file.size(), limits);

@@ -85,10 +85,20 @@ TEST(ImageDecode, HoldsLimitsBeforeMemoryIsTaken) {
 }
 
 // What stands before a JPEG's size must be what the library takes it for, too.
+// Behind what libjpeg passes over: a marker without a segment, bytes that are no marker.
 TEST(ImageDecode, FindsTheSizeOfAJpegOrRefuses) {
-  const Bytes hidden = {0xFF, 0xD8, 0xFF, 0x01, 0xFF, 0xC2, 0, 11,   8,   0xFF,
-                        0xDC, 0xFF, 0xDC, 1,    1,    0x22, 0, 0xFF, 0xD9};
-  EXPECT_EQ(errorOf([&] { decode(hidden); }), "damaged: the JPEG does not say its size");
+  const Bytes frame = {0xFF, 0xC2, 0, 11, 8, 0xFF, 0xDC, 0xFF, 0xDC, 1, 1, 0x22, 0, 0xFF, 0xD9};
+  for (const Bytes& before :
+       {Bytes{0xFF, 0x01}, Bytes{0xFF, 0xFE, 0, 2, 7, 0xFF, 0}, Bytes{0xFF, 0xFF}}) {
+    Bytes file = {0xFF, 0xD8};
+    file.insert(file.end(), before.begin(), before.end());
+    file.insert(file.end(), frame.begin(), frame.end());
+    EXPECT_CONTAINS(errorOf([&] { decode(file); }), "65500 x 65500 pixels, more than");
+  }
+  EXPECT_EQ(errorOf([&] {
+              decode({0xFF, 0xD8, 0xFF, 0xFE, 0, 4, 1, 2, 0xFF, 0xD9});
+            }),
+            "damaged: the JPEG does not say its size");
 }
 
 TEST(ImageDecode, TruncatedFilesAreErrors) {

@@ -32,9 +32,9 @@ struct Transport {
   LightStreams streams;
   std::vector<PunctualLight> lights;  // the scene's, moved off surfaces that they lie in
   Needs needs;
-  Metres radius;   // R of the scene's bounds, by which b and photons go
-  float lampFlux;  // of all lamps, largest component [W]; of `begun` in a gesture
-  float bound;     // b = c/R^2 [1/m^2]
+  Metres radius;       // R of the scene's bounds, by which b and photons go
+  float lampFlux;      // of all lamps, largest component [W]; of `begun` in a gesture
+  float bound;         // b = c/R^2 [1/m^2]
   Metres farRounding;  // how far a ray across the scene may err at its end, see math/rounding.h
   std::vector<AimTarget> targets;
   std::vector<Bounds> straightBounds;  // of what lets light pass straight on; few
