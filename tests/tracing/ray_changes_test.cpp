@@ -88,7 +88,7 @@ TEST(RayChanges, AnswersAreTheSameAwayFromWhatGlassLeft) { expectTheSameAway(tru
 
 // As if they were not there, also where they share mask bits with others or lie on them.
 TEST(Tracer, HidesInstances) {
-  for (const uint64_t seed : seedsFrom(100, 20)) {
+  for (const uint64_t seed : seedsFrom(100, 119)) {
     const Repeatable repeatable(seed);
     Dice dice(seed);
     const int nodes = dice.below(2) == 0 ? 6 : 60;
