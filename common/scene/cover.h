@@ -6,7 +6,7 @@
 // sun, and no ray.
 //
 //   coverBox      low, high; of each axis by itself
-//   coverRadius   of a ball; R 1.25^i; it holds all but for kBallRounding of its radius   [m]
+//   coverRadius   of a ball: R 1.25^i. All lies within 1 + kBallRounding times it   [m]
 //
 // Proved:  tests/scene/edit_test.cpp.   Threads: plain values.   Errors: none.
 #pragma once

@@ -4,7 +4,7 @@
 // shares a hierarchy with it (part.h). It changes also on a triangle that has begun or ceased to
 // touch something transparent or bright, and on what has become so (contacts.h). So a ray that
 // meets none of their boxes, neither where they were nor where they are, has the answer that it
-// had. Else materials are for the caller to compare.
+// had. Other changes of materials are for the caller to compare.
 //
 // Proved:  tests/tracing/ray_changes_test.cpp.
 // Owner:   keeps geometry and hierarchies of its state alive.

@@ -63,7 +63,8 @@ class Deformation(Pictures):
     EVENT = {"object": "tall block", "twist": 60}
 
     def script(self, name, *events, frames=2):
-        return self.write(name, json.dumps({"seconds": 1, "rate": 2, "frames": frames, "events": list(events)}))
+        script = {"seconds": 1, "rate": 2, "frames": frames, "events": list(events)}
+        return self.write(name, json.dumps(script))
 
     def test_a_twisted_thing_is_the_same_picture_whoever_dies_and_joins(self):
         cornell = SCENES / "cornell.glb"

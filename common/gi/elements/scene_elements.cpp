@@ -1,18 +1,8 @@
 #include "common/gi/elements/scene_elements.h"
 
 #include "common/base/error.h"
-#include "common/scene/world.h"
 
 namespace ninefold {
-namespace {
-
-Bounds boxOf(const Mesh& mesh, const DMat4& toWorld) {
-  Bounds box;
-  for (const Vec3& p : mesh.positions) box.add(worldPoint(toWorld, p));
-  return box;
-}
-
-}  // namespace
 
 SceneElements::SceneElements(const StillScene& still, Metres size, const SceneElements* before)
     : meshes_(still.tracer().scene().meshes), size_(size), answers_(still.tracer().answers()) {
@@ -29,21 +19,22 @@ SceneElements::SceneElements(const StillScene& still, Metres size, const SceneEl
 std::shared_ptr<const NodeParts> SceneElements::partsOf(const StillScene& still, uint32_t instance,
                                                         const SceneElements* before,
                                                         const std::vector<Bounds>& changed) const {
-  const InstanceElements& its = instances_[instance];
-  const InstanceElements* was = before == nullptr ? nullptr : &before->instances_[instance];
-  if (was != nullptr && (was->block != its.block || before->stands(instance) != stands(instance)))
-    was = nullptr;
   const Tracer& tracer = still.tracer();
+  const bool isKept = before != nullptr && isSameBlock(*before, instance) &&
+                      before->stands(instance) == stands(instance) &&
+                      (!stands(instance) || isInPlace(*before, instance));
+  const auto was = isKept ? before->instances_[instance].parts : nullptr;
   if (!stands(instance))
-    return was != nullptr ? was->parts
-                          : std::make_shared<const NodeParts>(tracer, instance, *its.block);
-  if (was != nullptr && was->toWorld != its.toWorld) was = nullptr;
-  Bounds around = its.box;
+    return isKept ? was : std::make_shared<const NodeParts>(tracer, instance, block(instance));
+  Bounds around = boxOf(*answers_, instance);
   around.low -= NodeParts::reach(size_), around.high += NodeParts::reach(size_);
   const auto isNear = [&](const Bounds& box) { return meets(around, box); };
-  if (was != nullptr && std::ranges::none_of(changed, isNear)) return was->parts;
-  return std::make_shared<const NodeParts>(tracer, instance, *its.block,
-                                           was != nullptr ? was->parts.get() : nullptr, changed);
+  if (isKept && std::ranges::none_of(changed, isNear)) return was;
+  return std::make_shared<const NodeParts>(tracer, instance, block(instance), was.get(), changed);
+}
+
+bool SceneElements::isInPlace(const SceneElements& before, uint32_t instance) const {
+  return answers_->geometries[instance] == before.answers_->geometries[instance];
 }
 
 void SceneElements::makeBlocks(const StillScene& still, const SceneElements* before) {
@@ -54,8 +45,7 @@ void SceneElements::makeBlocks(const StillScene& still, const SceneElements* bef
     const Mesh& mesh = std::as_const(meshes_)[static_cast<size_t>(instance.mesh)];
     const DMat3 linear = still.linearOf(i);
     const bool isKept = before != nullptr && before->block(i).isOf(mesh, linear, size_);
-    instances_.push_back({instance.toWorld, boxOf(mesh, instance.toWorld),
-                          isKept ? before->instances_[i].block
+    instances_.push_back({isKept ? before->instances_[i].block
                                  : std::make_shared<const ElementBlock>(scene, mesh, linear, size_),
                           nullptr});
     nodes += instances_[i].block->nodes(), points += instances_[i].block->points();

@@ -43,8 +43,6 @@ class SceneElements {
 
  private:
   struct InstanceElements {
-    DMat4 toWorld;
-    Bounds box;  // in the scene
     std::shared_ptr<const ElementBlock> block;
     std::shared_ptr<const NodeParts> parts;
   };
@@ -52,6 +50,8 @@ class SceneElements {
   std::shared_ptr<const NodeParts> partsOf(const StillScene& still, uint32_t instance,
                                            const SceneElements* before,
                                            const std::vector<Bounds>& changed) const;
+  // Where it was, to the last bit.
+  bool isInPlace(const SceneElements& before, uint32_t instance) const;
   bool stands(uint32_t instance) const { return answers_->shows[instance] != nullptr; }
 
   SharedList<Mesh> meshes_;  // so that no other mesh takes the place of one

@@ -9,8 +9,8 @@
 // Moves: an instance whose place or shape is another than in the scene that the gesture began with.
 //
 // Fails:   in a gesture light leaks under what moves, and what it covers is darker around it, both
-//          within h; this ends with a step when the picture rests. What is scaled or bent has new
-//          elements in each frame.
+//          within h. When the picture rests, light there jumps to what is right. What is scaled or
+//          bent has new elements in each frame.
 // Proved:  tests/gi/element_test.cpp.
 // Threads: const after construction.   Owner: refers to the tracer.   Errors: none.
 #pragma once

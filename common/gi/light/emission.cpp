@@ -184,13 +184,19 @@ Beam chooseBeam(const Transport& t, const Source& s, Vec2 u23) {
   return {-from, t.emitters.environment(from) / (t.emitters.environmentPdf(from) * s.probability)};
 }
 
+Metres diskRadius(const Transport& t) {
+  constexpr float kWider = 1.0001f;
+  static_assert(kWider > 1 + kBallRounding);
+  return kWider * coverRadius(t.scene);
+}
+
 Vec3 beamOrigin(const Transport& t, const Beam& beam, Vec3 across) {
   const Vec3 centre = t.scene.bounds.centre();
   return centre + across - 1.01f * coverRadius(t.scene) * beam.w;
 }
 
 Particle beamParticle(const Transport& t, const Beam& beam, Vec2 u) {
-  const float radius = 1.0001f * coverRadius(t.scene);
+  const float radius = diskRadius(t);
   const Vec2 disk = radius * squareToDisk(u);
   const Basis frame(beam.w);
   const Vec3 across = disk.x * frame.tangent + disk.y * frame.bitangent;
@@ -204,7 +210,7 @@ Vec3 acrossBeam(const Transport& t, const Beam& beam, const Sphere& target) {
 }
 
 Particle aimBeam(const Transport& t, const Beam& beam, Vec2 u, float uTarget) {
-  const float radius = 1.0001f * coverRadius(t.scene);
+  const float radius = diskRadius(t);
   const Basis frame(beam.w);
   const float count = static_cast<float>(t.targets.size());
   const bool ordinary = uTarget < kOrdinaryShare;
