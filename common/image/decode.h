@@ -1,8 +1,5 @@
-// decode.h: compressed image files in memory to 8-bit texels, for textures.
-//
-// Only plain formats (PNG, JPEG, BMP, TGA) are let in, recognized by content. The header is held
-// against the limits before memory is taken for pixels. A file too short for the size that it
-// claims is refused at once. 16-bit channels are rounded to 8; alpha is never premultiplied.
+// decode.h: image files in memory to 8-bit texels, for textures, and to pictures of linear floats.
+// image_check.h says what is let in.
 //
 // Threads: reentrant.
 // Errors:  throws Error that says what is wrong with the image; the caller knows which one it is.
@@ -13,6 +10,9 @@
 #include <span>
 #include <vector>
 
+#include "common/image/image.h"
+#include "common/image/image_limits.h"
+
 namespace ninefold {
 
 struct DecodedImage {
@@ -20,11 +20,11 @@ struct DecodedImage {
   std::vector<uint8_t> texels;              // rows top to bottom, width * height * channels
 };
 
-struct ImageLimits {
-  uint64_t side = 0;    // largest width and height
-  uint64_t texels = 0;  // largest width * height
-};
-
+// PNG, JPEG, BMP or TGA. 16-bit channels are rounded to 8.
 DecodedImage decodeImage(std::span<const std::byte> file, ImageLimits limits);
+
+// EXR, HDR or PNG. The channels R, G, B, or the first three if none are named so; one channel
+// is spread to all. Integers are decoded from sRGB.
+RgbImage decodePicture(std::span<const std::byte> file, ImageLimits limits);
 
 }  // namespace ninefold

@@ -4,15 +4,17 @@
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
-#include <memory>
+#include <fstream>
 #include <optional>
 #include <span>
 
 #include "common/base/error.h"
 #include "common/base/written_file.h"
+#include "common/image/decode.h"
 
 namespace ninefold {
 namespace {
@@ -142,19 +144,14 @@ void writeCodes(const std::string& path, const DisplayImage& picture, const Meta
   });
 }
 
-// Indices of R, G and B in the file.
-std::array<int, 3> colourChannels(const OIIO::ImageSpec& spec) {
-  const auto find = [&](const char* name) {
-    const auto at = std::find(spec.channelnames.begin(), spec.channelnames.end(), name);
-    return at == spec.channelnames.end() ? -1 : static_cast<int>(at - spec.channelnames.begin());
-  };
-  const std::array<int, 3> named = {find("R"), find("G"), find("B")};
-  if (std::all_of(named.begin(), named.end(), [](int c) { return c >= 0; })) return named;
-  return spec.nchannels >= 3 ? std::array<int, 3>{0, 1, 2} : std::array<int, 3>{0, 0, 0};
-}
-
-void decodeSrgb(std::vector<float>& plane) {
-  for (float& value : plane) value = linearFromSrgb(value);
+std::vector<std::byte> bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary | std::ios::ate);
+  if (!file) fail("{}", std::strerror(errno));
+  std::vector<std::byte> bytes(static_cast<size_t>(file.tellg()));
+  file.seekg(0);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  if (!file) fail("it cannot be read to its end");
+  return bytes;
 }
 
 }  // namespace
@@ -198,26 +195,10 @@ void writePng(const std::string& path, const DisplayImage& picture) {
   writeCodes(path, picture, {});
 }
 
-RgbImage readImage(const std::string& path, const ImageBounds& bounds) {
-  const auto input = OIIO::ImageInput::open(path);
-  if (!input) fail("cannot read image {}: {}", path, oneLine(OIIO::geterror()));
-  const OIIO::ImageSpec& spec = input->spec();
-  if (spec.width < 1 || spec.height < 1 || spec.width > bounds.width ||
-      spec.height > bounds.height || spec.depth > 1)
-    fail("cannot read image {}: it has {}x{}x{} pixels, {}x{} are allowed: scale it down", path,
-         spec.width, spec.height, spec.depth, bounds.width, bounds.height);
-  const bool isSrgb = !spec.format.is_floating_point();
-  const std::array<int, 3> channels = colourChannels(spec);
-  RgbImage image;
-  image.reset(spec.width, spec.height);
-  std::vector<float>* planes[3] = {&image.pixels.r, &image.pixels.g, &image.pixels.b};
-  for (size_t c = 0; c < 3; ++c) {
-    if (!input->read_image(0, 0, channels[c], channels[c] + 1, OIIO::TypeDesc::FLOAT,
-                           planes[c]->data()))
-      fail("cannot read image {}: {}", path, oneLine(input->geterror()));
-    if (isSrgb) decodeSrgb(*planes[c]);
-  }
-  return image;
+RgbImage readImage(const std::string& path, ImageLimits limits) try {
+  return decodePicture(bytesOf(path), limits);
+} catch (const Error& error) {
+  fail("cannot read image {}: {}", path, error.what());
 }
 
 }  // namespace ninefold

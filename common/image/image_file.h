@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/image/image.h"
+#include "common/image/image_limits.h"
 #include "common/image/tone_map.h"
 
 namespace ninefold {
@@ -39,13 +40,7 @@ void writePng(const std::string& path, const DisplayImage& picture);
 // The bytes of the .exr file that writeImage writes.
 std::vector<uint8_t> encodeExr(const Picture& picture);
 
-// The largest picture that is read.
-struct ImageBounds {
-  int width = 16384, height = 16384;
-};
-
-// The channels R, G, B (the first three if none are named so; one channel is spread to all) as
-// linear floats; integer files are decoded from sRGB.
-RgbImage readImage(const std::string& path, const ImageBounds& bounds = {});
+// The picture in a file (decode.h).
+RgbImage readImage(const std::string& path, ImageLimits limits = {16384, 16384 * 16384});
 
 }  // namespace ninefold

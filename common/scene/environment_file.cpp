@@ -66,7 +66,8 @@ void clean(RgbImage& image) {
 }
 
 EnvironmentPicture pictureOf(const EnvironmentFile& file) try {
-  RgbImage image = readImage(file.path, {kWidestEnvironmentFile, kWidestEnvironmentFile / 2});
+  RgbImage image = readImage(
+      file.path, {kWidestEnvironmentFile, kWidestEnvironmentFile * kWidestEnvironmentFile / 2});
   checkShape(image.width, image.height);
   clean(image);
   while (image.width > kWidestEnvironment) {

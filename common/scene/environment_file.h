@@ -19,7 +19,7 @@
 
 namespace ninefold {
 
-inline constexpr int kWidestEnvironmentFile = 8192;
+inline constexpr uint64_t kWidestEnvironmentFile = 8192;
 
 struct EnvironmentFile {
   std::string path;

@@ -34,6 +34,13 @@ class ImageFile : public testing::Test {
   size_t files() const {
     return static_cast<size_t>(std::distance(fs::directory_iterator(folder_), {}));
   }
+  std::string bytesOf(const std::string& name) const {
+    std::ifstream file(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+  void write(const std::string& name, const std::string& bytes) const {
+    std::ofstream(path(name), std::ios::binary) << bytes;
+  }
   std::string errorOf(const std::function<void()>& action) const {
     try {
       action();
@@ -123,12 +130,8 @@ TEST_F(ImageFile, PngOfCodesIsThePngOfTheirRadiance) {
   toneMap.apply(sample(), codes);
   writeImage(path("a.png"), {sample(), {}, {}}, toneMap);
   writePng(path("b.png"), codes);
-  const auto bytes = [&](const char* name) {
-    std::ifstream file(path(name), std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(file), {});
-  };
-  EXPECT_GT(bytes("a.png").size(), 60u);
-  EXPECT_EQ(bytes("a.png"), bytes("b.png"));
+  EXPECT_GT(bytesOf("a.png").size(), 60u);
+  EXPECT_EQ(bytesOf("a.png"), bytesOf("b.png"));
 }
 
 TEST_F(ImageFile, ReplacesTheOldFileOrLeavesIt) {
@@ -176,18 +179,37 @@ TEST_F(ImageFile, RefusesPathsItCannotWriteInOneLine) {
 }
 
 TEST_F(ImageFile, RefusesFilesItCannotReadInOneLine) {
-  std::ofstream(path("text.exr")) << "no picture\n";
-  std::ofstream(path("text.png")) << "no picture\n";
-  std::ofstream(path("huge.hdr")) << "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 90000 +X 90000\n";
+  write("text.exr", "no picture\n");
+  write("text.png", "no picture\n");
+  write("huge.hdr", "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 90000 +X 90000\n");
   writeImage(path("whole.exr"), {sample(), {}, {}});
-  std::ifstream whole(path("whole.exr"), std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(whole), {});
-  std::ofstream(path("half.exr"), std::ios::binary) << bytes.substr(0, bytes.size() / 2);
-  for (const char* name : {"none.exr", "text.exr", "text.png", "huge.hdr", "half.exr"}) {
+  const std::string whole = bytesOf("whole.exr");
+  write("half.exr", whole.substr(0, whole.size() / 2));
+  write("tiff.exr", std::string("II*\0\x08\0\0\0", 8));
+  for (const char* name :
+       {"none.exr", "text.exr", "text.png", "huge.hdr", "half.exr", "tiff.exr"}) {
     const std::string line = errorOf([&] { readImage(path(name)); });
     EXPECT_NE(line.find("cannot read image " + path(name)), std::string::npos) << name << line;
     EXPECT_EQ(line.find('\n'), std::string::npos) << line;
   }
+}
+
+// A library would take gigabytes by these numbers alone.
+TEST_F(ImageFile, AnExrThatClaimsMoreThanItHoldsIsRefusedBeforeItIsOpened) {
+  writeImage(path("a.exr"), {sample(2, 2), {}, {{"scene", "table_room.glb"}}});
+  const auto complaint = [&](const std::string& attribute, size_t at, std::string_view claim) {
+    std::string bytes = bytesOf("a.exr");
+    bytes.replace(bytes.find(attribute) + attribute.size() + at, claim.size(), claim);
+    write("claim.exr", bytes);
+    return errorOf([&] { readImage(path("claim.exr")); });
+  };
+  using namespace std::string_view_literals;
+  const std::string window("dataWindow\0box2i\0", 17), scene("ninefold:scene\0string\0", 22);
+  EXPECT_NE(complaint(window, 4 + 8, "\xff\x3f\0\0\xff\x3f\0\0"sv)
+                .find("bytes cannot hold 16384 x 16384 pixels"),
+            std::string::npos);
+  EXPECT_NE(complaint(scene, 0, "\0\0\0\x70"sv).find("ends in its attribute ninefold:scene"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/crc.hpp>
 #include <cstdint>
 #include <string_view>
 #include <vector>
@@ -20,12 +21,9 @@ inline void appendChunk(std::vector<unsigned char>& to, std::string_view type,
   const size_t start = to.size();
   to.insert(to.end(), type.begin(), type.end());
   to.insert(to.end(), body.begin(), body.end());
-  uint32_t crc = 0xFFFFFFFF;
-  for (size_t i = start; i < to.size(); ++i) {
-    crc ^= to[i];
-    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1) != 0 ? 0xEDB88320u : 0u);
-  }
-  appendWord(to, ~crc);
+  boost::crc_32_type crc;
+  crc.process_bytes(&to[start], to.size() - start);
+  appendWord(to, crc.checksum());
 }
 
 // The begin of a PNG: its header.
