@@ -96,7 +96,7 @@ std::optional<WorkOrder> HeadlessRun::nextWork() {
   if (enough_ || goesBack_ || (framesLeft && *framesLeft <= 0)) return std::nullopt;
   if (const auto step = states_.nextStep(next_, false, framesLeft)) {
     ++next_;
-    return StepOrder{order_, step->key, step->units, false};
+    return StepOrder{order_, *step, false};
   }
   const std::optional<uint32_t> state = states_.versionOfFrame(false);
   if (!state) return std::nullopt;

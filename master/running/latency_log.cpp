@@ -68,7 +68,7 @@ std::string LatencyLog::json(const std::string& scene, const ServerTally& tally)
                             {"from", s.key.from},
                             {"to", s.key.to},
                             {"first_unit", s.key.firstUnit},
-                            {"units", s.units},
+                            {"units", s.key.units},
                             {"randomization", s.key.randomization},
                             {"moving", s.moving},
                             {"time", seconds(s.done - start_)},

@@ -145,9 +145,9 @@ std::optional<StepOrder> LivePlan::nextStep(Time now) {
   const auto step = states_.nextStep(nextFrame_, moving_, left, setup_.stepTime.value_or(usual));
   if (!step) return std::nullopt;
   hasStepped_ = moving_;
-  step_ = {step->key, step->units, moving_, ahead, now, {}};
+  step_ = {*step, moving_, ahead, now, {}};
   ++nextFrame_;
-  return StepOrder{open(now).order, step->key, step->units, ahead};
+  return StepOrder{open(now).order, *step, ahead};
 }
 
 // For the gesture's first step, whatever was changed since.

@@ -76,7 +76,6 @@ struct LiveFrame {
 // A step of the method's state that is done.
 struct LiveStep {
   StepKey key;
-  int units = 1;
   bool moving = false, ahead = false;  // ahead: before the frame that shows what it follows
   Time opened{}, done{};
 };

@@ -35,9 +35,8 @@ void StatePlan::resume(uint32_t frames, uint32_t version) {
   if (facts_ != nullptr && facts_->servesAll() && version != 0) ready_.push_back(version);
 }
 
-std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
-                                                   std::optional<int64_t> framesLeft,
-                                                   Duration time) {
+std::optional<StepKey> StatePlan::nextStep(uint32_t number, bool moving,
+                                           std::optional<int64_t> framesLeft, Duration time) {
   if (facts_ == nullptr || open_) return std::nullopt;
   const auto ready = static_cast<int64_t>(ready_.size());
   const bool isWanted = latest_ == 0          ? framesLeft != 0
@@ -49,7 +48,7 @@ std::optional<StatePlan::Step> StatePlan::nextStep(uint32_t number, bool moving,
   ++versions_;
   mayStep_ = false;
   if (!moving) ++index_;
-  nextUnit_ = open_->step.key.firstUnit + static_cast<uint32_t>(open_->step.units);
+  nextUnit_ = open_->step.firstUnit + open_->step.units;
   return open_->step;
 }
 
@@ -65,15 +64,15 @@ StatePlan::Open StatePlan::stepOf(uint32_t number, bool moving, Duration time) c
   key.firstUnit = moving ? nextUnit_ : index_ * units;
   key.randomization = moving ? 0 : index_;
   key.units = units;
-  return {{key, static_cast<int>(units)}, makesAll, series_, scene_};
+  return {key, makesAll, series_, scene_};
 }
 
 void StatePlan::done(const StepKey& step, Duration took) {
-  if (!open_ || !(open_->step.key == step)) return;
+  if (!open_ || !(open_->step == step)) return;
   const Open done = *std::exchange(open_, std::nullopt);
   latest_ = step.to;
-  pace_.took(static_cast<uint32_t>(done.step.units), took);
-  if (done.scene == scene_) stale_ -= std::min(stale_, static_cast<uint32_t>(done.step.units));
+  pace_.took(done.step.units, took);
+  if (done.scene == scene_) stale_ -= std::min(stale_, done.step.units);
   if (done.makesAll && done.series == series_ && done.scene == scene_) ready_.push_back(step.to);
 }
 

@@ -50,15 +50,11 @@ class StatePlan {
   // Others shall be opened in its place.
   void giveUpStep() { open_.reset(), mayStep_ = true; }
 
-  struct Step {
-    StepKey key;
-    int units = 1;
-  };
   // The next step to open, as `number`; nothing while none is wanted. `framesLeft`: at rest, that
   // are still to be lit; none: without end.
   // `time`: of a step in motion, for methods whose steps are paced.
-  std::optional<Step> nextStep(uint32_t number, bool moving, std::optional<int64_t> framesLeft,
-                               Duration time = {});
+  std::optional<StepKey> nextStep(uint32_t number, bool moving, std::optional<int64_t> framesLeft,
+                                  Duration time = {});
   // `took`: since it was opened.
   void done(const StepKey& step, Duration took = {});
   // In motion the next step need not wait for a frame.
@@ -74,7 +70,7 @@ class StatePlan {
 
  private:
   struct Open {
-    Step step;
+    StepKey step;
     bool makesAll = false;
     uint32_t series = 0, scene = 0;  // as they were when it opened
   };

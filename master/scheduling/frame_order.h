@@ -36,7 +36,6 @@ struct FrameOrder : JobOrder {
 
 struct StepOrder : JobOrder {
   StepKey key;
-  int units = 1;
   bool yields = false;  // frames may be asked for before it is handed out
 };
 

@@ -119,8 +119,8 @@ void Server::open(const FrameOrder& order) {
 void Server::open(const StepOrder& order, Time now) {
   if (order.job != offer_.job()) announce(order);
   openSteps_[order.key.number] = {order, now};
-  state_.open(order.key, order.units);
-  scheduler_.openStep(order.key.number, order.key.firstUnit, order.units,
+  state_.open(order.key);
+  scheduler_.openStep(order.key.number, order.key.firstUnit, static_cast<int>(order.key.units),
                       factsOf(order.settings.method).state->rays(order.settings), order.yields);
   forgetStates();
 }

@@ -11,10 +11,10 @@ void StateKeeper::resume(uint32_t version, StatePages pages) {
   oldest_ = version;
 }
 
-void StateKeeper::open(const StepKey& step, int units) {
+void StateKeeper::open(const StepKey& step) {
   NINEFOLD_CHECK(step.to > version());
   NINEFOLD_CHECK(step.from == 0 || versions_.contains(step.from));
-  open_[step.number] = {step, units, {}};
+  open_[step.number] = {step, {}};
 }
 
 void StateKeeper::drop(uint32_t firstWanted) {
@@ -43,7 +43,7 @@ void StateKeeper::take(msg::Stepped&& result) {
 const std::vector<msg::StateDelta>& StateKeeper::complete(uint32_t number) {
   Step step = std::move(open_.at(number));
   open_.erase(number);
-  NINEFOLD_CHECK(std::ssize(step.results) == step.units);
+  NINEFOLD_CHECK(step.results.size() == step.key.units);
   Version version{pagesOf(step.key.from), {}};
   std::vector<PageDeltas> all;
   for (auto& [unit, result] : step.results) all.push_back(std::move(result.first));

@@ -35,7 +35,7 @@ class StateKeeper {
 
   // Before the first step: a version that another run has made.
   void resume(uint32_t version, StatePages pages);
-  void open(const StepKey& step, int units);
+  void open(const StepKey& step);
   // Open steps before `firstWanted` are void.
   void drop(uint32_t firstWanted);
   // Of an open step; each unit once.
@@ -56,7 +56,6 @@ class StateKeeper {
  private:
   struct Step {
     StepKey key;
-    int units = 0;
     std::map<uint32_t, std::pair<PageDeltas, Bytes>> results;  // by unit; as pages, as they came
   };
   struct Version {

@@ -55,7 +55,7 @@ class ClientSessionTest : public testing::Test {
   void makeVersions(uint32_t last) {
     uint64_t hash = 0;
     for (uint32_t version = 1; version <= last; ++version) {
-      state.open({.number = version, .from = version - 1, .to = version}, 1);
+      state.open({.number = version, .from = version - 1, .to = version});
       msg::Stepped unit;
       unit.number = version, unit.stateHash = hash;
       unit.deltas = encodeDeltas({{{0, version}, Records(10, std::byte{1})}});

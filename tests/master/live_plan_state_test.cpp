@@ -61,7 +61,7 @@ class LivePlanState : public testing::Test {
 TEST_F(LivePlanState, AFrameIsOpenedWhenItsStateIsThere) {
   EXPECT_FALSE(plan.next(now));
   const StepOrder first = step();
-  EXPECT_EQ(first.units, 6);
+  EXPECT_EQ(first.key.units, 6u);
   EXPECT_FALSE(plan.next(now));
   plan.stepDone(first.key, now);
   const StepOrder second = step();
@@ -79,7 +79,7 @@ TEST_F(LivePlanState, AnEditIsShownByTheLatestStateWhileASmallStepFollowsIt) {
   EXPECT_TRUE(lit.moving);
   EXPECT_EQ(lit.order.key.state, latest);
   const StepOrder small = step();
-  EXPECT_EQ(small.units, 2);
+  EXPECT_EQ(small.key.units, 2u);
   EXPECT_EQ(small.key.from, latest);
   EXPECT_EQ(small.scene, lit.order.scene) << "of the scene as it is now";
   EXPECT_EQ(small.key.randomization, 0u);
@@ -110,7 +110,7 @@ TEST_F(LivePlanState, APictureThatComesToRestHasAStateOfItsScene) {
   EXPECT_FALSE(plan.nextStep(now)) << "the small step is under way";
   plan.stepDone(small.key, now);
   const StepOrder all = step();
-  EXPECT_EQ(all.units, 6);
+  EXPECT_EQ(all.key.units, 6u);
   EXPECT_FALSE(plan.next(now));
   plan.stepDone(all.key, now);
   const LiveFrame first = frame();
@@ -151,7 +151,7 @@ TEST_F(LivePlanState, AnEditVoidsAStepOfAllThatShowsTheSceneBefore) {
   EXPECT_GT(*voided, next.key.number);
   finish(frame());
   const StepOrder small = step();
-  EXPECT_EQ(small.units, 2);
+  EXPECT_EQ(small.key.units, 2u);
   plan.stepDone(next.key, now);  // its last unit came all the same
   plan.stepDone(small.key, now);
   EXPECT_EQ(frame().order.key.state, small.key.to);
@@ -178,7 +178,7 @@ TEST_F(LivePlanState, AFrameWaitsForAStepNoLongerThanItsOwnTime) {
   pace();
   edit();
   const StepOrder all = step();
-  EXPECT_EQ(all.units, 306);
+  EXPECT_EQ(all.key.units, 306u);
   EXPECT_TRUE(all.yields);
   pass(milliseconds(99));
   EXPECT_FALSE(plan.next(now));
@@ -191,7 +191,7 @@ TEST_F(LivePlanState, AFrameWaitsForAStepNoLongerThanItsOwnTime) {
   EXPECT_GT(*voided, all.key.number);
   EXPECT_FALSE(plan.stepDone(all.key, now)) << "its last units came all the same";
   const StepOrder beside = step();
-  EXPECT_EQ(beside.units, 50) << "half of 100 ms";
+  EXPECT_EQ(beside.key.units, 50u) << "half of 100 ms";
   EXPECT_FALSE(beside.yields);
   EXPECT_GE(beside.key.number, *voided);
   finish(shown);
@@ -229,7 +229,7 @@ TEST_F(LivePlanState, PacedStepsTakeTheTimeThatIsAskedFor) {
   pace(milliseconds(200));
   edit();
   finish(frame());
-  EXPECT_EQ(step().units, 200);
+  EXPECT_EQ(step().key.units, 200u);
   edit();
   EXPECT_TRUE(plan.next(now)) << "no frame waits for it";
 }
@@ -244,7 +244,7 @@ TEST_F(LivePlanState, StepsThatAreDoneAreTold) {
   const auto told = plan.stepDone(small.key, now);
   ASSERT_TRUE(told);
   EXPECT_EQ(told->key, small.key);
-  EXPECT_EQ(told->units, small.units);
+  EXPECT_EQ(told->key.units, small.key.units);
   EXPECT_TRUE(told->moving);
   EXPECT_EQ(told->opened, opened);
   EXPECT_EQ(told->done, now);

@@ -11,10 +11,10 @@ class StatePlanTest : public testing::Test {
  protected:
   StatePlanTest() { settings.method = Method::stateCheck; }
   StatePlan plan() const { return StatePlan(settings); }
-  int all() const { return static_cast<int>(factsOf(settings.method).state->unitsOfAll(settings)); }
+  uint32_t all() const { return factsOf(settings.method).state->unitsOfAll(settings); }
   // Opens the next step, if one is wanted.
-  std::optional<StatePlan::Step> step(StatePlan& plan, bool moving = false,
-                                      std::optional<int64_t> left = {}) {
+  std::optional<StepKey> step(StatePlan& plan, bool moving = false,
+                              std::optional<int64_t> left = {}) {
     const auto step = plan.nextStep(number, moving, left);
     if (step) ++number;
     return step;
@@ -37,10 +37,10 @@ TEST_F(StatePlanTest, AFrameAtRestWaitsForAStateOfItsOwn) {
   const auto first = step(p);
   ASSERT_TRUE(first);
   EXPECT_EQ(first->units, all());
-  EXPECT_EQ(first->key.from, 0u);
+  EXPECT_EQ(first->from, 0u);
   EXPECT_FALSE(p.versionOfFrame(false));
-  p.done(first->key);
-  EXPECT_EQ(p.versionOfFrame(false), first->key.to);
+  p.done(*first);
+  EXPECT_EQ(p.versionOfFrame(false), first->to);
   EXPECT_FALSE(p.versionOfFrame(false)) << "each lights one frame";
 }
 
@@ -48,16 +48,16 @@ TEST_F(StatePlanTest, TheNextStepBeginsBeforeTheFrameThatTheLastOneLights) {
   StatePlan p = plan();
   const auto first = step(p);
   EXPECT_FALSE(step(p)) << "one at a time";
-  p.done(first->key);
+  p.done(*first);
   const auto second = step(p);
   ASSERT_TRUE(second);
-  EXPECT_NE(second->key.randomization, first->key.randomization);
-  EXPECT_EQ(second->key.firstUnit, first->key.firstUnit + static_cast<uint32_t>(all()));
-  EXPECT_EQ(p.versionOfFrame(false), first->key.to);
-  p.done(second->key);
+  EXPECT_NE(second->randomization, first->randomization);
+  EXPECT_EQ(second->firstUnit, first->firstUnit + all());
+  EXPECT_EQ(p.versionOfFrame(false), first->to);
+  p.done(*second);
   const auto third = step(p);
   ASSERT_TRUE(third);
-  p.done(third->key);
+  p.done(*third);
   EXPECT_FALSE(step(p)) << "two versions wait for frames";
 }
 
@@ -65,7 +65,7 @@ TEST_F(StatePlanTest, NoStepIsMadeForFramesThatAreNotWanted) {
   StatePlan p = plan();
   const auto first = step(p, false, 1);
   ASSERT_TRUE(first);
-  p.done(first->key);
+  p.done(*first);
   EXPECT_FALSE(step(p, false, 1));
   EXPECT_TRUE(p.versionOfFrame(false));
   EXPECT_FALSE(step(p, false, 0));
@@ -74,19 +74,19 @@ TEST_F(StatePlanTest, NoStepIsMadeForFramesThatAreNotWanted) {
 TEST_F(StatePlanTest, InMotionTheLatestVersionLightsFramesUntilTheSceneIsShown) {
   StatePlan p = plan();
   const auto first = step(p);
-  p.done(first->key);
-  EXPECT_EQ(p.versionOfFrame(true), first->key.to);
+  p.done(*first);
+  EXPECT_EQ(p.versionOfFrame(true), first->to);
   EXPECT_FALSE(step(p, true)) << "a camera alone moves no light";
   p.change(settings, true);
-  uint32_t last = first->key.to;
-  for (int unit = 0; unit < all(); unit += 2) {
+  uint32_t last = first->to;
+  for (uint32_t unit = 0; unit < all(); unit += 2) {
     const auto small = step(p, true);
     ASSERT_TRUE(small) << unit;
-    EXPECT_EQ(small->units, 2);
-    EXPECT_EQ(small->key.from, last);
+    EXPECT_EQ(small->units, 2u);
+    EXPECT_EQ(small->from, last);
     EXPECT_EQ(p.versionOfFrame(true), last) << "the frame does not wait for it";
-    p.done(small->key);
-    last = small->key.to;
+    p.done(*small);
+    last = small->to;
   }
   EXPECT_EQ(p.versionOfFrame(true), last);
   EXPECT_FALSE(step(p, true)) << "all of it shows the scene as it is";
@@ -94,12 +94,12 @@ TEST_F(StatePlanTest, InMotionTheLatestVersionLightsFramesUntilTheSceneIsShown) 
 
 TEST_F(StatePlanTest, AStepRunsBesideAFrameNotFasterThanFrames) {
   StatePlan p = plan();
-  p.done(step(p)->key);
+  p.done(*step(p));
   p.change(settings, true);
   EXPECT_TRUE(p.versionOfFrame(true));
   const auto small = step(p, true);
   ASSERT_TRUE(small);
-  p.done(small->key);
+  p.done(*small);
   EXPECT_FALSE(step(p, true)) << "no frame since";
   EXPECT_TRUE(p.versionOfFrame(true));
   EXPECT_TRUE(step(p, true));
@@ -109,11 +109,11 @@ TEST_F(StatePlanTest, WhatWasMadeOfAnOlderSceneLightsNoFrameAtRest) {
   StatePlan p = plan();
   const auto old = step(p);
   p.change(settings, true);
-  p.done(old->key);
+  p.done(*old);
   EXPECT_FALSE(p.versionOfFrame(false));
   const auto fresh = step(p);
   ASSERT_TRUE(fresh);
-  p.done(fresh->key);
+  p.done(*fresh);
   p.restart();
   EXPECT_FALSE(p.versionOfFrame(false)) << "of a series before";
 }
@@ -131,7 +131,7 @@ TEST_F(StatePlanTest, ClientsRememberWhatHasRoom) {
 
 TEST_F(StatePlanTest, OtherSettingsVoidTheStepAndTheState) {
   StatePlan p = plan();
-  p.done(step(p)->key);
+  p.done(*step(p));
   const auto under = step(p);
   ASSERT_TRUE(under);
   Settings other = settings;
@@ -141,15 +141,15 @@ TEST_F(StatePlanTest, OtherSettingsVoidTheStepAndTheState) {
   const auto fresh = step(p, true);
   ASSERT_TRUE(fresh);
   EXPECT_EQ(fresh->units, all());
-  p.done(under->key);  // came too late
+  p.done(*under);  // came too late
   EXPECT_FALSE(p.versionOfFrame(true));
-  p.done(fresh->key);
-  EXPECT_EQ(p.versionOfFrame(true), fresh->key.to);
+  p.done(*fresh);
+  EXPECT_EQ(p.versionOfFrame(true), fresh->to);
 }
 
 TEST_F(StatePlanTest, AnotherViewKeepsTheState) {
   StatePlan p = plan();
-  p.done(step(p)->key);
+  p.done(*step(p));
   Settings other = settings;
   other.width = 320, other.camera.eye.x += 1;
   EXPECT_FALSE(p.change(other, false));
@@ -168,9 +168,9 @@ TEST_F(TrialPlanTest, AtRestOneStepLightsAllFrames) {
   const auto trial = step(p);
   ASSERT_TRUE(trial);
   EXPECT_EQ(trial->units, all());
-  p.done(trial->key);
+  p.done(*trial);
   for (int frame = 0; frame < 3; ++frame) {
-    EXPECT_EQ(p.versionOfFrame(false), trial->key.to);
+    EXPECT_EQ(p.versionOfFrame(false), trial->to);
     EXPECT_FALSE(step(p));
   }
 }
@@ -178,21 +178,21 @@ TEST_F(TrialPlanTest, AtRestOneStepLightsAllFrames) {
 TEST_F(TrialPlanTest, InMotionTheLatestStaysAndTheNextRestTriesAnew) {
   StatePlan p = plan();
   const auto first = step(p);
-  p.done(first->key);
+  p.done(*first);
   Settings other = settings;
   other.camera.eye.x += 1;
   EXPECT_FALSE(p.change(other, true));
-  EXPECT_EQ(p.versionOfFrame(true), first->key.to);
+  EXPECT_EQ(p.versionOfFrame(true), first->to);
   EXPECT_FALSE(step(p, true)) << "not even after an edit of the scene";
   p.restart();
   EXPECT_FALSE(p.versionOfFrame(false)) << "of another view";
   const auto second = step(p);
   ASSERT_TRUE(second);
-  EXPECT_EQ(second->key.from, 0u);
-  EXPECT_EQ(second->key.firstUnit, 0u) << "what was tried before does not count";
-  EXPECT_EQ(p.versionOfFrame(true), first->key.to) << "if it moves again meanwhile";
-  p.done(second->key);
-  EXPECT_EQ(p.versionOfFrame(false), second->key.to);
+  EXPECT_EQ(second->from, 0u);
+  EXPECT_EQ(second->firstUnit, 0u) << "what was tried before does not count";
+  EXPECT_EQ(p.versionOfFrame(true), first->to) << "if it moves again meanwhile";
+  p.done(*second);
+  EXPECT_EQ(p.versionOfFrame(false), second->to);
 }
 
 TEST_F(TrialPlanTest, MotionAtTheStartWaitsForATrial) {
@@ -201,8 +201,8 @@ TEST_F(TrialPlanTest, MotionAtTheStartWaitsForATrial) {
   const auto trial = step(p, true);
   ASSERT_TRUE(trial);
   EXPECT_EQ(trial->units, all());
-  p.done(trial->key);
-  EXPECT_EQ(p.versionOfFrame(true), trial->key.to);
+  p.done(*trial);
+  EXPECT_EQ(p.versionOfFrame(true), trial->to);
 }
 
 TEST_F(StatePlanTest, AStepThatCannotBeDoneIsMadeAgain) {
@@ -211,8 +211,8 @@ TEST_F(StatePlanTest, AStepThatCannotBeDoneIsMadeAgain) {
   p.giveUp();
   const auto again = step(p);
   ASSERT_TRUE(again);
-  p.done(again->key);
-  EXPECT_EQ(p.versionOfFrame(false), again->key.to);
+  p.done(*again);
+  EXPECT_EQ(p.versionOfFrame(false), again->to);
 }
 
 // The steps and versions of frames `from`.. of one plan are those of another that went through all.
@@ -222,7 +222,7 @@ TEST_F(StatePlanTest, AResumedPlanTakesTheStepsOfOneThatWasNeverEnded) {
     StatePlan whole = plan(), resumed = plan();
     uint32_t version = 0;
     for (int i = 0; i < 5; ++i) {
-      whole.done(step(whole)->key);
+      whole.done(*step(whole));
       version = *whole.versionOfFrame(false);
     }
     const bool isNeeded = isNeededAfterwards(factsOf(method).state);
@@ -231,12 +231,12 @@ TEST_F(StatePlanTest, AResumedPlanTakesTheStepsOfOneThatWasNeverEnded) {
     for (int i = 0; i < 3; ++i) {
       const auto a = step(whole), b = step(resumed);
       ASSERT_TRUE(a && b);
-      EXPECT_EQ(a->key.firstUnit, b->key.firstUnit);
-      EXPECT_EQ(a->key.randomization, b->key.randomization);
-      EXPECT_EQ(a->key.from == 0, b->key.from == 0);
-      EXPECT_TRUE(!isNeeded || a->key.from == b->key.from);
+      EXPECT_EQ(a->firstUnit, b->firstUnit);
+      EXPECT_EQ(a->randomization, b->randomization);
+      EXPECT_EQ(a->from == 0, b->from == 0);
+      EXPECT_TRUE(!isNeeded || a->from == b->from);
       EXPECT_EQ(a->units, b->units);
-      whole.done(a->key), resumed.done(b->key);
+      whole.done(*a), resumed.done(*b);
       EXPECT_TRUE(whole.versionOfFrame(false) && resumed.versionOfFrame(false));
     }
   }
@@ -253,13 +253,13 @@ TEST_F(StatePlanTest, AResumedChoiceIsNotMadeAgain) {
 // Back to version 2 after 6: the next version is 7, made of 2.
 TEST_F(StatePlanTest, WhoGoesBackMakesNewVersionsOfTheOldOne) {
   StatePlan p = plan();
-  for (int i = 0; i < 6; ++i) p.done(step(p)->key), p.versionOfFrame(false);
+  for (int i = 0; i < 6; ++i) p.done(*step(p)), p.versionOfFrame(false);
   p.resume(2, 2);
   const auto next = step(p);
   ASSERT_TRUE(next);
-  EXPECT_EQ(next->key.from, 2u);
-  EXPECT_EQ(next->key.to, 7u);
-  EXPECT_EQ(next->key.randomization, 2u);
+  EXPECT_EQ(next->from, 2u);
+  EXPECT_EQ(next->to, 7u);
+  EXPECT_EQ(next->randomization, 2u);
 }
 
 }  // namespace

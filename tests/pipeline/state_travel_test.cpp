@@ -31,11 +31,11 @@ PageDeltas deltasOf(uint32_t version, uint32_t unit, std::mt19937& random) {
 
 class StateTravel : public testing::Test {
  protected:
-  static constexpr int kUnits = 7;
+  static constexpr uint32_t kUnits = 7;
 
   void begin(uint32_t from, uint32_t to) {
-    step = {.number = to, .from = from, .to = to, .firstUnit = 100 * to};
-    keeper.open(step, kUnits);
+    step = {.number = to, .from = from, .to = to, .firstUnit = 100 * to, .units = kUnits};
+    keeper.open(step);
     results.clear();
     for (uint32_t unit = 0; unit < kUnits; ++unit) {
       msg::Stepped result;
@@ -165,8 +165,8 @@ TEST_F(StateTravel, PartsMustFollowEachOther) {
 }
 
 TEST_F(StateTravel, ASumThatOverflowsIsAnError) {
-  step = {.number = 1, .from = 0, .to = 1};
-  keeper.open(step, 3);
+  step = {.number = 1, .from = 0, .to = 1, .units = 3};
+  keeper.open(step);
   const auto add = [&](uint32_t unit, int64_t amount) {
     msg::Stepped result;
     result.number = 1, result.unit = unit;
