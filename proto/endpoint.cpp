@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <charconv>
 
 #include "proto/connection.h"
@@ -15,6 +16,13 @@ size_t colonOf(std::string_view text) {
   return bracket == std::string_view::npos ? bracket : bracket + 1;
 }
 
+// A name or number of a machine has no blanks, control characters or brackets.
+bool isHost(std::string_view host) {
+  return !host.empty() && std::ranges::all_of(host, [](char c) {
+    return static_cast<unsigned char>(c) > ' ' && c != 127 && c != '[' && c != ']';
+  });
+}
+
 }  // namespace
 
 Endpoint parseEndpoint(std::string_view text, std::string_view flag) {
@@ -25,7 +33,7 @@ Endpoint parseEndpoint(std::string_view text, std::string_view flag) {
     if (host.starts_with('[')) host = host.substr(1, host.size() - 2);
     const std::string_view port = text.substr(colon + 1);
     const auto parsed = std::from_chars(port.data(), port.data() + port.size(), endpoint.port);
-    if (!host.empty() && parsed.ec == std::errc{} && parsed.ptr == port.data() + port.size()) {
+    if (isHost(host) && parsed.ec == std::errc{} && parsed.ptr == port.data() + port.size()) {
       endpoint.host = host;
       return endpoint;
     }

@@ -35,12 +35,16 @@ size_t ImageInput::Bytes::pread(void* to, size_t bytes, int64_t offset) {
   return IOMemReader::pread(to, std::min(bytes, size() - static_cast<size_t>(offset)), offset);
 }
 
-ImageInput::ImageInput(std::string_view format, std::span<const std::byte> file, ImageLimits limits)
-    : format_(format), bytes_(file.data(), file.size()), input_(OIIO::ImageInput::create(format_)) {
+ImageInput::ImageInput(std::string_view format, FileBytes file, ImageLimits limits)
+    : format_(format),
+      pixels_((checkImage(format, file, limits), pixelsOf(format, file))),
+      bytes_(pixels_.empty() ? file.data() : pixels_.data(),
+             pixels_.empty() ? file.size() : pixels_.size()),
+      input_(OIIO::ImageInput::create(format_)) {
   if (!input_) fail("{} images cannot be read: {}", format_, firstLine(OIIO::geterror()));
-  checkImage(format, file, limits);
   OIIO::ImageSpec config;
   config["oiio:UnassociatedAlpha"] = 1;
+  config["bmp:monochrome_detect"] = 0;  // grey ones packed by runs overflow there in version 2.4
   OIIO::Filesystem::IOProxy* proxy = &bytes_;
   config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
   if (!input_->open("memory." + format_, spec_, config)) failToRead();

@@ -1,5 +1,5 @@
-// image_input.h: an image file in memory, checked (image_check.h) and then read by OpenImageIO. Alpha is
-// never premultiplied.
+// image_input.h: an image file in memory, checked (image_check.h) and then read by OpenImageIO.
+// Alpha is never premultiplied.
 //
 // Owner:   an ImageInput reads `file` as long as it lives.
 // Threads: reentrant; an ImageInput is of one thread.
@@ -9,27 +9,26 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <cstddef>
 #include <memory>
-#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "common/image/image_limits.h"
+#include "common/image/image_formats.h"
 
 namespace ninefold {
 
 class ImageInput {
  public:
-  ImageInput(std::string_view format, std::span<const std::byte> file, ImageLimits limits);
+  ImageInput(std::string_view format, FileBytes file, ImageLimits limits);
 
   const OIIO::ImageSpec& spec() const { return spec_; }
   // Rows top to bottom, `channels` values for each pixel.
   void read(int channel, int channels, OIIO::TypeDesc type, void* to);
 
  private:
-  // Gives the file's bytes and nothing else: the library's own reader does not mind positions before
-  // the first byte, and damaged headers ask for them.
+  // Gives the file's bytes and nothing else: the library's own reader does not mind positions
+  // before the first byte, and damaged headers ask for them.
   class Bytes : public OIIO::Filesystem::IOMemReader {
    public:
     using IOMemReader::IOMemReader;
@@ -40,6 +39,7 @@ class ImageInput {
   [[noreturn]] void failToRead() const;
 
   std::string format_;
+  std::vector<std::byte> pixels_;
   Bytes bytes_;  // outlives the input that reads it
   std::unique_ptr<OIIO::ImageInput> input_;
   OIIO::ImageSpec spec_;

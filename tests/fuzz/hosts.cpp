@@ -39,7 +39,7 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
   std::vector<std::vector<uint8_t>> seeds;
   for (const std::string_view text :
        {"render1\nuser@render2 /opt/bin/ninefold-client # fast\n\nssh://u@h:22\n",
-        "10.0.0.1:4700\n[fd00::1]:4701\nrender1:1\n", "# nothing\n"})
+        "10.0.0.1:4700\n[fd00::1]:4701\nrender1:1\n", "# nothing\n", "[[0:1]]:701"})
     seeds.emplace_back(text.begin(), text.end());
   return seeds;
 }

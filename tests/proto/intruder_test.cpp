@@ -207,8 +207,9 @@ TEST(Endpoint, IsAHostAndAPort) {
   EXPECT_EQ(parseEndpoint("[fd00::1]:4700", "--master").host, "fd00::1");
   EXPECT_EQ(parseEndpoint("render-7:65535", "--master").port, 65535);
   EXPECT_EQ(parseEndpoint("127.0.0.1:0", "--listen").port, 0);
-  for (const char* bad : {"", ":", "host", "host:", ":80", "host:65536", "host:-1", "host:8x",
-                          "a:b:1", "[::1]", "[::1]80", "[]:80", "fd00::1:80"})
+  for (const char* bad :
+       {"", ":", "host", "host:", ":80", "host:65536", "host:-1", "host:8x", "a:b:1", "[::1]",
+        "[::1]80", "[]:80", "fd00::1:80", "[[::1]]:80", "[::1]]:80", "a]:80", "a b:80", "a\t:80"})
     EXPECT_THROW(parseEndpoint(bad, "--master"), Error) << bad;
 }
 
