@@ -7,7 +7,7 @@
 namespace ninefold {
 namespace {
 
-constexpr size_t kAlone = 0xFF01, kFirstRestart = 0xFFD0, kStart = 0xFFD8, kEnd = 0xFFD9;
+constexpr size_t kAlone = 0xFF01, kFirstRestart = 0xFFD0, kEnd = 0xFFD9;
 constexpr size_t kNotes = 0xFFE0, kColours = 0xFFEE, kLastNotes = 0xFFEF, kComment = 0xFFFE;
 
 struct Part {
