@@ -9,10 +9,14 @@ namespace ninefold {
 namespace {
 
 void checkSpec(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits) {
+  const auto check = [&](int width, int height) {
+    checkImageSize(static_cast<uint64_t>(width), static_cast<uint64_t>(height), fileBytes, limits);
+  };
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
     fail("an image of {} x {} x {} pixels", spec.width, spec.height, spec.depth);
-  checkImageSize(static_cast<uint64_t>(spec.width), static_cast<uint64_t>(spec.height), fileBytes,
-                 limits);
+  check(spec.width, spec.height);
+  if (spec.tile_width > 0 && spec.tile_height > 0)
+    check(spec.tile_width, spec.tile_height);  // whole tiles are read, however small the image is
   if (spec.nchannels < 1) fail("no channels");
 }
 

@@ -13,6 +13,7 @@
 #include <limits>
 
 #include "common/base/error.h"
+#include "tests/image/library_image.h"
 
 namespace ninefold {
 namespace {
@@ -210,6 +211,12 @@ TEST_F(ImageFile, AnExrThatClaimsMoreThanItHoldsIsRefusedBeforeItIsOpened) {
             std::string::npos);
   EXPECT_NE(complaint(scene, 0, "\0\0\0\x70"sv).find("ends in its attribute ninefold:scene"),
             std::string::npos);
+  const std::string tiles("tiles\0tiledesc\0", 15);
+  const auto tiled = libraryImage("exr", 3, OIIO::TypeDesc::HALF, {}, 4);
+  write("a.exr", std::string(tiled.begin(), tiled.end()));
+  EXPECT_NE(
+      complaint(tiles, 4, "\0\x40\0\0\0\x40\0\0"sv).find("bytes cannot hold 16384 x 16384 pixels"),
+      std::string::npos);
 }
 
 }  // namespace
