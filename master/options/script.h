@@ -40,7 +40,7 @@ class Script {
     double playedFrom = 0, playedTo = 0;  // animation: times of the file [s]
   };
 
-  double seconds = 0;           // length
+  double seconds = 0;           // length; 0: one moment
   std::optional<double> rate;   // pictures a second of script time; nothing: in real time
   std::optional<double> shots;  // in real time: a second, of what is on the screen then
   int frames = 1;               // of the film for each picture

@@ -49,7 +49,8 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
             "turn": 90}, {"at": 3.5, "object": "table", "by": [0, 1, 0]}]})",
         R"({"seconds": 2, "shots": 5, "events": [{"from": 0, "to": 1, "light": "lamp",
             "intensity": [1, 2, 3]}, {"at": 1, "material": "glass", "emission": [30, 28, 24]}]})",
-        R"({"seconds": 1, "events": [{"from": 0, "to": 1, "animation": [0, 4]}]})"})
+        R"({"seconds": 1, "events": [{"from": 0, "to": 1, "animation": [0, 4]}]})",
+        R"({"seconds": 0, "events": []})"})
     seeds.emplace_back(text.begin(), text.end());
   return seeds;
 }
@@ -60,7 +61,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   try {
     const std::string text(reinterpret_cast<const char*>(data), size);
     const Script script = parseScript(text, "s.json", scene);
-    NINEFOLD_CHECK(script.seconds > 0 && script.seconds <= kLongestScript);
+    NINEFOLD_CHECK(script.seconds >= 0 && script.seconds <= kLongestScript);
     for (const double part : {0.0, 0.3, 1.0})
       expectFinite(script.at(part * script.seconds, scene, scene.cameras.front()));
   } catch (const Error&) {
