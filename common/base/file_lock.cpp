@@ -9,6 +9,7 @@
 #include <cerrno>
 
 #include "common/base/error.h"
+#include "common/base/written_file.h"
 
 namespace ninefold {
 namespace {
@@ -16,9 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 fs::path besideOf(const fs::path& file) {
-  std::error_code isNowhere;
-  fs::path target = fs::weakly_canonical(file, isNowhere);
-  if (isNowhere) target = fs::absolute(file);
+  const fs::path target = targetOf(file);
   return target.parent_path() / (".ninefold." + target.filename().string() + ".lock");
 }
 

@@ -27,17 +27,6 @@ const char* kindOf(mode_t mode) {
   return "a device";
 }
 
-fs::path targetOf(const fs::path& name) {
-  fs::path target = fs::absolute(name);
-  for (int i = 0; i < kMostLinks; ++i) {
-    std::error_code isNoLink;
-    const fs::path link = fs::read_symlink(target, isNoLink);
-    if (isNoLink) return target;
-    target = target.parent_path() / link;  // a link that begins at the root stands for itself
-  }
-  return target;
-}
-
 // A file that was mounted by itself (into a container, say) cannot be replaced by a rename.
 bool isMount(const fs::path& name) {
   struct statx facts {};
@@ -107,6 +96,19 @@ void sweep(const fs::path& folder) {
 }
 
 }  // namespace
+
+fs::path targetOf(const fs::path& name) {
+  fs::path target = fs::absolute(name);
+  for (int i = 0; i < kMostLinks; ++i) {
+    std::error_code isNoLink;
+    const fs::path link = fs::read_symlink(target, isNoLink);
+    if (isNoLink) break;
+    target = target.parent_path() / link;  // a link that begins at the root stands for itself
+  }
+  std::error_code isNowhere;
+  const fs::path folder = fs::weakly_canonical(target.parent_path(), isNowhere);
+  return isNowhere ? target : folder / target.filename();
+}
 
 WrittenFile::WrittenFile(const fs::path& name, FileRights rights)
     : name_(name), target_(checkedTarget(name, rights)), mayReplace_(rights.mayReplace) {
@@ -198,7 +200,7 @@ void WrittenFile::publish() {
 void checkWritable(const fs::path& name, uint64_t bytes) {
   WrittenFile trial(name);
   trial.reserve(bytes);
-  sweep(fs::absolute(name).parent_path());
+  sweep(targetOf(name).parent_path());
 }
 
 void writeFile(const fs::path& name, std::string_view bytes, FileRights rights) {

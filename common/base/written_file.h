@@ -61,6 +61,9 @@ class WrittenFile {
   int failure_ = 0;  // errno of the first write that failed
 };
 
+// What a name leads to through symbolic links, whether it is there or not: a path from the root.
+std::filesystem::path targetOf(const std::filesystem::path& name);
+
 // Throws if the file could not be written, or had no room for so many bytes. Call it before the
 // work that leads to the file.
 void checkWritable(const std::filesystem::path& name, uint64_t bytes = 0);

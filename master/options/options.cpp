@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/written_file.h"
 #include "common/scene/camera_choice.h"
 #include "common/scene/settings_check.h"
 #include "common/scene/settings_table.h"
@@ -213,6 +214,26 @@ void readShutter(const RawOptions& raw, Options& o) {
     failUsage("--shutter: blur is the mean of a picture's frames; give --frames 16, say");
 }
 
+// What is written must not be what else is written or read.
+void checkDifferent(const Options& o) {
+  using File = std::pair<const char*, const std::optional<std::string>>;
+  const std::vector<File> written = {{"--output", o.output},
+                                     {"--stats", o.stats},
+                                     {"--checkpoint", o.checkpoint},
+                                     {"--address-file", o.addressFile}};
+  std::vector<File> all = {{"the scene", o.scene},     {"--photon-scene", o.photonScene},
+                           {"--script", o.script},     {"--key-file", o.keyFile},
+                           {"--hosts", o.hosts},       {"--serve-certificate", o.serveCertificate},
+                           {"--serve-key", o.serveKey}};
+  for (const auto& [flag, name] : written) {
+    if (!name) continue;
+    for (const auto& [other, otherName] : all)
+      if (otherName && targetOf(*otherName) == targetOf(*name))
+        failUsage("{} and {} name the same file, {}: give two names", other, flag, *name);
+    all.emplace_back(flag, name);
+  }
+}
+
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
   o.stats = raw.text("stats");
@@ -233,6 +254,7 @@ void readFiles(const RawOptions& raw, Options& o) {
   if (o.saveEvery && !o.output && !o.checkpoint)
     failUsage("--save-every needs --output FILE or --checkpoint FILE");
   if (o.output) checkOutput(o);
+  checkDifferent(o);
 }
 
 }  // namespace

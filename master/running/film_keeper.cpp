@@ -144,6 +144,7 @@ void FilmKeeper::write(Checkpoint& what, const ServerTally& tally) {
 void FilmKeeper::end(const ServerTally& tally, bool isSettled) {
   if (!keeps_ || copy_.film.empty()) return;
   picture_.restore(copy_.film, copy_.frames);
+  if (tally.pixelClass.empty()) return;  // no client came, and the file has all there is
   if (verifies_ && isSettled)
     write(copy_, tally);
   else if (isNew_)

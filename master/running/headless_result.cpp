@@ -9,7 +9,9 @@ namespace ninefold {
 
 // While it converges. What cannot be written now may be later.
 void HeadlessRun::savePicture() {
+  saveAsked_.reset();
   if (!options_.output) return;
+  savedFrames_ = picture_.frames();
   try {
     writePicture(*options_.output);
     tellPicture();

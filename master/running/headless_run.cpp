@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <mutex>
 #include <thread>
 
 #include "common/base/cpu_time.h"
@@ -12,6 +13,7 @@
 namespace ninefold {
 namespace {
 
+constexpr Duration kWholeFrame = milliseconds(500);  // that a picture may wait for one
 constexpr Duration kLook = milliseconds(50);  // how late a signal or a failure may be noticed
 
 // Of all frames, but for key and weight.
@@ -55,6 +57,7 @@ HeadlessRun::HeadlessRun(const Options& options, const Job& job, const Listener:
       machine_(options, keys, *job.offer,
                {[this] { return nextWork(); },
                 [this](int worker, const GatheredFrame& frame, int tile) {
+                  const std::shared_lock adds(filmRests_);
                   picture_.finishTile(worker, frame, tile);
                 },
                 nullptr, nullptr,
@@ -77,6 +80,9 @@ void HeadlessRun::goOn() {
     plan_.skip(begun->frames);
     states_.resume(static_cast<uint32_t>(begun->frames), begun->run.state);
     cluster().resume(begun->run);
+    if (rule_.frames && begun->frames > *rule_.frames)
+      warn("{} has {} frames, more than --frames {}: the picture has them all",
+           *options_.checkpoint, begun->frames, *rule_.frames);
   }
   keeper_.reserve();
   cluster().keepStates(statesKept());
@@ -138,6 +144,7 @@ void HeadlessRun::gatherFrames() {
       std::this_thread::sleep_for(kLook);
     else if (const auto frame = machine_.next(Clock::now() + kLook))
       keep(*frame);
+    saveLate();
     if (goesBack_)
       goBack();
     else
@@ -155,13 +162,31 @@ void HeadlessRun::keep(const Assembly::Complete& frame) {
   record_.frameDone(frame, processCpuTime());
   lastNumber_ = frame.key.frame;
   if (keeper_.frameDone(frame.key, seconds(elapsed()))) cluster().mark(frame.key.frame);
-  const bool isAsked = cluster().takeSaveRequest();
-  if (isAsked) keeper_.hurry();
-  if (isAsked || (nextSave_ && Clock::now() >= *nextSave_)) savePicture();
+  if (saveIsDue()) savePicture();
   if (isMet())
     last_ = frame;
   else
     machine_.release(frame);
+}
+
+bool HeadlessRun::saveIsDue() {
+  const Time now = Clock::now();
+  if (cluster().takeSaveRequest()) {
+    keeper_.hurry();
+    if (!saveAsked_) saveAsked_ = now;
+  }
+  return saveAsked_ || (nextSave_ && now >= *nextSave_);
+}
+
+// Frames may be long in coming, or clients gone: then what is there is saved, with the tiles of a
+// frame that has begun.
+void HeadlessRun::saveLate() {
+  if (!saveIsDue() || last_ || picture_.frames() == 0) return;
+  const Time due = saveAsked_.value_or(nextSave_.value_or(Clock::now()));
+  if (Clock::now() - due < kWholeFrame) return;
+  if (!saveAsked_ && picture_.frames() == savedFrames_) return;
+  const std::unique_lock rests(filmRests_);
+  savePicture();
 }
 
 void HeadlessRun::followTrust() {

@@ -9,6 +9,7 @@
 
 #include <atomic>
 #include <optional>
+#include <shared_mutex>
 #include <string>
 
 #include "master/assembly/picture.h"
@@ -41,6 +42,8 @@ class HeadlessRun {
   uint32_t statesKept() const;
   FramePlan firstPlan() const;
   void keep(const Assembly::Complete& frame);
+  bool saveIsDue();
+  void saveLate();
   void savePicture();
   void tellPicture() const;
   void tellProgress();
@@ -68,11 +71,14 @@ class HeadlessRun {
   std::optional<Assembly::Complete> last_;  // of all frames: not released, so that the film rests
   std::optional<uint32_t> lastNumber_;      // of the latest frame
   int64_t framesAgain_ = 0;
+  std::shared_mutex filmRests_;  // shared: a worker adds a tile
   PictureMaker picture_;
   FilmKeeper keeper_;
-  int64_t framesBefore_ = 0;  // out of a checkpoint
-  Duration before_{0};        // spent on them
-  std::optional<Time> nextSave_;
+  int64_t framesBefore_ = 0;       // out of a checkpoint
+  Duration before_{0};             // spent on them
+  std::optional<Time> nextSave_;   // by --save-every
+  std::optional<Time> saveAsked_;  // by a signal
+  int64_t savedFrames_ = 0;
   bool saveFails_ = false;  // the last time
   RunRecord record_;
   Progress progress_;

@@ -26,7 +26,7 @@ void append(std::string& text, int count, const char* what) {
 }  // namespace
 
 Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
-    : remoteMayJoin_(setup.remoteMayJoin),
+    : othersMayJoin_(setup.remoteMayJoin || !setup.hosts.empty()),
       savesOnRequest_(setup.savesOnRequest),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
       local_(withMaster(std::move(setup.local), server_.endpoint()),
@@ -109,21 +109,24 @@ StartedClients::Work Cluster::workOf(const std::string& name) const {
 }
 
 void Cluster::watchForStall(Time now) {
-  const bool nothingMoves = server_.nothingMoves() && !local_.isStarting(now);
+  const bool nothingMoves = !endBy_ && server_.nothingMoves() && !local_.isStarting(now);
+  const bool isAlone = server_.readyClients() == 0;
   if (stall_.look(nothingMoves, now))
-    warn("nothing has moved for {:.0f} s: all clients are stuck{}",
-         seconds(now - server_.lastMove()), remoteMayJoin_ ? "; others may join" : "");
-  if (stall_.isOver())
-    fail(fmt::format(
-        "all clients are stuck and nothing has moved for {:.0f} s: {}; --patience S waits longer",
-        seconds(now - server_.lastMove()), server_.stuckTasks(now)));
+    warn("nothing has moved for {:.0f} s: {}{}", seconds(now - server_.lastMove()),
+         isAlone ? "no client is left" : "all clients are stuck",
+         othersMayJoin_ ? "; others may join at " + addressText(server_.endpoint()) : "");
+  if (!stall_.isOver() || (isAlone && othersMayJoin_)) return;
+  fail(fmt::format("{} and nothing has moved for {:.0f} s{}; --patience S waits longer",
+                   isAlone ? "no client answers" : "all clients are stuck",
+                   seconds(now - server_.lastMove()),
+                   isAlone ? "" : ": " + server_.stuckTasks(now)));
 }
 
 // A window waits for remote clients, if there may be any.
 void Cluster::failWithoutClients() {
-  if (local_.hang() && (!remoteMayJoin_ || !stall_.isEndless()))
+  if (local_.hang() && (!othersMayJoin_ || !stall_.isEndless()))
     fail(*local_.hang());
-  else if (!remoteMayJoin_)
+  else if (!othersMayJoin_)
     fail("all local clients ended and none can be started; see the lines above");
 }
 
@@ -163,7 +166,8 @@ std::string Cluster::describeClients() const {
     ready += isReady && !client.isStuck() ? 1 : 0;
     lost += client.status.state == ClientState::lost ? 1 : 0;
     if (client.status.state == ClientState::syncing)
-      syncing += fmt::format(", {} syncing {:.0f}%", client.name, 100 * client.status.synced);
+      syncing += fmt::format("{}{} syncing {:.0f}%", syncing.empty() ? "" : ", ", client.name,
+                             100 * client.status.synced);
   }
   std::string text;
   append(text, ready, "ready");
@@ -171,6 +175,7 @@ std::string Cluster::describeClients() const {
   append(text, building, "building the scene");
   append(text, connecting, "connecting");
   append(text, lost, "lost");
+  if (!text.empty() && !syncing.empty()) text += ", ";
   text += syncing;
   return text.empty() ? "no client yet" : text;
 }

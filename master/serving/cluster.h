@@ -95,7 +95,7 @@ class Cluster {
   std::string describeClients() const;  // needs the lock
 
   EventLoop loop_;
-  const bool remoteMayJoin_, savesOnRequest_;
+  const bool othersMayJoin_, savesOnRequest_;
   Server server_;
   StartedClients local_, hosts_;
   StallWatch stall_;

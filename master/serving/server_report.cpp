@@ -15,7 +15,8 @@ bool Server::nothingMoves() const {
     const ClientSession& session = *peer.second.session;
     return !session.over() && !session.ready() && !session.visits();
   };
-  return scheduler_.allAreStuck() && joining_.empty() && std::ranges::none_of(peers_, isComing);
+  const bool nobodyCan = scheduler_.allAreStuck() || (started_ && scheduler_.clients() == 0);
+  return nobodyCan && joining_.empty() && std::ranges::none_of(peers_, isComing);
 }
 
 std::string Server::stuckTasks(Time now) const {

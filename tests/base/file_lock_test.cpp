@@ -53,6 +53,20 @@ TEST_F(FileLocks, ALinkIsTheFileThatItLeadsTo) {
   EXPECT_NE(complaint("a"), "");
 }
 
+TEST_F(FileLocks, ALinkToNothingYetIsTheFileThatWillBeThere) {
+  fs::create_directory(path("far"));
+  fs::create_symlink("far/a", path("link"));
+  {
+    const FileLock lock(path("link"));
+    EXPECT_NE(complaint("far/a"), "");
+    writeFile(path("link"), "x");
+    EXPECT_NE(complaint("link"), "");
+    EXPECT_NE(complaint("far/a"), "");
+  }
+  EXPECT_EQ(complaint("far/a"), "");
+  EXPECT_EQ(std::distance(fs::directory_iterator(path("far")), {}), 1);
+}
+
 TEST_F(FileLocks, WhatAKilledProgramLeftIsTakenOver) {
   writeFile(path(".ninefold.a.lock"), "");
   EXPECT_EQ(complaint("a"), "");

@@ -233,6 +233,14 @@ TEST_F(WrittenFiles, WhatAKilledWriterLeftGoesAndWhatALivingOneWritesStays) {
   EXPECT_EQ(contentOf(path("b")), "living");
 }
 
+TEST_F(WrittenFiles, WhatAKilledWriterLeftGoesFromWhereALinkLeads) {
+  fs::create_directory(path("far"));
+  folder_.write("far/.ninefold.999999999.0.part", "half a pict");
+  fs::create_symlink("far/a", path("link"));
+  checkWritable(path("link"));
+  EXPECT_FALSE(fs::exists(path("far/.ninefold.999999999.0.part")));
+}
+
 TEST_F(WrittenFiles, WhatAKilledProcessOfOurNumberLeftIsNotInTheWay) {
   for (int i = 0; i < 200; ++i)
     folder_.write(".ninefold." + std::to_string(::getpid()) + "." + std::to_string(i) + ".part",

@@ -184,6 +184,23 @@ class Checkpoint(ClusterTest):
         self.finish(master)
         self.assertGreater(whole, 3)
 
+    def test_the_picture_is_saved_though_no_client_is_left(self):
+        self.new_key()
+        master = self.master("--local-clients", 0, "--key-file", "cluster.key", "--save-every", 1, frames=100000)
+        client = self.client(self.address_of(master))
+        master.waits_for(r"progress: \d+% frame [1-9]")
+        client.process.kill()
+        master.waits_for(r"nothing has moved for \d s: no client is left; others may join at 127")
+        def told():
+            return re.findall(r"(\d+) frame\(s\) in out", master.text)
+        before = len(told())
+        self.send(master.process.pid, signal.SIGUSR1)
+        eventually(lambda: len(told()) > before, "another picture")
+        saved = int(told()[-1])
+        self.send(master.process.pid, signal.SIGINT)
+        master.ends()
+        self.assertEqual(saved, json.loads(master.stats_file.read_text())["frames"])
+
     def test_a_signal_asks_for_the_picture_and_the_run_goes_on(self):
         calm = self.render("--local-clients", 2, frames=2500)
         master = self.master("--local-clients", 2, frames=2500)

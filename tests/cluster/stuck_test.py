@@ -7,7 +7,7 @@ import json
 import shutil
 import unittest
 
-from programs import BIN, SCENES, ClusterTest
+from programs import BIN, SCENES, ClusterTest, eventually, is_running, signal
 
 SLEEPER = BIN / "sleeping-client"
 
@@ -69,6 +69,20 @@ class Stuck(ClusterTest):
         last = [line for line in master.lines if line][-1]
         self.assertRegex(last, r"^ninefold-master: all clients are stuck and nothing has moved for 1\d s: "
                          r"client 1 in frame 2, tile 0, set \d; --patience S waits longer$")
+
+    def test_when_all_local_clients_are_silent_the_run_ends_with_what_there_is(self):
+        master = self.master("--local-clients", 2, "--patience", 2, frames=100000)
+        master.waits_for(r"progress: \d+% frame [1-9]")
+        clients = master.children()
+        self.assertEqual(len(clients), 2)
+        for client in clients:
+            self.send(client, signal.SIGSTOP)
+        master.waits_for(r"nothing has moved for \d+ s: no client is left")
+        self.assertEqual(master.ends(), 1, master.text)
+        self.assertTrue(master.picture.exists())
+        last = [line for line in master.lines if line][-1]
+        self.assertRegex(last, r"^ninefold-master: no client answers and nothing has moved for \d+ s; --patience S waits longer$")
+        eventually(lambda: not any(is_running(client) for client in clients), "no client is left behind")
 
     def test_a_client_that_comes_back_goes_on(self):
         master = self.remote_master("--patience", 60)

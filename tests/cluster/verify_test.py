@@ -136,6 +136,13 @@ class Verify(ClusterTest):
         self.assertGreater(stats["verify"]["alone"], 0)
         self.assertRegex(master.text, "of the results that --verify chose were not checked")
 
+    def test_a_run_that_is_complete_already_leaves_its_checkpoint_as_it_is(self):
+        keeps = ("--local-clients", 2, "--checkpoint", "run.checkpoint")
+        self.render(*keeps, frames=20)
+        before = (self.folder / "run.checkpoint").read_bytes()
+        self.render(*keeps, "--verify", 0.5, frames=20)
+        self.assertEqual((self.folder / "run.checkpoint").read_bytes(), before)
+
     def test_a_checkpoint_of_a_spoilt_run_is_good(self):
         calm = self.render("--local-clients", 2, frames=self.FRAMES)
         keeps = ("--checkpoint", "run.checkpoint", "--save-every", 0.02, "--verify", 0.5)

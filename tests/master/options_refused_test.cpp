@@ -203,5 +203,17 @@ TEST(OptionsRefused, ACameraMustBeTheScenes) {
   EXPECT_THROW(makeSettings(parse("a.glb --camera attic"), scene), Error);
 }
 
+TEST(Options, WhatIsWrittenIsNothingElse) {
+  EXPECT_EQ(complaint("room.glb --checkpoint ./out.exr"),
+            "--output and --checkpoint name the same file, ./out.exr: give two names");
+  EXPECT_EQ(complaint("room.glb --stats room.glb"),
+            "the scene and --stats name the same file, room.glb: give two names");
+  EXPECT_EQ(complaint("room.glb --checkpoint a --stats a"),
+            "--stats and --checkpoint name the same file, a: give two names");
+  EXPECT_EQ(complaint("room.glb --key-file k --address-file k"),
+            "--key-file and --address-file name the same file, k: give two names");
+  EXPECT_EQ(complaint("room.glb --checkpoint a --stats b --address-file c"), "");
+}
+
 }  // namespace
 }  // namespace ninefold
