@@ -220,6 +220,7 @@ void checkDifferent(const Options& o) {
   const std::vector<File> written = {{"--output", o.output},
                                      {"--stats", o.stats},
                                      {"--checkpoint", o.checkpoint},
+                                     {"--metrics", o.metrics},
                                      {"--address-file", o.addressFile}};
   std::vector<File> all = {{"the scene", o.scene},     {"--photon-scene", o.photonScene},
                            {"--script", o.script},     {"--key-file", o.keyFile},
@@ -237,6 +238,7 @@ void checkDifferent(const Options& o) {
 void readFiles(const RawOptions& raw, Options& o) {
   o.output = raw.text("output");
   o.stats = raw.text("stats");
+  o.metrics = raw.text("metrics");
   if (!o.output && !o.stats && !isWatched(o))
     failUsage("nothing to do with the picture: give --output FILE (.exr, .png, .hdr or .mp4)");
   if (o.animate && !isWatched(o) && !namesSeries(o))
@@ -249,6 +251,8 @@ void readFiles(const RawOptions& raw, Options& o) {
     failUsage(
         "--{} is for one picture at rest: leave --window, --serve, --script and --animate out",
         o.checkpoint ? "checkpoint" : "save-every");
+  if (isLive(o) && o.metrics)
+    failUsage("--metrics is for one picture at rest; --serve gives them at /metrics");
   if (isLive(o) && o.verify > 0)
     failUsage("--verify is for one picture at rest: leave --window, --script and --animate out");
   if (o.saveEvery && !o.output && !o.checkpoint)

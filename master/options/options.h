@@ -76,6 +76,7 @@ struct Options {
   bool autoExposure = false;      // by the picture, whatever the scene says
   ToneCurve toneCurve = ToneCurve::srgb;
   std::optional<std::string> stats;
+  std::optional<std::string> metrics;  // file, of a run that is not live
 
   std::optional<std::string> serve;                       // ADDR:PORT for browsers
   std::optional<std::string> serveCertificate, serveKey;  // PEM files

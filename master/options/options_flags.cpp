@@ -143,6 +143,9 @@ constexpr Flag kFiles[] = {
     {"aovs", nullptr,
      "more layers in the .exr: albedo, N, Z, irradiance, caustic, error, object id"},
     {"stats", "FILE", "what happened, as JSON; - is standard output"},
+    {"metrics", "FILE.prom",
+     "of a run without a window that makes one picture: what --serve gives at /metrics, anew each "
+     "10 s, for a collector of text files"},
     {"help", nullptr, "print this and end, as -h does"},
     {"version", nullptr, "print the release and end"},
 };

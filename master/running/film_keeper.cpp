@@ -77,6 +77,7 @@ void FilmKeeper::reserve() const {
   const TileGrid& grid = job_.shape.grid;
   if (options_.output) checkWritable(*options_.output, pixelCount(grid.width(), grid.height()));
   if (options_.checkpoint) checkWritable(*options_.checkpoint, picture_.keptBytes());
+  if (options_.metrics) checkWritable(*options_.metrics);
 }
 
 void FilmKeeper::stepDone(uint32_t version, const StatePages& pages) {

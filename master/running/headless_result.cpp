@@ -2,6 +2,8 @@
 #include "common/base/log.h"
 #include "common/base/release.h"
 #include "common/base/standard_streams.h"
+#include "common/base/written_file.h"
+#include "master/output/metrics.h"
 #include "master/output/output_files.h"
 #include "master/running/headless_run.h"
 
@@ -20,6 +22,21 @@ void HeadlessRun::savePicture() {
     if (!std::exchange(saveFails_, true)) warn("{}; the run goes on and tries again", error.what());
   }
   if (nextSave_) nextSave_ = Clock::now() + fromSeconds(*options_.saveEvery);
+}
+
+void HeadlessRun::writeMetrics() {
+  constexpr Duration kEvery = std::chrono::seconds(10);
+  if (!options_.metrics) return;
+  nextMetrics_ = Clock::now() + kEvery;
+  try {
+    writeFile(*options_.metrics, metricsText({.tally = cluster().tally(),
+                                              .clients = cluster().clients(),
+                                              .framesInPicture = picture_.frames(),
+                                              .relativeError = picture_.relativeError()}));
+    metricsFail_ = false;
+  } catch (const Error& error) {
+    if (!std::exchange(metricsFail_, true)) warn("{}; the run goes on", error.what());
+  }
 }
 
 void HeadlessRun::tellProgress() {

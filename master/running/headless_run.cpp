@@ -140,6 +140,7 @@ void HeadlessRun::gatherFrames() {
   if (options_.saveEvery) nextSave_ = Clock::now();  // the first frame shows something
   while (!isDone()) {
     tellProgress();
+    if (Clock::now() >= nextMetrics_) writeMetrics();
     if (last_)
       std::this_thread::sleep_for(kLook);
     else if (const auto frame = machine_.next(Clock::now() + kLook))
@@ -152,6 +153,7 @@ void HeadlessRun::gatherFrames() {
     keeper_.writeIfDue(cluster().tally(), Clock::now());
   }
   enough_ = true;
+  writeMetrics();
   const std::string end = progress_.finish(progressState(), Clock::now());
   sayToPeople(end);
 }

@@ -47,6 +47,7 @@ class HeadlessRun {
   void savePicture();
   void tellPicture() const;
   void tellProgress();
+  void writeMetrics();
   ProgressState progressState() const;
   void writePicture(const std::string& path) const;
   void writeLastPicture() const;
@@ -80,6 +81,8 @@ class HeadlessRun {
   std::optional<Time> saveAsked_;  // by a signal
   int64_t savedFrames_ = 0;
   bool saveFails_ = false;  // the last time
+  Time nextMetrics_{};
+  bool metricsFail_ = false;
   RunRecord record_;
   Progress progress_;
   FrameMachine machine_;  // last: its threads end before what they work on

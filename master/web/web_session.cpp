@@ -7,7 +7,7 @@
 #include "common/image/image_file.h"
 #include "master/output/output_files.h"
 #include "master/running/invitation.h"
-#include "master/web/metrics.h"
+#include "master/output/metrics.h"
 #include "master/web/web_setup.h"
 #include "master/web/web_state.h"
 

@@ -201,6 +201,17 @@ class Checkpoint(ClusterTest):
         master.ends()
         self.assertEqual(saved, json.loads(master.stats_file.read_text())["frames"])
 
+    def test_metrics_are_there_from_the_start_to_the_end(self):
+        self.new_key()
+        master = self.master("--local-clients", 0, "--key-file", "cluster.key", "--metrics", "run.prom", frames=20)
+        metrics = self.folder / "run.prom"
+        eventually(metrics.exists, "the first metrics")
+        self.assertIn("ninefold_picture_frames 0\n", metrics.read_text())
+        self.client(self.address_of(master))
+        self.finish(master)
+        self.assertIn("ninefold_picture_frames 20\n", metrics.read_text())
+        self.assertIn("ninefold_frames_total 20\n", metrics.read_text())
+
     def test_a_signal_asks_for_the_picture_and_the_run_goes_on(self):
         calm = self.render("--local-clients", 2, frames=2500)
         master = self.master("--local-clients", 2, frames=2500)

@@ -212,7 +212,7 @@ TEST(Options, WhatIsWrittenIsNothingElse) {
             "--stats and --checkpoint name the same file, a: give two names");
   EXPECT_EQ(complaint("room.glb --key-file k --address-file k"),
             "--key-file and --address-file name the same file, k: give two names");
-  EXPECT_EQ(complaint("room.glb --checkpoint a --stats b --address-file c"), "");
+  EXPECT_EQ(complaint("room.glb --checkpoint a --stats b --address-file c --metrics d"), "");
 }
 
 }  // namespace

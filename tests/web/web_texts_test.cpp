@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "master/web/metrics.h"
+#include "master/output/metrics.h"
 #include "master/web/web_state.h"
 
 namespace ninefold {

@@ -1,4 +1,4 @@
-#include "master/web/metrics.h"
+#include "master/output/metrics.h"
 
 #include <fmt/core.h>
 
