@@ -24,12 +24,12 @@ void HeadlessRun::savePicture() {
   if (nextSave_) nextSave_ = Clock::now() + fromSeconds(*options_.saveEvery);
 }
 
-void HeadlessRun::writeMetrics() {
+void HeadlessRun::writeMetrics(const ServerTally& tally) {
   constexpr Duration kEvery = std::chrono::seconds(10);
   if (!options_.metrics) return;
   nextMetrics_ = Clock::now() + kEvery;
   try {
-    writeFile(*options_.metrics, metricsText({.tally = cluster().tally(),
+    writeFile(*options_.metrics, metricsText({.tally = tally,
                                               .clients = cluster().clients(),
                                               .framesInPicture = picture_.frames(),
                                               .relativeError = picture_.relativeError()}));

@@ -128,6 +128,7 @@ int HeadlessRun::run() {
   }
   if (picture_.frames() > 0) writeLastPicture();
   cluster().join();
+  writeMetrics(cluster().server().tally());
   if (picture_.frames() > 0 || cluster().failure()) writeStatistics();
   if (const std::string doubt = tellVerification(); failure.empty()) failure = doubt;
   if (const auto ended = cluster().failure()) failure = *ended;
@@ -140,7 +141,7 @@ void HeadlessRun::gatherFrames() {
   if (options_.saveEvery) nextSave_ = Clock::now();  // the first frame shows something
   while (!isDone()) {
     tellProgress();
-    if (Clock::now() >= nextMetrics_) writeMetrics();
+    if (Clock::now() >= nextMetrics_) writeMetrics(cluster().tally());
     if (last_)
       std::this_thread::sleep_for(kLook);
     else if (const auto frame = machine_.next(Clock::now() + kLook))
@@ -153,7 +154,6 @@ void HeadlessRun::gatherFrames() {
     keeper_.writeIfDue(cluster().tally(), Clock::now());
   }
   enough_ = true;
-  writeMetrics();
   const std::string end = progress_.finish(progressState(), Clock::now());
   sayToPeople(end);
 }

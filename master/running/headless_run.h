@@ -47,7 +47,7 @@ class HeadlessRun {
   void savePicture();
   void tellPicture() const;
   void tellProgress();
-  void writeMetrics();
+  void writeMetrics(const ServerTally& tally);
   ProgressState progressState() const;
   void writePicture(const std::string& path) const;
   void writeLastPicture() const;

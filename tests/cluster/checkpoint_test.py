@@ -76,7 +76,7 @@ class Checkpoint(ClusterTest):
         return re.sub(rb"\d{4}:\d\d:\d\d \d\d:\d\d:\d\d", b"", picture.read_bytes())
 
     def test_an_ended_run_keeps_all_whole_frames_and_a_finished_one_needs_no_client(self):
-        frames = 150  # so many that the signal comes before the last one
+        frames = 900  # so many that the signal comes before the last one
         calm = self.render("--local-clients", 2, frames=frames)
         master = self.keeps(frames=frames)
         master.waits_for(r"progress: \d+% frame [1-9]")
