@@ -29,8 +29,9 @@ std::string Progress::describe(const ProgressState& state, Time now) const {
   const double elapsed = seconds(now - start_);
   if (state.fraction >= 1)
     text += " after " + time(elapsed);
-  else if (state.fraction >= kEnoughToGuess)
-    text += " eta " + time(elapsed * (1 / state.fraction - 1));
+  else if (const double own = state.fraction - state.before; own >= kEnoughToGuess)
+    text +=
+        " eta " + time(seconds(now - state.begun.value_or(start_)) * (1 - state.fraction) / own);
   if (!state.note.empty()) text += ", " + state.note;
   return text;
 }

@@ -19,6 +19,8 @@ struct ProgressState {
   double fraction = 0;             // done, 0 to 1
   int64_t frames = 0;              // complete
   std::optional<int64_t> of = {};  // frames in all, if that is known
+  std::optional<Time> begun = {};  // when this run's work began, if not with the program
+  double before = 0;               // of the fraction, done by runs before
   std::string note = {};           // e.g. "2 clients", "1 client fetches the scene, 63%"
 };
 

@@ -45,7 +45,12 @@ void HeadlessRun::tellProgress() {
 
 ProgressState HeadlessRun::progressState() const {
   const double fraction = rule_.fraction(picture_.frames(), elapsed(), picture_.relativeError());
-  return {fraction, picture_.frames(), rule_.frames, cluster().summary()};
+  return {.fraction = fraction,
+          .frames = picture_.frames(),
+          .of = rule_.frames,
+          .begun = cluster().firstDispatch(),
+          .before = fractionBefore_,
+          .note = cluster().summary()};
 }
 
 void HeadlessRun::writeLastPicture() const {

@@ -77,6 +77,7 @@ FramePlan HeadlessRun::firstPlan() const {
 void HeadlessRun::goOn() {
   if (const auto begun = keeper_.resume()) {
     framesBefore_ = begun->frames, before_ = fromSeconds(begun->seconds);
+    fractionBefore_ = rule_.fraction(framesBefore_, before_, picture_.relativeError());
     plan_.skip(begun->frames);
     states_.resume(static_cast<uint32_t>(begun->frames), begun->run.state);
     cluster().resume(begun->run);

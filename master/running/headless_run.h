@@ -75,8 +75,9 @@ class HeadlessRun {
   std::shared_mutex filmRests_;  // shared: a worker adds a tile
   PictureMaker picture_;
   FilmKeeper keeper_;
-  int64_t framesBefore_ = 0;       // out of a checkpoint
-  Duration before_{0};             // spent on them
+  int64_t framesBefore_ = 0;  // out of a checkpoint
+  Duration before_{0};        // spent on them
+  double fractionBefore_ = 0;
   std::optional<Time> nextSave_;   // by --save-every
   std::optional<Time> saveAsked_;  // by a signal
   int64_t savedFrames_ = 0;

@@ -19,6 +19,17 @@ TEST(Progress, LinesCanBeReadByPrograms) {
             "progress: 100% frame 64 of 64 after 50 s\n");
 }
 
+// A run that waited 100 s for a client, then went on behind what another had done.
+TEST(Progress, TheEndIsForetoldByWhatThisRunDid) {
+  Progress p(false, kStart);
+  const auto second = [](int n) { return kStart + std::chrono::seconds(n); };
+  EXPECT_EQ(
+      p.update({.fraction = 0.5, .frames = 50, .begun = second(100), .before = 0.4}, second(102)),
+      "progress: 50% frame 50 eta 10 s\n");
+  EXPECT_EQ(p.update({.fraction = 0.4, .frames = 40, .before = 0.4}, second(104)),
+            "progress: 40% frame 40\n");
+}
+
 TEST(Progress, SaysNothingOfTheEndBeforeItCanKnow) {
   Progress p(false, kStart);
   const auto text = p.update({.fraction = 0, .note = "no client yet"}, kStart);
