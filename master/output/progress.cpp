@@ -16,6 +16,7 @@ int percent(const ProgressState& state) {
 }
 
 std::string time(double seconds) {
+  seconds = std::max(0.0, seconds - 1e-3);  // rounding makes no second
   if (seconds < 100) return fmt::format("{:.0f} s", std::ceil(seconds));
   if (seconds < 6000) return fmt::format("{:.0f} min", std::ceil(seconds / 60));
   return fmt::format("{:.0f} h", std::ceil(seconds / 3600));
