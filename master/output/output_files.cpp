@@ -21,6 +21,7 @@ void checkFiles(const Options& options) {
     checkOutputPath(isSeries && isNumbered(*options.output) ? numbered(*options.output, 0)
                                                             : *options.output);
   if (options.checkpoint) checkWritable(*options.checkpoint);
+  if (options.metrics) checkWritable(*options.metrics);
   if (options.stats && *options.stats != kStandardOutput) checkWritable(*options.stats);
 }
 

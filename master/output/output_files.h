@@ -8,7 +8,7 @@
 
 namespace ninefold {
 
-// Whether --output, --checkpoint and --stats can be written.
+// Whether --output, --checkpoint, --metrics and --stats can be written.
 void checkFiles(const Options& options);
 
 // Calls write(name). If that throws Error, what took long to make is not lost: it goes to a file of

@@ -5,6 +5,7 @@
 #include "common/base/written_file.h"
 #include "common/scene/methods.h"
 #include "common/scene/settings_table.h"
+#include "master/output/output_files.h"
 
 namespace ninefold {
 namespace {
@@ -77,7 +78,6 @@ void FilmKeeper::reserve() const {
   const TileGrid& grid = job_.shape.grid;
   if (options_.output) checkWritable(*options_.output, pixelCount(grid.width(), grid.height()));
   if (options_.checkpoint) checkWritable(*options_.checkpoint, picture_.keptBytes());
-  if (options_.metrics) checkWritable(*options_.metrics);
 }
 
 void FilmKeeper::stepDone(uint32_t version, const StatePages& pages) {
@@ -128,17 +128,17 @@ void FilmKeeper::writeIfDue(const ServerTally& tally, Time now) {
   if (!isNew_ || now < nextWrite_.value_or(now) || tally.pixelClass.empty()) return;
   nextWrite_ = now + fromSeconds(options_.saveEvery.value_or(kWriteEvery));
   try {
-    write(verifies_ ? base_ : copy_, tally);
+    write(*options_.checkpoint, verifies_ ? base_ : copy_, tally);
   } catch (const Error& error) {
     if (!std::exchange(fails_, true)) warn("{}; the run goes on and tries again", error.what());
   }
 }
 
-void FilmKeeper::write(Checkpoint& what, const ServerTally& tally) {
+void FilmKeeper::write(const std::string& file, Checkpoint& what, const ServerTally& tally) {
   if (what.frames == 0) return;
   what.pixelClass = tally.pixelClass, what.isa = tally.isa;
   what.reproducible = tally.reproducible;
-  writeCheckpoint(*options_.checkpoint, what);
+  writeCheckpoint(file, what);
   isNew_ = fails_ = false;
 }
 
@@ -146,10 +146,11 @@ void FilmKeeper::end(const ServerTally& tally, bool isSettled) {
   if (!keeps_ || copy_.film.empty()) return;
   picture_.restore(copy_.film, copy_.frames);
   if (tally.pixelClass.empty()) return;  // no client came, and the file has all there is
-  if (verifies_ && isSettled)
-    write(copy_, tally);
-  else if (isNew_)
-    write(verifies_ ? base_ : copy_, tally);
+  const bool isAll = verifies_ && isSettled;
+  if (!isAll && !isNew_) return;
+  writeSomewhere(*options_.checkpoint, [&](const std::string& file) {
+    write(file, verifies_ && !isAll ? base_ : copy_, tally);
+  });
 }
 
 }  // namespace ninefold

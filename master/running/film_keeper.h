@@ -59,12 +59,12 @@ class FilmKeeper {
   void writeIfDue(const ServerTally& tally, Time now);
   // No worker adds to the film any more: puts it back as it was after the last whole frame, and
   // writes the file. `isSettled`: nothing that it has is still to be verified. Error: it cannot be
-  // written.
+  // written there, and is somewhere else (output_files.h).
   void end(const ServerTally& tally, bool isSettled);
 
  private:
   void copy(Checkpoint& to, uint32_t state, double seconds);
-  void write(Checkpoint& what, const ServerTally& tally);
+  void write(const std::string& file, Checkpoint& what, const ServerTally& tally);
   Checkpoint::Rows rows() const;
 
   const Options& options_;

@@ -172,6 +172,20 @@ class Checkpoint(ClusterTest):
         with open(found, "rb") as picture:
             self.assertEqual(picture.read(4), b"\x89PNG")
 
+    def test_a_film_that_cannot_be_kept_in_the_end_is_somewhere_else(self):
+        frames = 900
+        calm = self.render("--local-clients", 2, frames=frames)
+        os.mkdir(self.folder / "away")
+        master = self.master("--local-clients", 2, "--checkpoint", "away/run.checkpoint", frames=frames)
+        master.waits_for(r"progress: \d+% frame [1-9]")
+        os.rename(self.folder / "away", self.folder / "gone")
+        self.send(master.process.pid, signal.SIGTERM)
+        self.assertEqual(master.ends(), 1, master.text)
+        found = master.waits_for(r"cannot write away/run.checkpoint: .*; it is in (\S+/run.checkpoint)\n?$").group(1)
+        so_far = json.loads(master.stats_file.read_text())["frames"]
+        stats = self.render("--local-clients", 2, "--checkpoint", found, frames=frames)
+        self.assertEqual((stats["frames_before"], stats["image_hash"]), (so_far, calm["image_hash"]))
+
     def test_the_picture_is_there_while_it_converges_whole_at_every_moment(self):
         master = self.keeps(*OFTEN, frames=200)
         whole = 0
