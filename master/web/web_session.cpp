@@ -5,9 +5,9 @@
 #include "common/base/standard_streams.h"
 #include "common/image/encode.h"
 #include "common/image/image_file.h"
+#include "master/output/metrics.h"
 #include "master/output/output_files.h"
 #include "master/running/invitation.h"
-#include "master/output/metrics.h"
 #include "master/web/web_setup.h"
 #include "master/web/web_state.h"
 
