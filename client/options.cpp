@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "client/blob_cache.h"
+#include "proto/connection.h"
 #include "proto/messages.h"
 
 namespace ninefold::client {
@@ -94,6 +95,15 @@ Isa parseIsa(const std::string& name) {
   failUsage("--isa {}: must be auto, avx2 or avx512", name);
 }
 
+// As --master has it; an address that is none is wrong usage.
+void checkAddress(const std::string& master) {
+  try {
+    parseEndpoint(master, "--master");
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
+}
+
 std::string machineName() {
   char name[kMaxText] = {};
   return ::gethostname(name, sizeof name - 1) == 0 ? name : "client";
@@ -127,6 +137,7 @@ Options parseOptions(int argc, const char* const* argv, const Variable& variable
   if (const auto file = get(values, "master-file")) options.masterFile = *file;
   if (!options.master.empty() && options.masterFile)
     failUsage("--master and --master-file exclude each other");
+  if (!options.master.empty()) checkAddress(options.master);
   options.threads = getNumber(values, "threads", std::clamp(cores, 1, 1024), 1, 1024);
   options.isa = parseIsa(get(values, "isa").value_or("auto"));
   options.name = get(values, "name").value_or(machineName());

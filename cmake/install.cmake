@@ -59,5 +59,5 @@ install(DIRECTORY scenes/ DESTINATION ${CMAKE_INSTALL_DATADIR}/ninefold/scenes C
   FILES_MATCHING PATTERN "*.glb" PATTERN "*.json" PATTERN "README.md"
   PATTERN generator EXCLUDE)
 install(PROGRAMS scripts/slurm DESTINATION ${CMAKE_INSTALL_DATADIR}/ninefold COMPONENT common)
-install(FILES README.md docs/cluster.md docs/script.md docs/window.md
+install(FILES README.md docs/browser.md docs/cluster.md docs/light-units.md docs/script.md docs/window.md
   DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ninefold-common COMPONENT common)

@@ -4,6 +4,9 @@
 namespace ninefold {
 namespace {
 
+constexpr const char* kIfSilent =
+    "look whether this is a master's port, and whether a firewall closes it";
+
 class DialError : public Error {
  public:
   DialError(ConnectProblem problem, const std::string& line) : Error(line), problem(problem) {}
@@ -43,7 +46,8 @@ DialError networkError(const std::string& where, const NetError& error) {
         fmt::format("cannot reach {}: nobody listens there; start ninefold-master with --listen",
                     where)};
   if (error == asio::error::timed_out)
-    return {ConnectProblem::timedOut, fmt::format("cannot reach {}: no answer", where)};
+    return {ConnectProblem::timedOut,
+            fmt::format("cannot reach {}: no answer; {}", where, kIfSilent)};
   return {ConnectProblem::unreachable,
           fmt::format("cannot reach {}: {}; check the address and the network", where,
                       error.message())};
@@ -121,8 +125,9 @@ asio::awaitable<void> Attempt::run(std::function<void(std::shared_ptr<Connection
     late = deadline.passed();
   }
   if (late)
-    failure = {ConnectProblem::timedOut, fmt::format("cannot reach {}: no answer within {:.1f} s",
-                                                     where(), seconds(options_.handshake))};
+    failure = {ConnectProblem::timedOut,
+               fmt::format("cannot reach {}: no answer within {:.1f} s; {}", where(),
+                           seconds(options_.handshake), kIfSilent)};
   if (connection && !late) co_return onConnected(std::move(connection));
   if (secure_) secure_->close();
   onFailed(failure);

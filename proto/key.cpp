@@ -30,6 +30,16 @@ bool writeAll(int fd, ByteView bytes) {
   return true;
 }
 
+// For master and client alike: a key is made once, and copied.
+constexpr const char* kHowItIsMade =
+    "it is made once by ninefold-master --new-key FILE, and copied to each client";
+
+std::string remedyFor(int error) {
+  if (error == EACCES) return "it must belong to the user who runs this";
+  if (error == ENOENT || error == ENOTDIR) return kHowItIsMade;
+  return "look at it, or copy the master's again";
+}
+
 void checkKeyFile(int fd, const std::filesystem::path& file) {
   struct stat facts {};
   if (::fstat(fd, &facts) != 0) fail("key file {}: {}", file.string(), systemText());
@@ -38,8 +48,8 @@ void checkKeyFile(int fd, const std::filesystem::path& file) {
     fail("key file {}: others may use it (mode {:03o}); run: chmod 600 {}", file.string(),
          facts.st_mode & 0777, file.string());
   if (facts.st_size != static_cast<off_t>(Key::kBytes))
-    fail("key file {}: has {} bytes instead of {}; make a new one with --new-key", file.string(),
-         facts.st_size, Key::kBytes);
+    fail("key file {}: has {} bytes instead of {} and is no key; {}", file.string(), facts.st_size,
+         Key::kBytes, kHowItIsMade);
 }
 
 }  // namespace
@@ -68,7 +78,10 @@ Key Key::random() {
 Key Key::load(const std::filesystem::path& file) {
   // Not blocking: a named pipe in place of the file must not make us wait.
   const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-  if (!in) fail("key file {}: {}; make one with --new-key", file.string(), systemText());
+  if (!in) {
+    const int error = errno;
+    fail("key file {}: {}; {}", file.string(), std::strerror(error), remedyFor(error));
+  }
   checkKeyFile(in.get(), file);
   Key key;
   if (readUpTo(in.get(), key.bytes_) != kBytes)

@@ -1,5 +1,7 @@
 #include "proto/recording.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 
 #include "proto/framing.h"
@@ -54,9 +56,9 @@ void Recorder::finish() {
   if (const auto file = std::move(file_)) file->publish();
 }
 
-std::vector<Message> readRecording(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail("recording {}: cannot read it", file.string());
+namespace {
+
+std::vector<Message> readMessages(std::istream& stream) {
   FrameParser parser(messageLimit);
   std::vector<Message> messages;
   while (true) {
@@ -71,6 +73,20 @@ std::vector<Message> readRecording(const std::filesystem::path& file) {
     }
   }
   return messages;
+}
+
+}  // namespace
+
+std::vector<Message> readRecording(const std::filesystem::path& file) {
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail("recording {}: {}", file.string(), std::strerror(errno));
+  try {
+    return readMessages(stream);
+  } catch (const Error& error) {
+    fail("recording {}: {}; give a file that ninefold-client --record has written", file.string(),
+         error.what());
+  }
 }
 
 }  // namespace ninefold

@@ -47,28 +47,32 @@ inline Finding judgeSpace(const std::filesystem::path& folder, uint64_t free) {
 }
 
 // Makes the folder if it is not there, as a client would. `folder`: nothing if there is to be none.
+// Never bad: a client goes on without a cache.
 inline Finding lookAtCache(const std::optional<std::filesystem::path>& folder) {
-  if (!folder) return {Grade::note, "cache", "none", "the scene comes anew with each start"};
+  const std::string without = "without it the scene comes anew with each start";
+  if (!folder) return {Grade::note, "cache", "none", without};
   try {
     const BlobCache cache(*folder);
     checkWritable(*folder / "probe");
   } catch (const Error& error) {
-    return {Grade::bad, "cache", error.what()};
+    return {Grade::note, "cache", error.what(), without};
   }
   struct statvfs space {};
   if (::statvfs(folder->c_str(), &space) != 0)
-    return {Grade::bad, "cache", folder->string() + " tells no free space",
+    return {Grade::note, "cache", folder->string() + " tells no free space",
             "choose another with --cache"};
   return judgeSpace(*folder, uint64_t{space.f_bavail} * space.f_frsize);
 }
 
 // A client has a socket, its cache's files and those of its libraries; a master a socket for each
-// client and a pipe for each that it starts.
+// client and a pipe for each that it starts. Never bad: how many those libraries take differs, and
+// the doctor, who gets here, has as many open.
 inline Finding judgeDescriptors(uint64_t limit) {
   constexpr uint64_t kClient = 64, kMaster = 1024;
   const std::string found = fmt::format("{} may be open at once", limit);
   if (limit < kClient)
-    return {Grade::bad, "descriptors", found, fmt::format("run: ulimit -n {}", kMaster)};
+    return {Grade::note, "descriptors", found,
+            fmt::format("few for a client: ulimit -n {}", kMaster)};
   if (limit < kMaster)
     return {Grade::note, "descriptors", found,
             fmt::format("enough for a client; a master of many wants: ulimit -n {}", kMaster)};

@@ -100,6 +100,8 @@ TaskPlace placeOf(const CommandLine& line) {
 }
 
 Options masterOptions(const CommandLine& line) {
+  if (line.rest.empty() && !processVariable(variableOfFlag("scene")))
+    failUsage("SCENE is missing; see {} --help", kProgram);
   std::vector<const char*> words{kProgram};
   for (const std::string& word : line.rest) words.push_back(word.c_str());
   // A run needs one; nothing is written.

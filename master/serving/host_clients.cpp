@@ -1,12 +1,16 @@
 #include "master/serving/host_clients.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
+#include <cerrno>
+#include <cstring>
 #include <sstream>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/base/read_up_to.h"
 
 namespace ninefold {
 namespace {
@@ -63,12 +67,12 @@ std::vector<Host> parseHosts(std::string_view text, const std::filesystem::path&
 }
 
 std::vector<Host> readHosts(const std::filesystem::path& file) {
-  std::ifstream in(file);
   std::string text(kMostBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad() || (in.gcount() == 0 && !in.eof()))
-    fail("{}: cannot be read; --hosts needs a file with a host a line", file.string());
-  text.resize(static_cast<size_t>(in.gcount()));
+  errno = 0;
+  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY));
+  text.resize(in ? readUpTo(in.get(), std::as_writable_bytes(std::span(text))) : 0);
+  if (text.empty() && errno != 0)
+    fail("{}: {}; --hosts needs a file with a host a line", file.string(), std::strerror(errno));
   if (text.size() > kMostBytes) fail("{}: is too long for a list of hosts", file.string());
   return parseHosts(text, file);
 }

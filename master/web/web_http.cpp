@@ -7,6 +7,8 @@ namespace {
 
 using Field = http::field;
 
+constexpr std::string_view kMetricsPath = "/metrics";
+
 std::string_view value(const WebRequest& request, Field field) {
   const auto text = request[field];
   return {text.data(), text.size()};
@@ -39,6 +41,13 @@ WebResponse plain(const WebRequest& request, http::status status, const std::str
   return respond(request, status, "text/plain; charset=utf-8", text + "\n");
 }
 
+// Why these metrics are not for who asks.
+std::optional<std::string> tokenRefusalOf(const WebRequest& request, const std::string& token) {
+  if (targetOf(request) != kMetricsPath) return std::nullopt;
+  if (isRightToken(bearerOf(value(request, Field::authorization)), token)) return std::nullopt;
+  return "wrong token; send Authorization: Bearer TOKEN, with that of the printed address";
+}
+
 }  // namespace
 
 std::optional<std::string> refusalOf(const WebRequest& request, const WebIdentity& identity) {
@@ -52,6 +61,11 @@ std::optional<std::string> refusalOf(const WebRequest& request, const WebIdentit
   return std::nullopt;
 }
 
+std::optional<std::string> refusalOf(const WebRequest& request, const WebSite& site) {
+  if (auto why = refusalOf(request, site.identity)) return why;
+  return tokenRefusalOf(request, site.token);
+}
+
 WebResponse answerTo(const WebRequest& request, const WebSite& site) {
   if (const auto why = refusalOf(request, site.identity))
     return plain(request, http::status::forbidden, *why);
@@ -62,11 +76,10 @@ WebResponse answerTo(const WebRequest& request, const WebSite& site) {
     return respond(request, http::status::ok, "text/html; charset=utf-8", std::string(kPage));
   if (target == kLivePath)
     return plain(request, http::status::upgrade_required, "this is for a WebSocket");
-  if (target != "/metrics")
+  if (target != kMetricsPath)
     return plain(request, http::status::not_found, "there are / and /metrics");
-  if (!isRightToken(bearerOf(value(request, Field::authorization)), site.token)) {
-    WebResponse response =
-        plain(request, http::status::unauthorized, "send Authorization: Bearer TOKEN");
+  if (const auto why = tokenRefusalOf(request, site.token)) {
+    WebResponse response = plain(request, http::status::unauthorized, *why);
     response.set(Field::www_authenticate, "Bearer");
     return response;
   }

@@ -1,5 +1,7 @@
 #include "master/web/web_server.h"
 
+#include <openssl/ssl.h>
+
 #include <thread>
 
 #include "common/base/log.h"
@@ -30,6 +32,15 @@ bool isGoodbye(const NetError& error) {
          error == asio::error::eof || error == asio::error::connection_reset ||
          error == asio::error::broken_pipe || error == asio::error::operation_aborted ||
          error == asio::error::bad_descriptor || error == asio::ssl::error::stream_truncated;
+}
+
+// What a peer did wrong, in words for the log.
+std::string reasonOf(const NetError& error) {
+  const auto code = static_cast<unsigned>(error.value());
+  const bool isTls = error.category() == asio::error::get_ssl_category();
+  if (isTls && ERR_GET_LIB(code) == ERR_LIB_SSL && ERR_GET_REASON(code) == SSL_R_HTTP_REQUEST)
+    return "speaks HTTP, and here is TLS; its address must begin with https://";
+  return error.message();
 }
 
 void close(PlainStream& stream) { stream.close(); }
@@ -68,13 +79,13 @@ asio::awaitable<bool> serveOne(WebDesk& desk, Stream& stream, beast::flat_buffer
   }
   WebRequest request = parser.release();
   const bool isLive = websocket::is_upgrade(request) && request.target() == kLivePath;
-  const auto why = refusalOf(request, desk.setup.identity);
-  if (isLive && !why) {
+  if (isLive && !refusalOf(request, desk.setup.identity)) {
     co_await talk(desk, stream, std::move(request));
     co_return false;
   }
-  if (why) desk.refuse(peerOf(beast::get_lowest_layer(stream).socket()), *why);
   const WebSite site{desk.setup.identity, desk.setup.token, &desk.hub.offered().metrics};
+  if (const auto why = refusalOf(request, site))
+    desk.refuse(peerOf(beast::get_lowest_layer(stream).socket()), *why);
   const WebResponse response = answerTo(request, site);
   const Listed listed(desk, {[&stream] { close(stream); }, nullptr});
   desk.bytesSent += co_await http::async_write(stream, response, asio::use_awaitable);
@@ -150,7 +161,7 @@ struct WebServer::Impl {
     } catch (const Error& error) {
       desk.refuse(peer, error.what());
     } catch (const boost::system::system_error& error) {
-      if (!isGoodbye(error.code())) desk.refuse(peer, error.code().message());
+      if (!isGoodbye(error.code())) desk.refuse(peer, reasonOf(error.code()));
     } catch (const std::exception& error) {  // out of memory
       desk.refuse(peer, error.what());
     }

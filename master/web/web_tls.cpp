@@ -6,6 +6,7 @@
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
 #include <openssl/x509v3.h>
+#include <string.h>
 
 #include "common/base/error.h"
 #include "master/web/web_access.h"
@@ -19,10 +20,20 @@ constexpr long kHour = 3600, kValid = 90 * 24 * kHour;  // [s]
 using KeyPointer = std::unique_ptr<EVP_PKEY, Freed<EVP_PKEY_free>>;
 using CertificatePointer = std::unique_ptr<X509, Freed<X509_free>>;
 
-std::string reason() {
-  const unsigned long error = ERR_peek_last_error();
+// Of an error without words for people: the layer above only says that one below has failed.
+bool isOfPem(unsigned long error) {
+  return ERR_GET_LIB(error) == ERR_LIB_PEM || ERR_GET_REASON(error) == ERR_R_PEM_LIB ||
+         ERR_GET_REASON(error) == ERR_R_ASN1_LIB;
+}
+
+// Why a file with `what` was not taken. The first error in OpenSSL's queue is the cause: the
+// system's, or a reader's; the last one is what was to be done.
+std::string reason(const char* what) {
+  const unsigned long first = ERR_peek_error(), last = ERR_peek_last_error();
   ERR_clear_error();
-  const char* text = error == 0 ? nullptr : ERR_reason_error_string(error);
+  if (ERR_SYSTEM_ERROR(first)) return ::strerror(ERR_GET_REASON(first));
+  if (first == 0 || isOfPem(last)) return fmt::format("holds no {} in PEM", what);
+  const char* text = ERR_reason_error_string(last);
   return text == nullptr ? "it cannot be read" : text;
 }
 
@@ -114,12 +125,12 @@ std::shared_ptr<WebTls> loadWebTls(const std::string& certificate, const std::st
   ERR_clear_error();
   if (SSL_CTX_use_certificate_chain_file(context, certificate.c_str()) != 1)
     fail("--serve-certificate {}: {}; give a PEM file with the certificate and its chain",
-         certificate, reason());
+         certificate, reason("certificate"));
   if (SSL_CTX_use_PrivateKey_file(context, key.c_str(), SSL_FILETYPE_PEM) != 1)
     fail(
         "--serve-key {}: {}; give a PEM file with the certificate's private key, without a "
         "password",
-        key, reason());
+        key, reason("private key"));
   describe(*tls);
   return tls;
 }

@@ -73,6 +73,8 @@ TEST(ClientOptions, ComplaintsNameTheFlag) {
   EXPECT_NE(with("--isa=mmx").find("--isa"), std::string::npos);
   EXPECT_NE(with("--colour=red").find("colour"), std::string::npos);
   EXPECT_NE(complaint({"pc1:4700"}), "accepted");
+  EXPECT_NE(complaint({"--master", "foo", "--key-file", "k"}).find("--master foo: write ADDR:PORT"),
+            std::string::npos);
 }
 
 TEST(ClientOptions, TheAddressMayComeInAFile) {

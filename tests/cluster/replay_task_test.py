@@ -43,6 +43,10 @@ class ReplayTask(ClusterTest):
         self.assertIn(f"recorded {self.hash_of(text)}, ", text)
         return text
 
+    def test_without_a_scene_it_names_its_own_help(self):
+        self.assertEqual(self.again(*self.task(0, 0, 0), status=2),
+                         "ninefold-replay-task: SCENE is missing; see ninefold-replay-task --help")
+
     def test_tasks_of_a_still_have_the_recorded_bytes_from_the_recording_and_from_flags(self):
         flags = ["--size", self.SIZE]
         self.recorded("--seed", 7, scene="table_room", frames=3)
@@ -132,7 +136,7 @@ class ReplayTask(ClusterTest):
                                (self.again(scene, *self.task("1:2", 0, 0), status=2),
                                 "--frame 1:2: must be N or N:RANDOMIZATION:ROTATION:RADIUS"),
                                (self.again(scene, *self.task(0, 0, 0), "--recording", "none", status=1),
-                                "recording none: cannot read it")):
+                                "recording none: No such file or directory")):
             self.assertIn(expected, line)
 
 

@@ -6,7 +6,7 @@ import subprocess
 import unittest
 
 from browser import Closed, ServeTest, open_socket, request
-from programs import BIN, SCENES
+from programs import BIN, SCENES, eventually
 
 
 class Secrets(ServeTest):
@@ -16,6 +16,8 @@ class Secrets(ServeTest):
         self.assertEqual(request("127.0.0.1", self.port, "/metrics", **more)[0], 401)
         self.assertEqual(request("127.0.0.1", self.port, "/metrics", Authorization=f"Bearer {wrong}", **more)[0], 401)
         self.assertEqual(self.metrics(**more)[0], 200)
+        eventually(lambda: b"ninefold_viewers_refused_total 2\n" in self.metrics(**more)[2], "both are counted")
+        self.expect_line("browser at 127.0.0.1:[0-9]+: wrong token")
         for token in "", wrong, self.token[:-1]:
             with self.assertRaises(Closed) as closed:
                 self.view(token=token, **more).receive()
@@ -45,6 +47,7 @@ class Secrets(ServeTest):
         self.addCleanup(plain.close)
         plain.sendall(b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
         self.assertNotIn(b"HTTP", plain.recv(100))
+        self.expect_line("speaks HTTP, and here is TLS; its address must begin with https://")
         self.assertEqual(self.master.text.count(self.token), len(re.findall("#token=", self.master.text)))
 
     def test_a_certificate_of_ones_own(self):
@@ -55,6 +58,11 @@ class Secrets(ServeTest):
         found = self.serve("--serve-certificate", "cert.pem", "--serve-key", "key.pem")
         self.assertEqual(found.group(1), "https")
         certificate = (self.folder / "cert.pem").read_text()
+        for key, why in ("cert.pem", "holds no private key in PEM"), ("none.pem", "No such file or directory"):
+            master = self.start(BIN / "ninefold-master", SCENES / "cornell.glb", "--serve", "127.0.0.1:0",
+                                "--serve-certificate", "cert.pem", "--serve-key", key)
+            self.assertEqual(master.ends(), 1)
+            self.assertIn(f"--serve-key {key}: {why}; give a PEM file", master.text)
         self.assertEqual(request("127.0.0.1", self.port, certificate=certificate)[0], 200)
         self.assertEqual(request("127.0.0.1", self.port, certificate=certificate, Host="render.test")[0], 200)
         self.assertEqual(request("127.0.0.1", self.port, certificate=certificate, Host="other.test")[0], 403)
@@ -68,8 +76,11 @@ class Secrets(ServeTest):
         self.assertIn("exclude each other", says(2, "--serve", "127.0.0.1:0", "--window"))
         self.assertIn("go together", says(2, "--serve", "127.0.0.1:0", "--serve-key", "x"))
         self.assertIn("is for --serve", says(2, "--serve-key", "x", "--serve-certificate", "y", "--output", "a.png"))
-        self.assertIn("--serve-certificate none.pem", says(1, "--serve", "127.0.0.1:0", "--serve-certificate", "none.pem",
-                                                           "--serve-key", "none.pem"))
+        self.assertIn("none.pem: No such file or directory; give", says(1, "--serve", "127.0.0.1:0", "--serve-certificate",
+                                                                        "none.pem", "--serve-key", "none.pem"))
+        (self.folder / "text").write_text("no certificate\n")
+        self.assertIn("text: holds no certificate in PEM; give", says(1, "--serve", "127.0.0.1:0", "--serve-certificate",
+                                                                      "text", "--serve-key", "text"))
         self.serve()
         self.assertIn("cannot serve at", says(1, "--serve", f"127.0.0.1:{self.port}"))
 

@@ -45,8 +45,24 @@ TEST(Hosts, ABadLineIsNamed) {
   std::string many;
   for (size_t i = 0; i <= kMostHosts; ++i) many += "a\n";
   EXPECT_NE(complaint(many).find("4097 hosts"), std::string::npos);
-  EXPECT_THROW(readHosts("/nowhere/hosts"), Error);
-  EXPECT_THROW(readHosts("/"), Error);
+}
+
+TEST(Hosts, AListThatCannotBeReadIsToldWithItsCause) {
+  const auto complaintOf = [](const char* file) -> std::string {
+    try {
+      readHosts(file);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_NE(complaintOf("/nowhere/hosts").find("No such file"), std::string::npos);
+  EXPECT_NE(complaintOf("/").find("Is a directory"), std::string::npos);
+  EXPECT_NE(complaintOf("/dev/null").find("0 hosts"), std::string::npos);
+}
+
+TEST(Hosts, OneThatStandsThereTwiceGetsTwoClients) {
+  EXPECT_EQ(parseHosts("render1\nrender1\n", "hosts").size(), 2u);
 }
 
 // A shell does what the host's would: prints the words that the client gets.

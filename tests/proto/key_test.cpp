@@ -72,10 +72,17 @@ TEST_F(KeyFile, OtherLengthsAreRefused) {
 
 TEST_F(KeyFile, OnlyRegularFilesAreKeys) {
   EXPECT_NE(refusal(folder_), "");
-  EXPECT_NE(refusal(folder_ / "missing").find("--new-key"), std::string::npos);
+  EXPECT_NE(refusal(folder_ / "missing").find("ninefold-master --new-key"), std::string::npos);
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   EXPECT_NE(refusal(folder_ / "pipe").find("not a regular file"), std::string::npos);
   EXPECT_NE(refusal("/dev/urandom"), "");
+}
+
+TEST_F(KeyFile, OneThatIsNotOursNeedsNoNewOne) {
+  if (::geteuid() == 0) GTEST_SKIP() << "root reads all files";
+  const std::string line = refusal(write("key", 32, 0200));
+  EXPECT_NE(line.find("Permission denied; it must belong to the user"), std::string::npos) << line;
+  EXPECT_EQ(line.find("--new-key"), std::string::npos) << line;
 }
 
 TEST_F(KeyFile, ErrorsAreOneLineWithoutTheKey) {

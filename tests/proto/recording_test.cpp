@@ -82,6 +82,21 @@ TEST(Recording, HoldsAStateAndItsSteps) {
   EXPECT_EQ(std::get<msg::Stepped>(messages[5]).unit, 1u);
 }
 
+TEST(Recording, WhatIsNoneIsToldWithItsName) {
+  const TempFolder folder;
+  const auto complaintOf = [](const std::filesystem::path& file) -> std::string {
+    try {
+      readRecording(file);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const auto key = folder.write("k1", std::string(32, 'k'));
+  EXPECT_TRUE(complaintOf(key).starts_with("recording " + key.string() + ": ")) << complaintOf(key);
+  EXPECT_NE(complaintOf(folder.path() / "none").find("none: No such file"), std::string::npos);
+}
+
 TEST(Recording, AFileThatCannotBeIsRefusedBeforeAnythingIsRendered) {
   const TempFolder folder;
   EXPECT_THROW(Recorder(folder.path() / "none" / "r", msg::Hello{}), Error);

@@ -71,6 +71,19 @@ TEST(WebHttp, MetricsNeedTheToken) {
   EXPECT_EQ(statusOf(get("/"), site()), http::status::ok);  // the page has no secret
 }
 
+TEST(WebHttp, AWrongTokenIsARefusalAndAMissingPageIsNone) {
+  WebRequest request = get("/metrics");
+  EXPECT_TRUE(refusalOf(request, site()));
+  request.set(http::field::authorization, "Bearer abd");
+  EXPECT_TRUE(refusalOf(request, site()));
+  request.set(http::field::authorization, "Bearer abc");
+  EXPECT_FALSE(refusalOf(request, site()));
+  EXPECT_FALSE(refusalOf(get("/"), site()));
+  EXPECT_FALSE(refusalOf(get("/favicon.ico"), site()));
+  request.set(http::field::host, "evil.test");
+  EXPECT_TRUE(refusalOf(request, site()));
+}
+
 // SHA-256 in base64, by another program.
 TEST(WebHttp, OnlyThePagesOwnScriptAndStyleMayRun) {
   const std::string policy = policyOf("<style></style><script>alert(1)</script>");
