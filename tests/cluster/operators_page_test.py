@@ -31,6 +31,7 @@ class OperatorsPage(ClusterTest):
         self.carry_out(PAGE["keep"], local_clients=1)
         again = self.carry_out(PAGE["keep"], local_clients=1)
         self.assertIn("goes on behind 64 frame(s) of cornell.checkpoint", again.text)
+        self.assertIn("ninefold_picture_frames 64\n", (self.folder / "cornell.prom").read_text())
 
     def test_a_run_that_is_verified(self):
         self.carry_out(PAGE["verify"], local_clients=3)
