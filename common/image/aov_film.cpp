@@ -15,35 +15,37 @@ void forEachPixel(const Patch& patch, int phase, const F& f) {
   });
 }
 
-void addRgb(const Patch& patch, int phase, const RgbPlane& plane, Rgb& sums) {
+// The next frame's values into means over `frames` of them. `plane`: null: all black.
+void addRgb(const Patch& patch, int phase, const RgbPlane* plane, int64_t frames, Rgb& means) {
+  const double share = 1.0 / static_cast<double>(frames + 1);
   forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
-    sums[0][pixel] += static_cast<double>(plane.r[from]);
-    sums[1][pixel] += static_cast<double>(plane.g[from]);
-    sums[2][pixel] += static_cast<double>(plane.b[from]);
+    const auto add = [&](size_t channel, float value) {
+      means[channel][pixel] += (static_cast<double>(value) - means[channel][pixel]) * share;
+    };
+    add(0, plane != nullptr ? plane->r[from] : 0);
+    add(1, plane != nullptr ? plane->g[from] : 0);
+    add(2, plane != nullptr ? plane->b[from] : 0);
   });
 }
 
-std::vector<float> scaled(const std::vector<double>& sums, double scale) {
-  std::vector<float> out(sums.size());
-  for (size_t i = 0; i < out.size(); ++i) out[i] = static_cast<float>(sums[i] * scale);
-  return out;
+std::vector<float> rounded(const std::vector<double>& means) {
+  return {means.begin(), means.end()};
 }
 
-void appendMeans(const std::string& layer, const Rgb& sums, double share,
-                 std::vector<Channel>& out) {
-  appendLayer(layer, {scaled(sums[0], share), scaled(sums[1], share), scaled(sums[2], share)}, out);
+void appendMeans(const std::string& layer, const Rgb& means, std::vector<Channel>& out) {
+  appendLayer(layer, {rounded(means[0]), rounded(means[1]), rounded(means[2])}, out);
 }
 
 // Unit again; zero where no frame met a surface.
-void appendNormal(const Rgb& sums, std::vector<Channel>& out) {
-  const size_t n = sums[0].size(), first = out.size();
+void appendNormal(const Rgb& means, std::vector<Channel>& out) {
+  const size_t n = means[0].size(), first = out.size();
   for (const char* name : {"N.x", "N.y", "N.z"}) out.push_back({name, std::vector<float>(n)});
   for (size_t i = 0; i < n; ++i) {
-    const DVec3 sum(sums[0][i], sums[1][i], sums[2][i]);
-    const double length = glm::length(sum);
+    const DVec3 mean(means[0][i], means[1][i], means[2][i]);
+    const double length = glm::length(mean);
     for (int c = 0; c < 3; ++c)
       out[first + static_cast<size_t>(c)].values[i] =
-          length > 0 ? static_cast<float>(sum[c] / length) : 0.0f;
+          length > 0 ? static_cast<float>(mean[c] / length) : 0.0f;
   }
 }
 
@@ -64,13 +66,13 @@ AovFilm::AovFilm(const TileGrid& grid, uint8_t extraMask) : grid_(grid), extraMa
 void AovFilm::clear() {
   const size_t n = pixelCount(grid_.width(), grid_.height());
   frames_ = 0;
-  const auto clearRgb = [&](Rgb& sums, int mask) {
-    for (std::vector<double>& sum : sums) sum.assign((extraMask_ & mask) != 0 ? n : 0, 0);
+  const auto clearRgb = [&](Rgb& means, int mask) {
+    for (std::vector<double>& mean : means) mean.assign((extraMask_ & mask) != 0 ? n : 0, 0);
   };
   clearRgb(albedo_, kAlbedoPlane);
   clearRgb(normal_, kNormalPlane);
   clearRgb(caustic_, kCausticPlane);
-  for (std::vector<double>& sum : irradiance_) sum.assign(n, 0);
+  for (std::vector<double>& mean : irradiance_) mean.assign(n, 0);
   depth_.assign((extraMask_ & kDepthPlane) != 0 ? n : 0, 0);
   hits_.assign(depth_.size(), 0);
   object_.assign((extraMask_ & kObjectPlane) != 0 ? n : 0, 0);
@@ -80,15 +82,19 @@ void AovFilm::addPatch(const Patch& patch) {
   NINEFOLD_CHECK(patch.extraMask() == extraMask_);
   for (int phase = 0; phase < patch.phases(); ++phase) {
     const ExtraPlanes& extras = patch.phase(phase).extras;
-    if ((extraMask_ & kAlbedoPlane) != 0) addRgb(patch, phase, extras.albedo, albedo_);
-    if ((extraMask_ & kNormalPlane) != 0) addRgb(patch, phase, extras.normal, normal_);
-    if ((extraMask_ & kCausticPlane) != 0) addRgb(patch, phase, extras.caustic, caustic_);
-    const bool isWhole = (extraMask_ & kIrradiancePlane) != 0;
+    const auto add = [&](int mask, const RgbPlane& plane, Rgb& means) {
+      if ((extraMask_ & mask) != 0) addRgb(patch, phase, &plane, frames_, means);
+    };
+    add(kAlbedoPlane, extras.albedo, albedo_);
+    add(kNormalPlane, extras.normal, normal_);
+    add(kCausticPlane, extras.caustic, caustic_);
     // Unfiltered: these means are to tend to the truth.
-    if (isWhole)
-      addRgb(patch, phase, extras.irradiance, irradiance_);
-    else if (!patch.isDark(kDiffuse))
-      addRgb(patch, phase, patch.phase(phase).layers[kDiffuse].irradiance, irradiance_);
+    if ((extraMask_ & kIrradiancePlane) != 0)
+      addRgb(patch, phase, &extras.irradiance, frames_, irradiance_);
+    else
+      addRgb(patch, phase,
+             patch.isDark(kDiffuse) ? nullptr : &patch.phase(phase).layers[kDiffuse].irradiance,
+             frames_, irradiance_);
     if ((extraMask_ & kDepthPlane) != 0)
       forEachPixel(patch, phase, [&](size_t from, size_t pixel) {
         depth_[pixel] += static_cast<double>(extras.depth[from]);
@@ -103,12 +109,11 @@ void AovFilm::addPatch(const Patch& patch) {
 
 std::vector<Channel> AovFilm::channels() const {
   std::vector<Channel> out;
-  const double share = frames_ > 0 ? 1.0 / static_cast<double>(frames_) : 0;
-  if ((extraMask_ & kAlbedoPlane) != 0) appendMeans("albedo", albedo_, share, out);
+  if ((extraMask_ & kAlbedoPlane) != 0) appendMeans("albedo", albedo_, out);
   if ((extraMask_ & kNormalPlane) != 0) appendNormal(normal_, out);
   if ((extraMask_ & kDepthPlane) != 0) appendDepth(depth_, hits_, out);
-  appendMeans("irradiance", irradiance_, share, out);
-  if ((extraMask_ & kCausticPlane) != 0) appendMeans("caustic", caustic_, share, out);
+  appendMeans("irradiance", irradiance_, out);
+  if ((extraMask_ & kCausticPlane) != 0) appendMeans("caustic", caustic_, out);
   if ((extraMask_ & kObjectPlane) != 0) out.push_back({"objectId", object_});
   return out;
 }

@@ -27,7 +27,8 @@ class AovFilm {
   // A tile of the next frame.
   void addPatch(const Patch& patch);
   void frameDone() { ++frames_; }  // all its tiles were added
-  // The planes that the mask names and the irradiance, in the order above.
+  // The planes that the mask names and the irradiance, in the order above. Pixels to which the next
+  // frame came already have means with it.
   std::vector<Channel> channels() const;
   int64_t frames() const { return frames_; }
 
@@ -35,13 +36,13 @@ class AovFilm {
   template <typename Self, typename Visit>
   static void visitKept(Self& self, Visit& visit) {
     visit(std::span(&self.frames_, 1));
-    for (auto* sums : {&self.albedo_, &self.normal_, &self.irradiance_, &self.caustic_})
-      for (auto& sum : *sums) visit(std::span(sum));
+    for (auto* means : {&self.albedo_, &self.normal_, &self.irradiance_, &self.caustic_})
+      for (auto& mean : *means) visit(std::span(mean));
     visit(std::span(self.depth_)), visit(std::span(self.hits_)), visit(std::span(self.object_));
   }
 
  private:
-  using Rgb = std::array<std::vector<double>, 3>;  // sums over frames
+  using Rgb = std::array<std::vector<double>, 3>;  // means over frames
 
   TileGrid grid_;
   uint8_t extraMask_;

@@ -1,5 +1,7 @@
 #include "common/image/image_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/base/error.h"
@@ -49,8 +51,9 @@ void checkImageSize(uint64_t width, uint64_t height, size_t fileBytes, ImageLimi
   if (width > limits.side || height > limits.side)
     fail("{} x {} pixels, more than {} on a side: scale it down", width, height, limits.side);
   if (width * height > limits.texels)
-    fail("{} x {} pixels are more than the {} that are left for all textures: scale them down",
-         width, height, limits.texels);
+    fail("{} x {} pixels are more than {}: scale it down", width, height,
+         limits.isShared ? fmt::format("the {} that are left for all textures", limits.texels)
+                         : fmt::format("{}", limits.texels));
   if (width * height / kMaxPixelsPerByte > fileBytes)
     fail("truncated: {} bytes cannot hold {} x {} pixels", fileBytes, width, height);
 }

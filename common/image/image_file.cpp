@@ -2,17 +2,20 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <span>
 
+#include "common/base/descriptor.h"
 #include "common/base/error.h"
+#include "common/base/read_up_to.h"
 #include "common/base/written_file.h"
 #include "common/image/decode.h"
 
@@ -144,13 +147,18 @@ void writeCodes(const std::string& path, const DisplayImage& picture, const Meta
   });
 }
 
+constexpr uint64_t kMaxFileBytes = 4ull << 30;
+
 std::vector<std::byte> bytesOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  if (!file) fail("{}", std::strerror(errno));
-  std::vector<std::byte> bytes(static_cast<size_t>(file.tellg()));
-  file.seekg(0);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (!file) fail("it cannot be read to its end");
+  // Non-blocking, so that a pipe without a writer cannot hold us before fstat tells what it is.
+  const Descriptor fd(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  struct stat facts {};
+  if (!fd || ::fstat(fd.get(), &facts) != 0) fail("{}", std::strerror(errno));
+  if (!S_ISREG(facts.st_mode)) fail("it is no regular file");
+  if (static_cast<uint64_t>(facts.st_size) > kMaxFileBytes)
+    fail("it has {} bytes, more than {}: scale it down", facts.st_size, kMaxFileBytes);
+  std::vector<std::byte> bytes(static_cast<size_t>(facts.st_size));
+  if (readUpTo(fd.get(), bytes) != bytes.size()) fail("it cannot be read to its end");
   return bytes;
 }
 

@@ -12,7 +12,8 @@ void checkSpec(const OIIO::ImageSpec& spec, size_t fileBytes, ImageLimits limits
   const auto check = [&](int width, int height) {
     checkImageSize(static_cast<uint64_t>(width), static_cast<uint64_t>(height), fileBytes, limits);
   };
-  if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.deep)
+  if (spec.deep) fail("a deep image: write it flat");
+  if (spec.width < 1 || spec.height < 1 || spec.depth > 1)
     fail("an image of {} x {} x {} pixels", spec.width, spec.height, spec.depth);
   check(spec.width, spec.height);
   if (spec.tile_width > 0 && spec.tile_height > 0)

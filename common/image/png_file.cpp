@@ -20,6 +20,14 @@ FileBytes chunkAt(FileBytes file, size_t at) {
 
 size_t typeOf(FileBytes chunk) { return bigEndian(chunk, 4, 4); }
 
+bool makesPixels(size_t type) { return (type & kAncillary) == 0 || type == kTransparent; }
+
+bool isWhole(FileBytes chunk) {
+  boost::crc_32_type crc;
+  crc.process_bytes(&chunk[4], chunk.size() - 8);
+  return crc.checksum() == bigEndian(chunk, chunk.size() - 4, 4);
+}
+
 }  // namespace
 
 // The library would print lines of its own about a wrong checksum, or make up the missing pixels.
@@ -27,9 +35,7 @@ void checkPng(FileBytes file) {
   for (size_t at = kSignature; at <= file.size();) {
     const FileBytes chunk = chunkAt(file, at);
     if (chunk.empty()) break;
-    boost::crc_32_type crc;
-    crc.process_bytes(&chunk[4], chunk.size() - 8);
-    if (crc.checksum() != bigEndian(chunk, chunk.size() - 4, 4))
+    if (makesPixels(typeOf(chunk)) && !isWhole(chunk))
       fail("damaged: a checksum of the PNG is wrong");
     if (typeOf(chunk) == kEnd) return;
     at += chunk.size();
@@ -43,8 +49,7 @@ std::vector<std::byte> pixelsOfPng(FileBytes file) {
     const FileBytes chunk = chunkAt(file, at);
     if (chunk.empty()) break;
     const size_t type = typeOf(chunk);
-    if ((type & kAncillary) == 0 || type == kTransparent)
-      pixels.insert(pixels.end(), chunk.begin(), chunk.end());
+    if (makesPixels(type)) pixels.insert(pixels.end(), chunk.begin(), chunk.end());
     if (type == kEnd) break;
     at += chunk.size();
   }

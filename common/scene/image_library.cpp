@@ -6,7 +6,8 @@
 namespace ninefold {
 
 TextureImage ImageLibrary::decode(const ImageSource& source) const try {
-  DecodedImage decoded = decodeImage(std::as_bytes(source.bytes()), {kMaxImageSide, texelsLeft_});
+  DecodedImage decoded =
+      decodeImage(std::as_bytes(source.bytes()), {kMaxImageSide, texelsLeft_, true});
   TextureImage image;
   image.name = source.name;
   image.width = decoded.width, image.height = decoded.height, image.channels = decoded.channels;

@@ -98,16 +98,26 @@ std::vector<Channel> PictureMaker::extraChannels() const {
   return channels;
 }
 
-void PictureMaker::write(const std::string& path, const Metadata& metadata) const {
-  RgbImage mean;
-  film_.mean(mean);
-  if (guides_) denoise(mean, film_.standardError(), guides_->guides(), setup_.workers);
+PictureMaker::Copy PictureMaker::copy() const {
+  Copy copy;
+  film_.mean(copy.mean);
+  copy.imageHash = ninefold::imageHash(copy.mean);
+  copy.frames = film_.frames();
+  if (guides_) copy.error = film_.standardError(), copy.guides = guides_->guides();
   if (setup_.view == PictureView::error)
-    paintError(film_, film_.frames(), {0, 0, mean.width, mean.height}, mean);
+    paintError(film_, film_.frames(), {0, 0, copy.mean.width, copy.mean.height}, copy.mean);
+  copy.extras = extraChannels();
+  return copy;
+}
+
+void PictureMaker::write(const std::string& path, const Metadata& metadata,
+                         const Copy& copy) const {
+  RgbImage picture = copy.mean;
+  if (guides_) denoise(picture, copy.error, copy.guides, setup_.workers);
   Tone tone;
   if (path.ends_with(".png") && !isFalseColor(setup_.view))
-    tone = {setup_.exposure ? *setup_.exposure : exposureByPicture(mean), setup_.curve};
-  writeImage(path, {mean, extraChannels(), metadata}, ToneMap(tone));
+    tone = {setup_.exposure ? *setup_.exposure : exposureByPicture(picture), setup_.curve};
+  writeImage(path, {picture, copy.extras, metadata}, ToneMap(tone));
 }
 
 float exposureByPicture(const RgbImage& radiance) {

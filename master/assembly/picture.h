@@ -44,7 +44,6 @@ class PictureMaker {
 
   int64_t frames() const { return film_.frames(); }
   double relativeError() const { return film_.relativeError(); }
-  std::string imageHash() const;
   // The film, and all beside it that the next frames need, as bytes.
   void keep(Bytes& out) const;
   size_t keptBytes() const;  // at most
@@ -52,7 +51,18 @@ class PictureMaker {
   // it is not that; then the maker must not be used any more.
   void restore(ByteView kept, int64_t frames);
   bool isDenoised() const { return guides_.has_value(); }  // what is written
-  void write(const std::string& path, const Metadata& metadata) const;
+  std::string imageHash() const;
+  // What is to be written, taken while no worker adds to the film; workers may go on meanwhile.
+  struct Copy {
+    RgbImage mean;
+    std::vector<float> error;  // standard, if the picture is denoised
+    DenoiseGuides guides;      // likewise
+    std::vector<Channel> extras;
+    int64_t frames = 0;
+    std::string imageHash;
+  };
+  Copy copy() const;
+  void write(const std::string& path, const Metadata& metadata, const Copy& copy) const;
 
  private:
   template <typename Self, typename Visit>

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 
 #include "common/base/written_file.h"
@@ -214,9 +215,18 @@ void readShutter(const RawOptions& raw, Options& o) {
     failUsage("--shutter: blur is the mean of a picture's frames; give --frames 16, say");
 }
 
+// Named, and there as a file or not there yet: no standard output, device or pipe.
+bool isFile(const std::optional<std::string>& name) {
+  namespace fs = std::filesystem;
+  if (!name || name->empty() || *name == "-") return false;
+  std::error_code none;
+  const fs::file_status status = fs::status(*name, none);
+  return !fs::exists(status) || fs::is_regular_file(status);
+}
+
 // What is written must not be what else is written or read.
 void checkDifferent(const Options& o) {
-  using File = std::pair<const char*, const std::optional<std::string>>;
+  using File = std::pair<const char*, std::optional<std::string>>;
   const std::vector<File> written = {{"--output", o.output},
                                      {"--stats", o.stats},
                                      {"--checkpoint", o.checkpoint},
@@ -226,10 +236,13 @@ void checkDifferent(const Options& o) {
                            {"--script", o.script},     {"--key-file", o.keyFile},
                            {"--hosts", o.hosts},       {"--serve-certificate", o.serveCertificate},
                            {"--serve-key", o.serveKey}};
+  if (const auto* outside = std::get_if<EnvironmentFile>(&o.reading.environment))
+    all.emplace_back("--environment", outside->path);
+  std::erase_if(all, [](const File& file) { return !isFile(file.second); });
   for (const auto& [flag, name] : written) {
-    if (!name) continue;
+    if (!isFile(name)) continue;
     for (const auto& [other, otherName] : all)
-      if (otherName && targetOf(*otherName) == targetOf(*name))
+      if (targetOf(*otherName) == targetOf(*name))
         failUsage("{} and {} name the same file, {}: give two names", other, flag, *name);
     all.emplace_back(flag, name);
   }

@@ -1,5 +1,5 @@
 // metrics.h: what a run does, in the text format of Prometheus (version 0.0.4). Pure.
-// Threads: pure function.   Errors: none.   Proved: tests/web/metrics_test.cpp.
+// Threads: pure function.   Errors: none.   Proved: tests/web/web_texts_test.cpp.
 #pragma once
 
 #include <string>

@@ -10,13 +10,12 @@
 namespace ninefold {
 
 // While it converges. What cannot be written now may be later.
-void HeadlessRun::savePicture() {
+void HeadlessRun::savePicture(const PictureMaker::Copy& copy) {
   saveAsked_.reset();
-  if (!options_.output) return;
-  savedFrames_ = picture_.frames();
   try {
-    writePicture(*options_.output);
-    tellPicture();
+    writePicture(*options_.output, copy);
+    tellPicture(copy);
+    savedFrames_ = copy.frames;
     saveFails_ = false;
   } catch (const Error& error) {
     if (!std::exchange(saveFails_, true)) warn("{}; the run goes on and tries again", error.what());
@@ -55,25 +54,28 @@ ProgressState HeadlessRun::progressState() const {
 
 void HeadlessRun::writeLastPicture() const {
   if (!options_.output) return;
-  writeSomewhere(*options_.output, [this](const std::string& path) { writePicture(path); });
-  tellPicture();
+  const PictureMaker::Copy copy = picture_.copy();
+  writeSomewhere(*options_.output, [&](const std::string& path) { writePicture(path, copy); });
+  tellPicture(copy);
 }
 
 // Who waits for a new picture reads this line: Blender's add-on does.
-void HeadlessRun::tellPicture() const {
-  log("{} frame(s) in {}", picture_.frames(), *options_.output);
+void HeadlessRun::tellPicture(const PictureMaker::Copy& copy) const {
+  log("{} frame(s) in {}", copy.frames, *options_.output);
 }
 
-void HeadlessRun::writePicture(const std::string& path) const {
-  picture_.write(path, {{"release", releaseName()},
-                        {"scene", options_.scene},
-                        {"scene_hash", job_.sceneHash},
-                        {"camera", job_.settings.camera.name},
-                        {"preset", nameOf(options_.preset)},
-                        {"denoise", picture_.isDenoised() ? "on" : "off"},
-                        {"seed", fmt::format("{}", job_.settings.seed)},
-                        {"frames", fmt::format("{}", picture_.frames())},
-                        {"image_hash", picture_.imageHash()}});
+void HeadlessRun::writePicture(const std::string& path, const PictureMaker::Copy& copy) const {
+  picture_.write(path,
+                 {{"release", releaseName()},
+                  {"scene", options_.scene},
+                  {"scene_hash", job_.sceneHash},
+                  {"camera", job_.settings.camera.name},
+                  {"preset", nameOf(options_.preset)},
+                  {"denoise", picture_.isDenoised() ? "on" : "off"},
+                  {"seed", fmt::format("{}", job_.settings.seed)},
+                  {"frames", fmt::format("{}", copy.frames)},
+                  {"image_hash", copy.imageHash}},
+                 copy);
 }
 
 // The line that the run ends with if nobody could settle who is wrong; else empty.

@@ -165,7 +165,7 @@ void HeadlessRun::keep(const Assembly::Complete& frame) {
   record_.frameDone(frame, processCpuTime());
   lastNumber_ = frame.key.frame;
   if (keeper_.frameDone(frame.key, seconds(elapsed()))) cluster().mark(frame.key.frame);
-  if (saveIsDue()) savePicture();
+  if (saveIsDue()) savePicture(picture_.copy());
   if (isMet())
     last_ = frame;
   else
@@ -178,18 +178,21 @@ bool HeadlessRun::saveIsDue() {
     keeper_.hurry();
     if (!saveAsked_) saveAsked_ = now;
   }
-  return saveAsked_ || (nextSave_ && now >= *nextSave_);
+  return options_.output && (saveAsked_ || (nextSave_ && now >= *nextSave_));
 }
 
 // Frames may be long in coming, or clients gone: then what is there is saved, with the tiles of a
 // frame that has begun.
 void HeadlessRun::saveLate() {
-  if (!saveIsDue() || last_ || picture_.frames() == 0) return;
-  const Time due = saveAsked_.value_or(nextSave_.value_or(Clock::now()));
-  if (Clock::now() - due < kWholeFrame) return;
+  if (!saveIsDue() || picture_.frames() == 0) return;
   if (!saveAsked_ && picture_.frames() == savedFrames_) return;
-  const std::unique_lock rests(filmRests_);
-  savePicture();
+  const Time due = saveAsked_ ? *saveAsked_ : *nextSave_;
+  if (Clock::now() - due < kWholeFrame) return;
+  std::unique_lock rests(filmRests_, std::try_to_lock);
+  if (!rests) return;
+  const PictureMaker::Copy copy = picture_.copy();
+  rests.unlock();
+  savePicture(copy);
 }
 
 void HeadlessRun::followTrust() {
@@ -203,6 +206,7 @@ void HeadlessRun::goBack() {
   if (last_) machine_.release(*std::exchange(last_, std::nullopt));
   const int64_t had = picture_.frames();
   const Checkpoint& base = keeper_.goBack();
+  savedFrames_ = 0;
   plan_ = firstPlan();
   plan_.skip(base.frames);
   states_.resume(static_cast<uint32_t>(base.frames), base.state);

@@ -44,12 +44,12 @@ class HeadlessRun {
   void keep(const Assembly::Complete& frame);
   bool saveIsDue();
   void saveLate();
-  void savePicture();
-  void tellPicture() const;
+  void savePicture(const PictureMaker::Copy& copy);
+  void tellPicture(const PictureMaker::Copy& copy) const;
   void tellProgress();
   void writeMetrics(const ServerTally& tally);
   ProgressState progressState() const;
-  void writePicture(const std::string& path) const;
+  void writePicture(const std::string& path, const PictureMaker::Copy& copy) const;
   void writeLastPicture() const;
   std::string tellVerification() const;
   void writeStatistics() const;

@@ -26,7 +26,8 @@ void append(std::string& text, int count, const char* what) {
 }  // namespace
 
 Cluster::Cluster(ClusterSetup setup, JobOffer& offer, ServerDuty duty)
-    : othersMayJoin_(setup.remoteMayJoin || !setup.hosts.empty()),
+    : remoteMayJoin_(setup.remoteMayJoin),
+      hasHosts_(!setup.hosts.empty()),
       savesOnRequest_(setup.savesOnRequest),
       server_(loop_, std::move(setup.server), offer, std::move(duty)),
       local_(withMaster(std::move(setup.local), server_.endpoint()),
@@ -109,24 +110,32 @@ StartedClients::Work Cluster::workOf(const std::string& name) const {
 }
 
 void Cluster::watchForStall(Time now) {
-  const bool nothingMoves = !endBy_ && server_.nothingMoves() && !local_.isStarting(now);
   const bool isAlone = server_.readyClients() == 0;
-  if (stall_.look(nothingMoves, now))
-    warn("nothing has moved for {:.0f} s: {}{}", seconds(now - server_.lastMove()),
-         isAlone ? "no client is left" : "all clients are stuck",
-         othersMayJoin_ ? "; others may join at " + addressText(server_.endpoint()) : "");
-  if (!stall_.isOver() || (isAlone && othersMayJoin_)) return;
-  fail(fmt::format("{} and nothing has moved for {:.0f} s{}; --patience S waits longer",
-                   isAlone ? "no client answers" : "all clients are stuck",
-                   seconds(now - server_.lastMove()),
-                   isAlone ? "" : ": " + server_.stuckTasks(now)));
+  const bool isStarting = local_.isStarting(now) || (isAlone && hosts_.isStarting(now));
+  const bool isTold = stall_.look(!endBy_ && !isStarting && server_.nothingMoves(), now);
+  if (!isTold && !stall_.isOver()) return;
+  const double since = seconds(isAlone ? stall_.time() : now - server_.lastMove());
+  if (isTold)
+    warn("{}{}",
+         isAlone ? "no client is left" + (since < 1 ? "" : fmt::format(" since {:.0f} s", since))
+                 : fmt::format("nothing has moved for {:.0f} s: all clients are stuck", since),
+         othersMayJoin() ? "; others may join" : "");
+  if (!stall_.isOver() || (isAlone && othersMayJoin())) return;
+  fail(isAlone ? hosts_.hang().value_or(fmt::format(
+                     "no client has been there for {:.0f} s; --patience S waits longer", since))
+               : fmt::format("all clients are stuck and nothing has moved for {:.0f} s: {}; "
+                             "--patience S waits longer",
+                             since, server_.stuckTasks(now)));
 }
+
+// Any that have the key, or those of --hosts, which are tried for ever unless they hang.
+bool Cluster::othersMayJoin() const { return remoteMayJoin_ || (hasHosts_ && !hosts_.exhausted()); }
 
 // A window waits for remote clients, if there may be any.
 void Cluster::failWithoutClients() {
-  if (local_.hang() && (!othersMayJoin_ || !stall_.isEndless()))
+  if (local_.hang() && (!othersMayJoin() || !stall_.isEndless()))
     fail(*local_.hang());
-  else if (!othersMayJoin_)
+  else if (!othersMayJoin())
     fail("all local clients ended and none can be started; see the lines above");
 }
 

@@ -90,12 +90,13 @@ class Cluster {
   bool isOver(Time now) const;
   void fail(const std::string& line);
   void watchForStall(Time now);
+  bool othersMayJoin() const;
   void failWithoutClients();
   StartedClients::Work workOf(const std::string& name) const;
   std::string describeClients() const;  // needs the lock
 
   EventLoop loop_;
-  const bool othersMayJoin_, savesOnRequest_;
+  const bool remoteMayJoin_, hasHosts_, savesOnRequest_;
   Server server_;
   StartedClients local_, hosts_;
   StallWatch stall_;

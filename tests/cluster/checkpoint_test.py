@@ -200,20 +200,26 @@ class Checkpoint(ClusterTest):
 
     def test_the_picture_is_saved_though_no_client_is_left(self):
         self.new_key()
-        master = self.master("--local-clients", 0, "--key-file", "cluster.key", "--save-every", 1, frames=100000)
-        client = self.client(self.address_of(master))
-        master.waits_for(r"progress: \d+% frame [1-9]")
-        client.process.kill()
-        master.waits_for(r"nothing has moved for \d s: no client is left; others may join at 127")
-        def told():
-            return re.findall(r"(\d+) frame\(s\) in out", master.text)
-        before = len(told())
-        self.send(master.process.pid, signal.SIGUSR1)
-        eventually(lambda: len(told()) > before, "another picture")
-        saved = int(told()[-1])
-        self.send(master.process.pid, signal.SIGINT)
-        master.ends()
-        self.assertEqual(saved, json.loads(master.stats_file.read_text())["frames"])
+        for option, asks in (("--frames", True), ("--save-every", False)):
+            with self.subTest(option):
+                master = self.master("--local-clients", 0, "--key-file", "cluster.key", option, 100000 if asks else 2,
+                                     frames=None if asks else 100000)
+                client = self.client(self.address_of(master))
+                master.waits_for(r"progress: \d+% frame [1-9]")
+                client.process.kill()
+                master.waits_for(r"no client is left; others may join\n")
+
+                def told():
+                    return re.findall(r"(\d+) frame\(s\) in out", master.text)
+                before = len(told())
+                if asks:
+                    self.assertEqual(before, 0)
+                    self.send(master.process.pid, signal.SIGUSR1)
+                eventually(lambda: len(told()) > before, "another picture")
+                saved = int(told()[-1])
+                self.send(master.process.pid, signal.SIGINT)
+                master.ends()
+                self.assertEqual(saved, json.loads(master.stats_file.read_text())["frames"])
 
     def test_metrics_are_there_from_the_start_to_the_end(self):
         self.new_key()

@@ -193,5 +193,28 @@ TEST(AovFilm, NamesItsChannelsAndAveragesThem) {
   EXPECT_FLOAT_EQ(value(13), 14);
 }
 
+// A picture may be written while a frame has come in parts.
+TEST(AovFilm, PartsOfAFrameMakeNoPixelBrighter) {
+  const TileGrid grid(41, 23, {3, 3});
+  AovFilm film(grid, kAlbedoPlane);
+  PatchFilter filter(SurfaceTest::surface);
+  const Frame frame =
+      frameOf(grid, kDiffuseBit, kAlbedoPlane, [&](TileResult& out, size_t i, int, int) {
+        set(out.extras.albedo, i, Vec3(0.5f));
+        set(out.layers[kDiffuse].irradiance, i, Vec3(2));
+      });
+  RgbImage beauty;
+  Patch patch;
+  for (int n = 0; n < grid.tiles() + 1; ++n) {  // the first tile twice
+    if (n == grid.tiles()) film.frameDone();
+    fill(patch, frame, n % grid.tiles());
+    filter.compose(patch, camera(), 1, beauty);
+    film.addPatch(patch);
+  }
+  for (const Channel& channel : film.channels())
+    for (const float value : channel.values)
+      ASSERT_EQ(value, channel.name.starts_with("albedo") ? 0.5f : 2.0f) << channel.name;
+}
+
 }  // namespace
 }  // namespace ninefold

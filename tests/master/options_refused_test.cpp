@@ -212,6 +212,9 @@ TEST(Options, WhatIsWrittenIsNothingElse) {
             "--stats and --checkpoint name the same file, a: give two names");
   EXPECT_EQ(complaint("room.glb --key-file k --address-file k"),
             "--key-file and --address-file name the same file, k: give two names");
+  EXPECT_EQ(complaint("room.glb --environment out.exr:90"),
+            "--environment and --output name the same file, out.exr: give two names");
+  EXPECT_EQ(complaint("room.glb --stats /dev/null --address-file /dev/null"), "");
   EXPECT_EQ(complaint("room.glb --checkpoint a --stats b --address-file c --metrics d"), "");
 }
 

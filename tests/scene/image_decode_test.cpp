@@ -60,9 +60,9 @@ TEST(ImageDecode, HoldsBothLimits) {
             }),
             "20 x 10 pixels, more than 19 on a side: scale it down");
   EXPECT_EQ(errorOf([&] {
-              decode(file, {20, 199});
+              decode(file, {20, 199, true});
             }),
-            "20 x 10 pixels are more than the 199 that are left for all textures: scale them down");
+            "20 x 10 pixels are more than the 199 that are left for all textures: scale it down");
 }
 
 // The BMP was found by fuzzing: OpenImageIO takes 2 GB when it opens it.
