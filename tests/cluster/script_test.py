@@ -69,7 +69,7 @@ class Deformation(Pictures):
     def test_a_twisted_thing_is_the_same_picture_whoever_dies_and_joins(self):
         cornell = SCENES / "cornell.glb"
         # So many frames that a client can die before the last one.
-        script = self.script("s.json", {"from": 0, "to": 1, **self.EVENT}, frames=24)
+        script = self.script("s.json", {"from": 0, "to": 1, **self.EVENT}, frames=400)
         self.run_master(cornell, "--script", script, "--output", "a.#.png")
         twisted = self.pictures("a.*.png")
         self.assertEqual(len(set(twisted)), 3)
