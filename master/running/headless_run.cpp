@@ -142,7 +142,7 @@ void HeadlessRun::gatherFrames() {
   if (options_.saveEvery) nextSave_ = Clock::now();  // the first frame shows something
   while (!isDone()) {
     tellProgress();
-    if (Clock::now() >= nextMetrics_) writeMetrics(cluster().tally());
+    if (options_.metrics && Clock::now() >= nextMetrics_) writeMetrics(cluster().tally());
     if (last_)
       std::this_thread::sleep_for(kLook);
     else if (const auto frame = machine_.next(Clock::now() + kLook))
@@ -172,6 +172,7 @@ void HeadlessRun::keep(const Assembly::Complete& frame) {
     machine_.release(frame);
 }
 
+// By a signal or by --save-every. A signal hurries the checkpoint, too.
 bool HeadlessRun::saveIsDue() {
   const Time now = Clock::now();
   if (cluster().takeSaveRequest()) {

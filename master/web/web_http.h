@@ -26,8 +26,8 @@ struct WebSite {
 
 // Why a request of any kind gets nothing: wrong host or origin.
 std::optional<std::string> refusalOf(const WebRequest& request, const WebIdentity& identity);
-// Why one that is no WebSocket is turned away: that, or metrics without the token. What is not there
-// is no refusal: browsers ask for an icon.
+// Why a request that is no WebSocket is turned away: as above, or metrics without the token.
+// A path that is not there does not count: browsers ask for an icon.
 std::optional<std::string> refusalOf(const WebRequest& request, const WebSite& site);
 
 WebResponse answerTo(const WebRequest& request, const WebSite& site);

@@ -1,5 +1,5 @@
-// environment.cpp: any bytes as the picture of --environment: an Error, or a picture of the size that it says, within
-// limits.
+// environment.cpp: any bytes as the picture of --environment: an Error, or a picture of the size
+// that it says, within limits.
 #include <cstdlib>
 #include <span>
 
@@ -23,8 +23,8 @@ std::vector<std::vector<uint8_t>> ninefoldFuzzSeeds() {
   using namespace std::string_view_literals;
   std::vector<std::vector<uint8_t>> seeds = {
       bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n\x80\x80\x80\x80\x40\x20\x10\x81"sv),
-      bytes(
-          "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n\2\2\0\x08\x88\x80\x88\x80\x88\x80\x88\x81"sv),
+      bytes("#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 8\n\2\2\0\x08"
+            "\x88\x80\x88\x80\x88\x80\x88\x81"sv),
       libraryImage("hdr", 3, OIIO::TypeDesc::FLOAT), libraryImage("png", 3, OIIO::TypeDesc::UINT16),
       libraryImage("exr", 3, OIIO::TypeDesc::HALF, photoNotes(), 4)};
   for (const char* packing :

@@ -14,7 +14,7 @@ namespace ninefold {
 
 using Notes = std::vector<std::pair<std::string, std::string>>;  // attributes
 
-// A bow of 16 x 8 pixels. `extension` tells the format.
+// A ramp of 16 x 8 pixels. `extension` tells the format.
 inline std::vector<uint8_t> libraryImage(const std::string& extension, int channels,
                                          OIIO::TypeDesc type, const Notes& notes = {},
                                          int tile = 0) {
